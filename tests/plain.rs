@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::rc::Rc;
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, SpindleMode,
     Turn, Units,
@@ -184,6 +185,8 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         touched: mm(world.touched()),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         rotary_radius: world.rotary_radius(),
+        waiting_tool: world.behaviours.does(Behaviour::ToolWithChange),
+        length_moves: world.behaviours.does(Behaviour::LengthWithoutAxis),
         orientation: mm(world.orientation),
         kinematics: Kinematics {
             tip: world.kinematic_shift(true).map(mm),

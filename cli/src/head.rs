@@ -95,6 +95,8 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedTip => {
             "rotary axes, and the zero of the tool's tip, as on the other control".to_owned()
         }
+        Fault::AssumedToolChange { .. } => "tool_with_change = named".to_owned(),
+        Fault::AssumedReturn { .. } => "return_distance = last".to_owned(),
         Fault::AssumedControl { taken, other } => format!("control = {taken}, not {other}"),
         Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
         Fault::AssumedContourPath => "compensation worked out as RS274/NGC has it".to_owned(),

@@ -99,6 +99,12 @@ behaviours! {
     /// Whether the first incremental word of an axis after a change of frame or work offset includes the change: it
     /// counts from the coordinate that the axis was programmed to before, else from where the axis stands.
     FrameOffsetIncremental = "frame-offset-incremental", "change of frame in an incremental word", ["excluded", "included"], Machine;
+    /// Which tool M06 puts in where a T is in its block and another tool waits since an earlier T: the one that the
+    /// block names, or the one that waits. Then the T of the block selects the next.
+    ToolWithChange = "tool-with-change", "T in the block of M06", ["named", "waiting"], Machine;
+    /// A tool length that is called up or cancelled in a block without a word of its axis: the next word is measured
+    /// with it, or the axis moves by the difference at once. At a place of the machine no length counts.
+    LengthWithoutAxis = "length-without-axis", "tool length in a block without Z", ["waits", "moves"], Machine;
 }
 
 /// Number of behaviours.

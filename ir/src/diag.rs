@@ -305,6 +305,11 @@ faults! {
     AssumedTilt = 321, verdict(Verdict::Assumed);
     /// The source's control was recognised by its text, which fits another one as well, and that one reads it otherwise.
     AssumedControl { taken: Box<str>, other: Box<str> } = 330, verdict(Verdict::Assumed);
+    /// The T beside M06 is taken for the tool that is put in, though another one waits of which the length is called up.
+    AssumedToolChange { named: u32, waiting: u32 } = 336, verdict(Verdict::Assumed);
+    /// A return to a reference point with G90 and G91 in its block: its words are read by the last one, which is
+    /// absolute or not; `zero`: all of them are nothing.
+    AssumedReturn { code: Box<str>, words: Box<str>, zero: bool, last: bool } = 337, verdict(Verdict::Assumed);
     /// A stop or a tool change of the target's control switches something off that the source's control lets go on:
     /// it is started again before the next cut.
     StartedAgain { behaviour: Behaviour } = 322, verdict(Verdict::Assumed);

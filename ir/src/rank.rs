@@ -41,7 +41,9 @@ impl Fault {
             // What two readings may cut in two ways: `questions` decides.
             Fault::AssumedMode { fact: ModeName::Units, .. }
             | Fault::AssumedBareNumber { .. }
-            | Fault::AssumedControl { .. } => Rank::Dangerous,
+            | Fault::AssumedControl { .. }
+            | Fault::AssumedToolChange { .. }
+            | Fault::AssumedReturn { .. } => Rank::Dangerous,
 
             // Facts of the machine, of its tables or of its builder. A fact that a run with another value has shown to
             // matter (a fork of the verification) belongs here.

@@ -8,6 +8,7 @@ mod own;
 mod polar;
 mod programs;
 mod tilt;
+mod tools;
 mod words;
 
 use macro_b::{Go, Modal, Variables, jump, loops};
@@ -56,6 +57,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         by_words: None,
         in_modal: false,
         moved: false,
+        placed: true,
     };
     let rotary = if haas { Rotary::Diameter } else { Rotary::Degrees };
     control.m.feeds = Feeds { rotary, arcs_by_radius: !haas };
@@ -111,6 +113,8 @@ struct Control {
     in_modal: bool,
     /// Whether the block at hand has moved an axis.
     moved: bool,
+    /// Z stands at a place of the machine, where no length counts.
+    placed: bool,
 }
 
 /// A word: its letter, its number and whether that has a decimal point.
@@ -321,12 +325,10 @@ impl Control {
             self.m.feed = Some(feed * step * if inch { 25.4 } else { 1.0 });
         }
         number(&words, 'S').into_iter().for_each(|(speed, _)| self.m.say_speed(speed));
-        if let Some((tool, _)) = number(&words, 'T') {
-            self.m.selected = Some(tool as u32);
-        }
+        let waited = self.select(&words);
         match m {
             Some(6 | 16) if self.haas => self.m.change_up_there()?,
-            Some(6) => self.m.change_tool()?,
+            Some(6) => self.change(waited)?,
             Some(7) if self.haas => return self.m.halt("M07: shower coolant"),
             Some(3) => self.m.turn(Spindle::Clockwise),
             Some(4) => self.m.turn(Spindle::Counterclockwise),
@@ -344,12 +346,14 @@ impl Control {
         if let Some(code) = length {
             self.m.use_tip(code == 434)?;
         }
+        let old = self.standing_length();
         match (length, number(&words, 'H')) {
             (Some(43 | 434), Some((entry, _))) => self.m.use_length(entry as u32),
             (Some(49), None) => self.m.use_length(0),
             (None, None) => {}
             _ => return self.m.halt("G43 and H"),
         }
+        self.bare_length(length, machine, &words, old)?;
         if let Some((entry, _)) = number(&words, 'D') {
             if self.m.beside.is_some() {
                 return self.m.halt("another D under compensation");
@@ -392,15 +396,7 @@ impl Control {
         if table {
             self.table(&words)?;
         } else if dwell {
-            let seconds = match (number(&words, 'X'), number(&words, 'P')) {
-                (Some(_), None) if self.haas => return self.m.halt("G04 X"),
-                (Some((x, true)), None) => x,
-                (Some((x, false)), None) => x * 0.001,
-                (None, Some((p, true))) if self.haas => p,
-                (None, Some((p, _))) => p * 0.001,
-                _ => return self.m.halt("G04 needs X or P"),
-            };
-            self.m.record(What::Dwell(seconds));
+            self.dwell(&words)?;
         } else if let Some(code) = machine {
             self.moved = true;
             self.machine_point(code, &words)?;

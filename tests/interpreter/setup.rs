@@ -38,6 +38,10 @@ pub struct Setup {
     pub bore_shift: (usize, f64),
     /// The radius of the rotary axes that is set on a Haas (settings 34 and 79), millimetres.
     pub rotary_radius: Option<f64>,
+    /// Whether M06 with a T in its block puts in the tool that waits, on a Fanuc (the builder's choice).
+    pub waiting_tool: bool,
+    /// A Fanuc's parameter 5006#6 (TOS) at 0: a length without an axis word moves Z.
+    pub length_moves: bool,
     /// Where M19 stops the spindle, degrees.
     pub orientation: f64,
     /// How the machine is built, as far as it shows.
@@ -129,6 +133,8 @@ impl Setup {
             touched: 1.0,
             bore_shift: (0, 1.0),
             rotary_radius: None,
+            waiting_tool: false,
+            length_moves: false,
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),

@@ -36,6 +36,7 @@ mod second;
 mod shared;
 mod shop_siemens;
 mod shop_stops;
+mod shop_tools;
 mod siemens_peer;
 mod siemens_second;
 mod spliced;

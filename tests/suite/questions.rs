@@ -58,7 +58,7 @@ fn answered(job: &Job, answer: &Answer) -> Option<Job> {
 fn what_is_asked_of_programs() {
     let mut failures = Failures::default();
     let (mut programs, mut answers) = (0, 0);
-    let mut facts = [0; 3];
+    let mut facts = [0; 5];
     for folder in corpus::files(&corpus::root().join("tests/questions")).into_iter().filter(|p| p.is_dir()) {
         let dialect = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         for path in corpus::files(&folder) {
@@ -135,6 +135,8 @@ fn the_corpus_has_no_other_questions() {
                 Fact::Control => "control",
                 Fact::Units => "units",
                 Fact::DecimalPoint => "decimal point",
+                Fact::ReturnPath => "path of a return",
+                Fact::ToolChange => "tool of a change",
             };
             let _ = write!(list, " {fact};");
         }

@@ -187,6 +187,148 @@ const ROTARY_FEEDS: &[Case] = &[
     case("siemens", "linuxcnc", "G0 A0 / G1 Z-1 F100 / G0 X40 A30", "G0 X40 A30", &[]),
 ];
 
+const PRESELECTED: &str =
+    "M05 / G00 Z50. / T2 / M06 T3 / S900 M03 / G00 X5. Y0. / G43 H3 Z10. / G01 Z-1. F100.";
+
+/// A T in the block of M06 while another tool waits: put in by some machines, and selected for the next change by others.
+const TOOLS: &[Case] = &[
+    case("fanuc", "linuxcnc", PRESELECTED, "T2 / T3 M6 / S900 M3", &[323]),
+    case("fanuc", "haas", PRESELECTED, "T2 / T3 M06 / S900 M03", &[323]),
+    stated(
+        case("fanuc", "linuxcnc", PRESELECTED, "T2 / T3 M6 / S900 M3", &[]),
+        &[("tool_with_change", "named"), ("spindle_at_change", "does-not")],
+        &[],
+    ),
+    // In either form of the target, the tool that waits is put in, and the next one is selected.
+    stated(
+        case("fanuc", "linuxcnc", PRESELECTED, "T2 / M6 / T3 / S900 M3", &[426]),
+        &[("tool_with_change", "waiting")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "haas", "M05 / G00 Z50. / T2 / T1 M06 G43 H2 / G00 Z10.", "T2 / M06 / T1", &[426]),
+        &[("tool_with_change", "waiting")],
+        &[],
+    ),
+    // A block of its own for each is the same on every machine.
+    case("linuxcnc", "fanuc", "M5 / G0 Z50 / T2 / T3 M6 / G43 H3 Z10", "T2 / T3 / M06 / G43 H3", &[410]),
+    case(
+        "haas",
+        "fanuc",
+        "M05 / G00 Z50. / T2 / M06 T3 / G43 H3 Z10.",
+        "T2 / T3 / G91 G28 Z0. / M06 / G90",
+        &[410],
+    ),
+    // The tool that waits is the one that is named, or none waits.
+    case("fanuc", "linuxcnc", "M05 / G00 Z50. / T2 / T2 M06 / G43 H2 Z10.", "T2 / T2 M6", &[]),
+    case("fanuc", "linuxcnc", "M05 / G00 Z50. / T2 M06 / G43 H2 Z10.", "Z50 / T2 M6", &[]),
+    case("linuxcnc", "fanuc", "M5 / G0 Z50 / T2 M6 / G43 H2 Z10", "Z50. / T2 M06", &[]),
+    // In a program that is kept whole.
+    case(
+        "fanuc",
+        "linuxcnc",
+        "M05 / G00 Z50. / #1=0 / WHILE[#1LT2]DO1 / T2 / M06 T3 / G43 H3 Z10. / #1=#1+1 / END1",
+        "T2 / T3 M6",
+        &[323],
+    ),
+    // No T of the whole program waits, so that the block stays as it is.
+    case(
+        "linuxcnc",
+        "fanuc",
+        "M5 / G0 Z50 / o1 repeat [2] / T2 M6 / G43 H2 Z10 / o1 endrepeat",
+        "T2 M06",
+        &[323],
+    ),
+    // Which tool waits in a loop is known of its own T alone.
+    stated(
+        case(
+            "fanuc",
+            "linuxcnc",
+            "M05 / G00 Z50. / T2 / #1=0 / WHILE[#1LT2]DO1 / M06 T3 / G43 H3 Z10. / #1=#1+1 / END1",
+            "",
+            &[501],
+        ),
+        &[("tool_with_change", "waiting")],
+        &[],
+    ),
+];
+
+const BARE: &str = "G01 Z5. F100. / G49 / G01 X10. / G00 Z50.";
+
+/// A tool length in a block without Z: by a parameter of a Fanuc, Z moves by it at once.
+const BARE_LENGTHS: &[Case] = &[
+    case("fanuc", "linuxcnc", BARE, "G49 / G1 X10", &[323]),
+    case("fanuc", "siemens", BARE, "D0 / G1 X10", &[323]),
+    case("fanuc", "haas", BARE, "G01 X10. / G49 G00 Z50.", &[323]),
+    case("fanuc", "linuxcnc", "G01 Z5. F100. / G43 H2 / G01 X10. / Z6.", "G43 H2 / G1 X10", &[323]),
+    case("fanuc", "linuxcnc", "G01 Z5. F100. / G49 X10. / G00 Z50.", "G49", &[323]),
+    case("fanuc", "linuxcnc", "G00 Z50. / G49 / M05", "G49", &[323]),
+    stated(
+        case("fanuc", "linuxcnc", BARE, "G49 Z5 / G1 X10", &[426]),
+        &[("length_without_axis", "moves")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "siemens", BARE, "Z5 D0 / G1 X10", &[426]),
+        &[("length_without_axis", "moves")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "haas", "G00 Z50. / G49 X10. / M05", "G49 X10. Z50.", &[426]),
+        &[("length_without_axis", "moves")],
+        &[],
+    ),
+    stated(case("fanuc", "linuxcnc", BARE, "G49 / G1 X10", &[]), &[("length_without_axis", "waits")], &[]),
+    // Z moves from machine zero by a length: to no coordinate of the program that is known.
+    stated(
+        case("fanuc", "linuxcnc", "G91 G28 Z0. / G90 G43 H2 / G00 Z10.", "", &[501]),
+        &[("length_without_axis", "moves")],
+        &[],
+    ),
+    // At a place of the machine no length counts; with a Z in its block it moves on every machine.
+    stated(
+        case("fanuc", "linuxcnc", "G91 G28 Z0. / G49 / G90 G00 X5.", "G49 / G90 G0 X5", &[]),
+        &[("length_after_return", "returns")],
+        &[],
+    ),
+    case("fanuc", "linuxcnc", "G00 G49 Z50. / X10.", "G49 G0 Z50", &[]),
+    // The target's parameter: where the source leaves a length, no Z may follow.
+    case("linuxcnc", "fanuc", "G0 Z50 / G49 / G0 X10 / Z60", "X10. / G49 Z60.", &[]),
+    case("linuxcnc", "fanuc", "G0 Z50 / G49 / G0 X10", "M05 / G49 / M30", &[323]),
+];
+
+const TWO_CODES: &str = "G01 Z-1. F100. / G00 Z10. / M05 / G91 G28 X0 Y0 Z0. G90";
+
+/// G90 and G91 in the block of G28: by which its words are read.
+const RETURNS: &[Case] = &[
+    case("fanuc", "siemens", TWO_CODES, "G90 G0 X0 Y0 Z0 / SUPA G0 X0 Y0 Z0 D0", &[337]),
+    stated(
+        case("fanuc", "siemens", TWO_CODES, "M5 / G90 SUPA G0 X0 Y0 Z0 D0", &[]),
+        &[("return_distance", "first")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "haas", TWO_CODES, "M05 / G90 G28 X0. Y0. Z0.", &[]),
+        &[("return_distance", "last")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "linuxcnc", "G00 Z10. / M05 / G91 G28 Z5. G90", "G91 G0 Z5 / G90 G53 G0 Z0", &[]),
+        &[("return_distance", "first")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "linuxcnc", "G00 Z10. / M05 / G90 G30 Z0. G91 / G90", "", &[]),
+        &[("return_distance", "last")],
+        &[],
+    ),
+    // Other pairs exclude each other, and so do these on a control of which no source tells.
+    case("fanuc", "siemens", "G91 G00 X5. G90", "", &[203]),
+    case("fanuc", "siemens", "G90 G28 Z0. G90", "", &[203]),
+    case("fanuc", "siemens", "G00 G28 Z0. G01", "", &[203]),
+    case("haas", "fanuc", TWO_CODES, "", &[203]),
+];
+
 /// How corners are taken by a program that never says it.
 const PATHS: &[Case] = &[
     case("fanuc", "linuxcnc", "G00 Z5. / X100. / Z-20.", "X100 / Z-20", &[326]),
@@ -275,6 +417,21 @@ fn dwells_per_revolution() {
 #[test]
 fn lengths_after_places_of_the_machine() {
     run(LENGTHS);
+}
+
+#[test]
+fn tools_beside_a_change() {
+    run(TOOLS);
+}
+
+#[test]
+fn lengths_without_z() {
+    run(BARE_LENGTHS);
+}
+
+#[test]
+fn returns_with_two_codes_of_distance() {
+    run(RETURNS);
 }
 
 #[test]

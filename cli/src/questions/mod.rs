@@ -16,8 +16,11 @@ use std::io::{self, SeekFrom};
 
 use codespan_reporting::term::termcolor::WriteColor;
 
-use ncc_dialects::{CALCULATOR, DECIMAL_POINT, Dialect, Settings};
+use ncc_dialects::{
+    CALCULATOR, DECIMAL_POINT, Dialect, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, Settings,
+};
 use ncc_frontends::{BareNumber, Batch};
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::num::{Nanos, Num};
@@ -32,6 +35,9 @@ use crate::job::Job;
 use crate::problem::Problem;
 use crate::render::questions as words;
 use crate::render::source::Source;
+
+/// Option of the behaviour [`Behaviour::ToolWithChange`].
+const TOOL_WITH_CHANGE: &str = "tool_with_change";
 
 /// Value of the option `decimal_point`: least increments.
 const INCREMENT: &str = "increment";
@@ -57,6 +63,10 @@ pub enum Fact {
     Units,
     /// What a number without a decimal point counts.
     DecimalPoint,
+    /// By which of two codes of distance the words of a return to a reference point are read.
+    ReturnPath,
+    /// Which tool M06 puts in, beside a T while another tool waits.
+    ToolChange,
 }
 
 impl Fact {
@@ -66,6 +76,8 @@ impl Fact {
             Fact::Control => 330,
             Fact::Units => 301,
             Fact::DecimalPoint => 303,
+            Fact::ToolChange => 336,
+            Fact::ReturnPath => 337,
         }
     }
 }
@@ -95,7 +107,7 @@ pub struct Reading {
 }
 
 /// A result of a reading that can be shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shown {
     /// The value of the word at the place: a length, or a feed a minute.
     Word {
@@ -106,6 +118,17 @@ pub enum Shown {
     },
     /// What the machine does there.
     Made(Made),
+    /// The path of a return to a reference point.
+    Path {
+        /// The code.
+        code: Box<str>,
+        /// Its axis words.
+        words: Box<str>,
+        /// Whether all of them are nothing.
+        zero: bool,
+        /// Whether they are places of the part.
+        absolute: bool,
+    },
     /// Nothing but that the two readings differ.
     Nothing,
 }
@@ -147,6 +170,15 @@ struct Candidate {
     settings: [Settings; 2],
     /// Which of them is ncc's own.
     taken: usize,
+    /// What each of them makes, where the text itself shows it.
+    shown: Option<[Shown; 2]>,
+}
+
+impl Candidate {
+    /// What both readings make, as far as the text shows it.
+    fn shown(&self) -> [Shown; 2] {
+        self.shown.clone().unwrap_or([Shown::Nothing, Shown::Nothing])
+    }
 }
 
 /// The questions of a source, from the most dangerous one. `diagnostics` are those of its reading, in which the facts
@@ -212,6 +244,7 @@ fn candidates(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Candidate> {
     if let Some(assumed) = diagnostics.iter().find(bare) {
         all.extend(points(job, assumed.span));
     }
+    all.extend(diagnostics.iter().filter_map(|diagnostic| of_diagnostic(job, diagnostic)));
     all
 }
 
@@ -232,6 +265,7 @@ fn control(job: &Job, rival: &'static Dialect) -> Candidate {
         answers: [Answer::From(&job.from.dialect.id), Answer::From(&rival.id)],
         settings: [job.from.clone(), other],
         taken: 0,
+        shown: None,
     }
 }
 
@@ -246,7 +280,14 @@ fn lengths(job: &Job, span: Span) -> Option<Candidate> {
         settings
     });
     let taken = usize::from(own == Units::Inch);
-    Some(Candidate { fact: Fact::Units, span, answers: both.map(Answer::Units), settings, taken })
+    Some(Candidate {
+        fact: Fact::Units,
+        span,
+        answers: both.map(Answer::Units),
+        settings,
+        taken,
+        shown: None,
+    })
 }
 
 /// What numbers without a decimal point count.
@@ -264,7 +305,46 @@ fn points(job: &Job, span: Span) -> Option<Candidate> {
     });
     let taken = usize::from(own == CALCULATOR);
     let answers = [INCREMENT, CALCULATOR].map(answer);
-    Some(Candidate { fact: Fact::DecimalPoint, span, answers, settings, taken })
+    Some(Candidate { fact: Fact::DecimalPoint, span, answers, settings, taken, shown: None })
+}
+
+/// A fact of which an option of the dialect decides, with its two values and what they make.
+fn of_option(
+    job: &Job,
+    fact: Fact,
+    span: Span,
+    option: &'static str,
+    values: [&'static str; 2],
+    shown: [Shown; 2],
+) -> Option<Candidate> {
+    values.iter().all(|value| job.from.takes(option, value)).then_some(())?;
+    let settings = values.map(|value| {
+        let mut settings = job.from.clone();
+        settings.suppose(option, value);
+        settings
+    });
+    let answers = values.map(|value| Answer::Option(option, value));
+    // Each reading is ncc's own that is first: the usual value of a behaviour, the default of an option.
+    Some(Candidate { fact, span, answers, settings, taken: 0, shown: Some(shown) })
+}
+
+/// A fact that a diagnostic of the reading tells, with both readings.
+fn of_diagnostic(job: &Job, diagnostic: &Diagnostic) -> Option<Candidate> {
+    match &diagnostic.fault {
+        Fault::AssumedReturn { code, words, zero, last } => {
+            let path =
+                |absolute| Shown::Path { code: code.clone(), words: words.clone(), zero: *zero, absolute };
+            let values = [RETURN_LAST, RETURN_FIRST];
+            let shown = [path(*last), path(!*last)];
+            of_option(job, Fact::ReturnPath, diagnostic.span, RETURN_DISTANCE, values, shown)
+        }
+        Fault::AssumedToolChange { named, waiting } => {
+            let [first, second] = Behaviour::ToolWithChange.values() else { return None };
+            let shown = [*named, *waiting].map(|tool| Shown::Made(Made::Tool(i64::from(tool))));
+            of_option(job, Fact::ToolChange, diagnostic.span, TOOL_WITH_CHANGE, [*first, *second], shown)
+        }
+        _ => None,
+    }
 }
 
 /// Runs both readings; a question if they make two different cuts.
@@ -275,16 +355,18 @@ fn decide(
     sound: bool,
 ) -> io::Result<Option<Question>> {
     let length = match candidate.fact {
-        Fact::Control | Fact::Units => MICROMETRE,
+        Fact::Control | Fact::Units | Fact::ReturnPath | Fact::ToolChange => MICROMETRE,
         Fact::DecimalPoint => TENTH,
     };
-    let cuts = candidate.fact == Fact::Control;
+    let cuts = matches!(candidate.fact, Fact::Control | Fact::ToolChange);
     let watch = candidate.fact == Fact::DecimalPoint;
     let measure = Measure { length, cuts };
-    let finish = match cuts {
-        false => race(jobs, source, measure, PLAIN, watch)?,
+    let finish = match candidate.fact {
+        Fact::Units | Fact::DecimalPoint | Fact::ToolChange => race(jobs, source, measure, PLAIN, watch)?,
+        // In the plain world the zero of the part is that of the machine.
+        Fact::ReturnPath => race(jobs, source, measure, GENERATED, watch)?,
         // Lengths and offsets are nothing in the plain world, in which numbers can be shown.
-        true => match race(jobs, source, measure, GENERATED, watch)? {
+        Fact::Control => match race(jobs, source, measure, GENERATED, watch)? {
             Finish::Apart(difference) if is_refused(&difference) || !reads(jobs[1], source)? => {
                 return Ok(None);
             }
@@ -300,15 +382,18 @@ fn decide(
         Finish::Apart(difference) => match candidate.fact {
             Fact::DecimalPoint => in_words(candidate, &difference),
             Fact::Control | Fact::Units => (difference.at, difference.made.map(made)),
+            Fact::ReturnPath | Fact::ToolChange => (candidate.span, candidate.shown()),
         },
         Finish::Unknown(bare) => match candidate.fact {
             // What cannot be executed here may be by a caller.
-            Fact::Units if sound => (candidate.span, [Shown::Nothing; 2]),
+            Fact::Units | Fact::ReturnPath | Fact::ToolChange if sound => (candidate.span, candidate.shown()),
             Fact::DecimalPoint if sound => match bare.iter().find(|bare| matters(bare)) {
                 Some(bare) => (bare.span, values(bare)),
                 None => return Ok(None),
             },
-            Fact::Control | Fact::Units | Fact::DecimalPoint => return Ok(None),
+            Fact::Control | Fact::Units | Fact::DecimalPoint | Fact::ReturnPath | Fact::ToolChange => {
+                return Ok(None);
+            }
         },
     };
     // The greater value is shown first.
@@ -316,7 +401,7 @@ fn decide(
     let reading = |at: usize| Reading {
         answer: candidate.answers[at].clone(),
         taken: candidate.taken == at,
-        result: shown[at],
+        result: shown[at].clone(),
     };
     Ok(Some(Question { fact: candidate.fact, span, readings: order.map(reading) }))
 }

@@ -122,6 +122,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
         Fault::CutStanding => own("write `M03` before this block"),
+        Fault::AssumedToolChange { .. } => {
+            own("state what your machine does: `--from-option tool_with_change=named` or `=waiting`")
+        }
+        Fault::AssumedReturn { .. } => {
+            own("state what your machine does: `--from-option return_distance=last` or `=first`")
+        }
         Fault::AssumedControl { taken, other } => {
             vec![format!("name the control: `--from {}` or `--from {}`", plain(taken), plain(other))]
         }

@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::About;
 use super::json::JsonPlace;
 use super::source::Excerpt;
-use super::words::{plain, plain_upto};
+use super::words::{plain, plain_upto, return_path};
 use crate::questions::{Answer, Fact, Made, Question, Reading, Shown};
 
 /// So much of a line is shown before its answer, in characters.
@@ -75,7 +75,7 @@ pub fn ask(about: &mut About, questions: &[Question]) -> io::Result<Vec<Asked>> 
         let (line, column) = excerpt.location(&lines, question.span.start).unwrap_or((1, 1));
         let answers = question.readings.each_ref().map(|reading| AskedAnswer {
             option: option(&reading.answer),
-            result: result(reading.result),
+            result: result(&reading.result),
             taken: reading.taken,
         });
         all.push(Asked {
@@ -149,11 +149,23 @@ fn headline(question: &Question, text: &str) -> String {
         (Fact::Control, Answer::From(own), Answer::From(other)) => {
             format!("{own} or {other}? The text fits both")
         }
-        (Fact::DecimalPoint, ..) => match (result(first.result), result(second.result)) {
+        (Fact::DecimalPoint, ..) => match (result(&first.result), result(&second.result)) {
             (Some(one), Some(two)) if is_word(first) => {
                 format!("is {} {one} or {two}?", plain_upto(text, 20))
             }
             _ => "numbers without a decimal point: least increments or units?".to_owned(),
+        },
+        (Fact::ReturnPath, ..) => match (&first.result, result(&first.result), result(&second.result)) {
+            (Shown::Path { code, .. }, Some(one), Some(two)) => {
+                format!("{} {one}, or {two}?", plain(code))
+            }
+            _ => "which of G90 and G91 counts in this block?".to_owned(),
+        },
+        (Fact::ToolChange, ..) => match (&first.result, &second.result) {
+            (Shown::Made(Made::Tool(named)), Shown::Made(Made::Tool(waiting))) => {
+                format!("does M06 put in T{named} or T{waiting}? The next H is H{waiting}")
+            }
+            _ => "does M06 put in the tool of its block, or the one that waits?".to_owned(),
         },
         (Fact::Units | Fact::Control, ..) => "mm or inch? The program never states its unit".to_owned(),
     }
@@ -208,11 +220,12 @@ fn name(units: Units) -> &'static str {
 }
 
 /// What a reading makes, in numbers.
-fn result(shown: Shown) -> Option<String> {
+fn result(shown: &Shown) -> Option<String> {
     Some(match shown {
         Shown::Nothing => return None,
-        Shown::Word { value, feed } => word(value, feed),
-        Shown::Made(made) => match made {
+        Shown::Word { value, feed } => word(*value, *feed),
+        Shown::Path { words, zero, absolute, .. } => return_path(words, *zero, *absolute),
+        Shown::Made(made) => match *made {
             Made::End(axis, at) => {
                 let unit = if matches!(axis.letter(), b'A'..=b'C') { "degrees" } else { "mm" };
                 format!("{} ends at {} {unit}", char::from(axis.letter()), decimal(at))

@@ -284,6 +284,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedTilt
         | Fault::AssumedContourPath
         | Fault::AssumedControl { .. }
+        | Fault::AssumedToolChange { .. }
+        | Fault::AssumedReturn { .. }
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
         | Fault::FeedAtUnits { .. }

@@ -275,6 +275,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "feed move with the spindle stopped".into(),
             "no M03 or M04 is active at this move".into(),
         ),
+        Fault::AssumedToolChange { named, waiting } => (
+            format!("T{named} beside M06 taken for the tool that is put in"),
+            format!("T{waiting} waits since an earlier block, and the next H is H{waiting}"),
+        ),
+        Fault::AssumedReturn { code, words, zero, last } => (
+            format!("{} {}", quoted(code), return_path(words, *zero, *last)),
+            "G90 and G91 in one block: the last one counts".into(),
+        ),
         Fault::AssumedControl { taken, other } => (
             format!("read as {}; {} reads it otherwise", plain(taken), plain(other)),
             "both readings differ here first".into(),
@@ -658,4 +666,15 @@ fn radii_of([start, end]: [i64; 2]) -> String {
 pub(super) fn millimetres(nanos: i64) -> String {
     let text = format!("{:.4}", nanos.abs() as f64 / ONE as f64);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The path of a return to a reference point: by its words, which are places of the part, or counted from where the
+/// axes stand; `zero`: all of them are nothing.
+pub fn return_path(words: &str, zero: bool, absolute: bool) -> String {
+    let words = plain_upto(words, 24);
+    match (absolute, zero) {
+        (true, _) => format!("by way of {words} of the part"),
+        (false, true) => "from where it stands".to_owned(),
+        (false, false) => format!("by {words} from where it stands"),
+    }
 }

@@ -301,6 +301,7 @@ impl Lower {
         }
         if let Some(word) = words.take(self.roles.tool) {
             self.state.tool = Know::Said(());
+            self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);
             }
@@ -335,6 +336,7 @@ impl Lower {
                 if self.state.tool == Know::Unsaid {
                     self.fault(Fault::NoToolSelected, code.span, out);
                 }
+                self.tool_changed();
                 Op::ChangeTool
             }
             // Without a move there is nothing to stop.
@@ -455,6 +457,7 @@ impl Lower {
     ) {
         self.state.length_offset = Know::Said(());
         self.state.level_open = true;
+        self.length_named(word, out);
         let Some(entry) = self.entry(word, words, src, out) else {
             return;
         };

@@ -8,7 +8,7 @@
 //! of a block mean; they have files of their own beside this one.
 
 use ncc_dialects::{Address, CALCULATOR, CodeRow, DECIMAL_POINT, NumberRules, Quantity, Role, Settings};
-use ncc_ir::canon::{Axis, FeedMode};
+use ncc_ir::canon::{Axis, Distance, FeedMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
@@ -17,6 +17,7 @@ use ncc_ir::source::Span;
 use super::Source;
 use super::block::Block;
 use super::computing::Computes;
+use super::doubts::ToolsNamed;
 use super::facts::{InForce, Know, State};
 use super::fast::Fast;
 use super::number::{CentreSeen, UnitsSeen};
@@ -70,6 +71,7 @@ pub(super) struct Lower {
     /// What the text has said of control of the tool's tip, and of tilted planes.
     pub(super) tip: Met,
     pub(super) tilt: Met,
+    pub(super) tools: ToolsNamed,
 }
 
 /// Cycles in the whole text: where it has none, none is in force anywhere.
@@ -105,6 +107,10 @@ pub(super) struct Reported {
     pub(super) after_cycle: bool,
     pub(super) offset_with_z: bool,
     pub(super) skip: bool,
+    /// That a T beside M06 is taken for the tool that is put in.
+    pub(super) tool_change: bool,
+    /// By which of two codes of distance the words of a return are read.
+    pub(super) return_distance: bool,
     /// Rows of codes.
     codes: Vec<bool>,
     /// Address letters, a bit each.
@@ -167,6 +173,8 @@ pub(super) struct Now {
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
     pub(super) again: Option<super::again::Asked>,
+    /// From what the words of a return count, where that is not the distance in force after the block.
+    pub(super) return_distance: Option<Distance>,
 }
 
 impl Now {
@@ -221,6 +229,7 @@ impl Lower {
             codes: Vec::new(),
             tip: Met::default(),
             tilt: Met::default(),
+            tools: ToolsNamed::default(),
         };
         lower.refresh();
         lower
@@ -305,6 +314,7 @@ impl Lower {
             }
         }
         self.codes = codes;
+        self.tool_block_over();
         self.close(block, src, out);
         if let (Some(before), None) = (before, block.tail) {
             if self.state.motion != before.motion {

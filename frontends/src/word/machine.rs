@@ -55,7 +55,10 @@ impl Lower {
         for axis in Axis::ALL {
             let Some(row) = self.axis_row(axis) else { continue };
             if let Some(word) = words.take(axis.letter()) {
-                let distance = self.distance(word.span, out);
+                let distance = match self.now.return_distance {
+                    Some(distance) => Fact::Known(distance),
+                    None => self.distance(word.span, out),
+                };
                 if let Some(value) = self.amount(&word, row.quantity, words, src, out) {
                     to.set(axis, Coord { value, distance });
                 }

@@ -23,6 +23,7 @@ mod corner;
 mod cycle;
 mod data;
 mod detour;
+mod doubts;
 mod entry_of;
 pub(crate) mod facts;
 pub(crate) mod fast;

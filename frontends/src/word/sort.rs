@@ -167,6 +167,7 @@ impl Lower {
                 }
             }
         }
+        self.two_distances(block, codes, src, out);
         codes.sort_by_key(|c| self.rank(c));
     }
 
@@ -212,7 +213,8 @@ impl Lower {
             let name = row.refuse.as_deref().unwrap_or_default().into();
             return self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, word.span, out);
         };
-        if let Some(other) = codes.iter().find(|c| !row.group.is_empty() && c.row.group == row.group) {
+        let other = codes.iter().find(|c| !row.group.is_empty() && c.row.group == row.group);
+        if let Some(other) = other.filter(|_| !self.may_have_two_distances(meaning, codes)) {
             let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(word.span) };
             self.now.failed = true;
             out.diagnostics.push(Diagnostic { fault, span: word.span, related: vec![other.span] });

@@ -38,6 +38,16 @@ pub const DECIMAL_POINT: &str = "decimal_point";
 /// Value of [`DECIMAL_POINT`]: whole units.
 pub const CALCULATOR: &str = "calculator";
 
+/// Option of a dictionary: by which of two codes of distance in one block the words of a return to a reference point are
+/// read, the `last` one or the `first`.
+pub const RETURN_DISTANCE: &str = "return_distance";
+
+/// Value of [`RETURN_DISTANCE`]: the first one.
+pub const RETURN_FIRST: &str = "first";
+
+/// Value of [`RETURN_DISTANCE`]: the last one.
+pub const RETURN_LAST: &str = "last";
+
 /// Option of a dictionary: whether a tool is changed before or after the axes of its block move.
 pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 

@@ -48,6 +48,7 @@ impl Exec {
             | bit(arcs, Behaviour::ArcByTime)
             | bit(self.is_fine_in(stmts), Behaviour::FineDigits)
             | self.lengths_aside_in(stmts)
+            | self.by_blocks(stmts)
     }
 
     /// Another value of a behaviour counts from now on.
@@ -152,6 +153,8 @@ impl Exec {
     /// The end of the text; an event only if the program has not ended before.
     pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
         if !self.ended {
+            // A move that cannot be executed there is none that a comparison could hold against another.
+            let _ = self.end_block(out);
             self.ended = true;
             if self.centre_path.is_some() {
                 self.end_open_path(out);
@@ -177,8 +180,8 @@ impl Exec {
             return self.fault(Fault::NoToolSelected, span);
         }
         self.before_change(span, out)?;
-        self.state.tool = self.selected;
-        self.changed_to = self.selected;
+        self.state.tool = self.tool_of_change();
+        self.changed_to = self.state.tool;
         let emitted = self.emit(Kind::ToolChange, span, out);
         if self.state.by_control & by_control::Z == 0 {
             // With Z where the program has put it, every move may need the spindle.
@@ -204,6 +207,7 @@ impl Exec {
         machine[Z] = self.world.reference(ReferencePoint::Home)[Z];
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;
+        self.goes_to_place();
         self.state.by_control |= by_control::Z | by_control::MOVE;
         let moved = self.emit_move(false, span, out);
         self.state.by_control &= !by_control::MOVE;

@@ -227,6 +227,9 @@ impl Exec {
             && self.ways == other.ways
             && self.waiting == other.waiting
             && self.along == other.along
+            && self.at_place == other.at_place
+            && self.is_between_blocks()
+            && other.is_between_blocks()
             && self.turned_known == other.turned_known
             && self.contour == other.contour
             && self.centre_path.is_none()
@@ -260,6 +263,7 @@ impl Exec {
         self.ways = other.ways;
         self.waiting = other.waiting;
         self.along = other.along;
+        self.at_place = other.at_place;
         self.turned_known = other.turned_known;
         self.contour = other.contour;
         self.feed = other.feed;

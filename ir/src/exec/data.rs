@@ -41,6 +41,9 @@ impl Exec {
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;
         self.emit_move(false, span, out)?;
+        if to.axes[self.along] {
+            self.goes_to_place();
+        }
         if to.axes[self.along] && !to.keeps_length {
             self.cancel_length(Behaviour::LengthAfterReturn);
         }

@@ -5,10 +5,12 @@
 
 use super::Exec;
 use crate::behaviour::Behaviour;
-use crate::canon::{AXES, Distance};
+use crate::canon::{AXES, Distance, Units};
+use crate::diag::Diagnostic;
 use crate::num::{Nanos, ONE};
 use crate::passes::frame_increments::words_of;
-use crate::program::{Coord, Op, Stmt};
+use crate::program::{Coord, Op, Point, Stmt};
+use crate::source::Span;
 
 /// Least increments of a control, as digits behind the point: of millimetres, of inches, of degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +44,29 @@ impl Increments {
 const DIGITS: Behaviour = Behaviour::FineDigits;
 
 impl Exec {
+    /// Where words put the axes that they name; incremental ones count from `from`.
+    #[inline]
+    pub(super) fn put(
+        &mut self,
+        to: &Point,
+        mut next: [Nanos; AXES],
+        from: &[Nanos; AXES],
+        span: Span,
+    ) -> Result<[Nanos; AXES], Diagnostic> {
+        let mut absolute = 0;
+        for (axis, word) in to.axes.iter().enumerate() {
+            let Some(word) = word else { continue };
+            next[axis] = self.target(word, from[axis], span)?;
+            if word.distance.or(self.modes.distance) == Distance::Absolute {
+                absolute |= 1 << axis;
+            } else if self.world.increments.is_some() {
+                next[axis] = from[axis] + self.cut_off(axis, next[axis] - from[axis]);
+            }
+        }
+        self.relies_on_slots(absolute);
+        Ok(next)
+    }
+
     /// An incremental way of an axis as the control takes it.
     #[cold]
     pub(super) fn cut_off(&mut self, axis: usize, way: Nanos) -> Nanos {
@@ -57,7 +82,7 @@ impl Exec {
         stmts.iter().any(|stmt| {
             match &stmt.op {
                 Op::SetDistanceMode(mode) => distance = *mode,
-                Op::UseLengthUnits(units) => inch = *units == crate::canon::Units::Inch,
+                Op::UseLengthUnits(units) => inch = *units == Units::Inch,
                 _ => {}
             }
             if distance == Distance::Absolute {

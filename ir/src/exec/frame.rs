@@ -424,6 +424,7 @@ impl Exec {
         }
         self.position = self.unplace(&machine);
         if !length && to.axes[self.along].is_some() {
+            self.goes_to_place();
             self.cancel_length(Behaviour::LengthAfterMachineMove);
         }
         self.not_carried(to);

@@ -373,6 +373,7 @@ impl Exec {
         if z && normal != self.along || leg == Leg::Slant && normal == self.along {
             self.take_up_length();
         }
+        self.at_place &= normal != self.along;
         self.emit_move(false, span, out)?;
         self.go_to_level(normal, cycle.retract, false, span, out)?;
         self.tell(Attribute::Hole, span, out)?;

@@ -20,6 +20,7 @@ mod event;
 mod fine;
 mod frame;
 mod holes;
+mod in_block;
 mod left;
 mod message;
 mod needed;
@@ -130,6 +131,10 @@ pub struct Exec {
     centre_path: Option<Box<CentrePath>>,
     /// A corner that is to be made.
     corner: Option<Box<corner::Corner>>,
+    /// What waits for the end of the block at hand.
+    in_block: Option<in_block::InBlock>,
+    /// The axis of the length stands at a place of the machine, where no length counts.
+    at_place: bool,
     feed: Nanos,
     /// The time of the move at hand, where its feed says it in a way of the control.
     pace: pace::Pace,
@@ -235,6 +240,8 @@ impl Exec {
             contour: Contour::default(),
             centre_path: None,
             corner: None,
+            in_block: None,
+            at_place: true,
             feed: 0,
             pace: None,
             feed_inch: None,
@@ -411,29 +418,6 @@ impl Exec {
         })
     }
 
-    /// Where words put the axes that they name; incremental ones count from `from`.
-    #[inline]
-    fn put(
-        &mut self,
-        to: &Point,
-        mut next: [Nanos; AXES],
-        from: &[Nanos; AXES],
-        span: Span,
-    ) -> Result<[Nanos; AXES], Diagnostic> {
-        let mut absolute = 0;
-        for (axis, word) in to.axes.iter().enumerate() {
-            let Some(word) = word else { continue };
-            next[axis] = self.target(word, from[axis], span)?;
-            if word.distance.or(self.modes.distance) == Distance::Absolute {
-                absolute |= 1 << axis;
-            } else if self.world.increments.is_some() {
-                next[axis] = from[axis] + self.cut_off(axis, next[axis] - from[axis]);
-            }
-        }
-        self.relies_on_slots(absolute);
-        Ok(next)
-    }
-
     /// Where the words put the axes; takes up a waiting length with a Z word.
     #[inline]
     fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
@@ -448,6 +432,7 @@ impl Exec {
                 return self.not_executed("an incremental way along Z on which a length is taken up", span);
             }
             self.take_up_length();
+            self.at_place = false;
         }
         self.position = next;
         Ok(())
@@ -459,6 +444,9 @@ impl Exec {
     /// What no control could execute, or what is not executed yet.
     #[inline]
     pub fn step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.in_block.is_some() {
+            self.settle_block(stmt, out)?;
+        }
         if self.ended || stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1) {
             return Ok(());
         }
@@ -618,7 +606,10 @@ impl Exec {
                 Slot::Tilt(tilt) => self.set_tilt(tilt, span, out)?,
                 slot => self.set_slot(slot, span)?,
             },
-            Op::UseToolCentrePoint(on) => self.use_tip(*on, span)?,
+            Op::UseToolCentrePoint(on) => {
+                self.tip_in_block();
+                self.use_tip(*on, span)?;
+            }
             Op::OrientToolAxis(toward) => self.orient_tool_axis(*toward, span, out)?,
             Op::SetPosition(axes) => self.set_position(axes, span)?,
             Op::UseOriginShift(on) => self.use_origin_shift(*on, span)?,
@@ -631,11 +622,12 @@ impl Exec {
             Op::Polar(polar) => self.polar(polar, span, out)?,
             Op::SetSpindleSpeed(speed) => self.set_speed(speed, span, out)?,
             Op::SelectTool(tool) => {
-                self.selected = self.whole(tool, span)?;
+                let tool = self.whole(tool, span)?;
+                self.select(tool);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
             Op::SelectToolByName(name) => {
-                self.selected = named_tool(name);
+                self.select(named_tool(name));
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
             Op::ChangeTool => self.change_tool(span, out)?,

@@ -123,6 +123,7 @@ impl Exec {
         self.said |= super::LENGTH;
         self.call_up_along();
         self.waiting = Some(length);
+        self.called_in_block(span);
         self.use_aside(aside, span)
     }
 

@@ -343,6 +343,7 @@ impl Legaliser {
         self.needs(stmts) != 0
             || self.times_differ && self.times.concerns(stmts, &self.walk)
             || self.increments.concerns(stmts, self.walk.at.modes.distance)
+            || self.length_axis.concerns(stmts)
     }
 
     /// What further statements need that the target lacks.

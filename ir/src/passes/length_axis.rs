@@ -2,10 +2,11 @@
 //!
 //! In the plane of X and Y a length lies along Z on all of them. In G18, some take it along Y: the tool would stand
 //! lower by its length. No word of a program says which; where both controls are known and differ, such moves are
-//! refused.
+//! refused. A length that moves its axis at once is written with a word of that axis (`length_moves`).
 //!
 //! Not here: a control of which it is open ([`crate::exec`] runs both).
 
+use super::length_moves;
 use super::walk::Walk;
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::Plane;
@@ -18,23 +19,36 @@ use crate::program::{Op, Stmt};
 pub(super) struct State {
     in_plane: bool,
     at_call: bool,
+    moves: length_moves::State,
 }
 
 impl State {
     pub(super) fn new(source: &Behaviours, target: &Behaviours) -> State {
         let differ = |behaviour| source.does(behaviour) != target.does(behaviour);
-        State { in_plane: differ(Behaviour::LengthAxisInPlane), at_call: differ(Behaviour::LengthAxisAtCall) }
+        State {
+            in_plane: differ(Behaviour::LengthAxisInPlane),
+            at_call: differ(Behaviour::LengthAxisAtCall),
+            moves: length_moves::State::new(source, target),
+        }
     }
 
     /// Whether they differ at all.
     pub(super) fn is_used(self) -> bool {
-        self.in_plane || self.at_call
+        self.in_plane || self.at_call || self.moves.is_used()
     }
 
-    /// Refuses what is not the same on both.
-    pub(super) fn check(self, stmts: &[Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+    /// Whether statements would be rewritten.
+    pub(super) fn concerns(&self, stmts: &[Stmt]) -> bool {
+        self.moves.is_used() && stmts.iter().any(|stmt| stmt.op.calls_length())
+    }
+
+    /// Refuses what is not the same on both, and writes the moves that a length makes.
+    pub(super) fn check(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
+        if self.moves.is_used() {
+            self.moves.over(stmts, start, diags);
+        }
         let mut walk = start.clone();
-        for stmt in stmts {
+        for stmt in stmts.iter() {
             walk.enter(stmt.skip);
             let aside = walk.at.modes.plane != Some(Plane::Xy);
             let long = walk.waiting || walk.at.modes.length_offset != Some(0);

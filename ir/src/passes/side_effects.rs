@@ -17,6 +17,7 @@
 //!
 //! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
 
+use super::tool_words::ToolWords;
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Axis};
 use crate::diag::{Diagnostic, Fault};
@@ -67,6 +68,7 @@ pub struct SideEffects {
     only_sense: Option<Op>,
     /// Digits that the source's control cuts off.
     fine: fine_digits::State,
+    tools: ToolWords,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -102,6 +104,7 @@ impl SideEffects {
             length_next: None,
             only_sense: None,
             fine: fine_digits::State::new(&source, &target, increments),
+            tools: ToolWords::default(),
         }
     }
 
@@ -122,6 +125,7 @@ impl SideEffects {
         }
         let mut made: Vec<Stmt> = Vec::with_capacity(stmts.len() + 8);
         for mut stmt in std::mem::take(stmts) {
+            self.tools.before(&stmt, &mut made);
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
                 let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
@@ -141,12 +145,14 @@ impl SideEffects {
             }
             self.statement(stmt, &mut made, diags);
         }
+        self.tools.finish(&mut made);
         *stmts = made;
     }
 
     /// Rewrites the bodies of procedures; what their callers have switched on is not known.
     pub fn run(&mut self, procedures: &mut [Procedure], diags: &mut Vec<Diagnostic>) {
         self.only_sense = only_sense(procedures);
+        self.tools.survey(procedures);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
@@ -168,6 +174,7 @@ impl SideEffects {
     fn elsewhere(&mut self) {
         (self.spindle, self.coolant) = (Switch::Unknown, Switch::Unknown);
         self.again = [None, None];
+        self.tools.elsewhere();
         (self.z_home, self.machine) = (false, false);
         (self.length, self.length_known, self.length_next) = (None, false, None);
     }
@@ -178,6 +185,7 @@ impl SideEffects {
             Op::ProgramStop => self.switch(STOP, false, &mut stmt, made, diags),
             Op::OptionalProgramStop => self.switch(STOP, true, &mut stmt, made, diags),
             Op::ChangeTool => {
+                self.tools.change([&self.source, &self.target], &mut stmt, made, diags);
                 self.switch(CHANGE, false, &mut stmt, made, diags);
                 self.go_home(&mut stmt, made, diags);
             }
@@ -399,6 +407,7 @@ impl SideEffects {
     /// What a statement leaves on.
     fn note(&mut self, stmt: &Stmt) {
         let sure = stmt.skip.is_none();
+        self.tools.note(stmt);
         let [spindle, coolant] = &mut self.again;
         match &stmt.op {
             op @ (Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise) => {
