@@ -109,6 +109,13 @@ pub struct Tolerance {
     pub feed: f64,
     /// How corners are held together.
     pub corners: Corners,
+    /// Whether what F counts on arcs beside a contour is held together: the second control has words for it.
+    pub arcs: bool,
+}
+
+/// Whether a dialect has words for what F counts on arcs beside a contour.
+pub fn says_arcs(dialect: &str) -> bool {
+    matches!(dialect, "siemens" | "ir")
 }
 
 /// What of corners two dialects both have words for.
@@ -135,9 +142,9 @@ impl Corners {
 
 impl Tolerance {
     /// Both computed from the same numbers.
-    pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6, corners: Corners::All };
+    pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6, corners: Corners::All, arcs: true };
     /// Rounded to three digits in mm, or four in inches.
-    pub const ROUNDED: Tolerance = Tolerance { place: 0.002, feed: 0.002, corners: Corners::All };
+    pub const ROUNDED: Tolerance = Tolerance { place: 0.002, feed: 0.002, corners: Corners::All, arcs: true };
 }
 
 /// A world in the second interpreter's terms.
@@ -463,6 +470,7 @@ fn beside(compensation: &Compensation) -> Option<Beside> {
         },
         // Above that it is an edge that is no entry.
         entry: Some(compensation.radius).filter(|radius| radius >> 30 == 0),
+        on_contour: compensation.on_contour,
         diameter: (compensation.radius >> 30 == 1).then_some(i64::from(compensation.radius & !(1 << 30))),
     })
 }
@@ -641,7 +649,8 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
     if !about(a).iter().zip(about(b)).all(|(x, y)| near(*x, y, within.place)) {
         return Some("another surface speed: in turns, about another X, or with another limit");
     }
-    if a.beside != b.beside {
+    let held = |beside: Beside| Beside { on_contour: beside.on_contour && within.arcs, ..beside };
+    if a.beside.map(held) != b.beside.map(held) {
         return Some("another cutter radius compensation");
     }
     if a.five != b.five {

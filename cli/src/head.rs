@@ -119,6 +119,14 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             "no rotation, scale or mirror at the start, though the program leaves one".to_owned()
         }
         Fault::RoundsFreely => "corners rounded without a tolerance".to_owned(),
+        Fault::FeedOnArcs { contour_in_source, .. } => {
+            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
+            let [source, target] = match contour_in_source {
+                true => ["along the contour", "at the tool centre"],
+                false => ["at the tool centre", "along the contour"],
+            };
+            format!("F on arcs under cutter compensation: {source} on {from}, {target} on {to}")
+        }
         Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),

@@ -9,12 +9,14 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_frontends::Reader;
+use ncc_ir::arc_feed::ArcFeed;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::beside::Rules;
-use ncc_ir::canon::AXES;
+use ncc_ir::canon::{AXES, AdviceKind};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::maps::Numbered;
 use ncc_ir::num::Nanos;
+use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::{Compensating, Pass};
 use ncc_ir::program::Text;
 use ncc_machines::reading::{Place, Side};
@@ -146,6 +148,17 @@ impl Job {
         target
     }
 
+    /// What writes side effects of codes as words.
+    pub fn side_effects(&self) -> SideEffects {
+        let all =
+            SideEffects::new(self.source_behaviours(), self.target_behaviours(), self.from.fine_increments());
+        let says = |value| self.to.dialect.caps.advises(AdviceKind::CompensatedFeed, value);
+        match (0..AdviceKind::CompensatedFeed.values().len() as u8).all(says) {
+            true => all.with_arc_feed(),
+            false => all,
+        }
+    }
+
     /// Whether cutter radius compensation is worked out, so that the output has none.
     pub fn works_compensation_out(&self) -> bool {
         self.passes.iter().any(|pass| pass.name == EXPAND_COMPENSATION)
@@ -159,6 +172,8 @@ impl Job {
             known,
             radii: self.machines.from.as_ref().map(|machine| machine.tables().radii).unwrap_or_default(),
             listing: false,
+            arc_feed: ArcFeed::of(&self.source_behaviours()),
+            feed_decimals: self.to.dialect.caps.feed_decimals,
         }
     }
 

@@ -191,7 +191,7 @@ impl<'j> Line<'j> {
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),
-            side_effects: as_there::side_effects(job),
+            side_effects: job.side_effects(),
             legaliser,
             writer,
             text: Vec::new(),

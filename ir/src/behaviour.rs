@@ -85,6 +85,10 @@ behaviours! {
     RotaryFeed = "rotary-feed", "feed of linear and rotary axes together", ["linear-axes", "degrees-as-lengths", "diameter"], Machine;
     /// What F counts on an arc under inverse time: one over the minutes of the block, or the feed over the radius.
     ArcByTime = "arc-by-time", "F on arcs under inverse time", ["time", "radius"], Machine;
+    /// The speed of what F is on an arc under cutter compensation, in a program that has no code for it: that of the tool
+    /// centre; that of the contour, so that the centre goes faster on outer arcs and slower on inner ones; or that of the
+    /// contour on inner arcs alone.
+    FeedOnArcs = "feed-on-compensated-arcs", "F on arcs under cutter compensation", ["centre", "contour", "inside"], Machine;
     /// Coolant at M02 and M30.
     CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
     /// Along which axis the length of a tool lies: Z whatever the plane, or the one at right angles to the plane in force.
@@ -142,6 +146,8 @@ impl Behaviour {
 pub struct Behaviours {
     values: [u8; COUNT],
     open: u64,
+    /// Values that this control can have besides the usual one, a bit each; 0 is all that are not rare.
+    others: [u8; COUNT],
 }
 
 impl Behaviours {
@@ -176,6 +182,21 @@ impl Behaviours {
     pub fn set(&mut self, behaviour: Behaviour, value: u8, open: bool) {
         self.values[behaviour as usize] = value;
         self.open = if open { self.open | behaviour.bit() } else { self.open & !behaviour.bit() };
+    }
+
+    /// The control can have these values alone besides the usual one, a bit each; 0 is all that are not rare.
+    pub fn set_others(&mut self, behaviour: Behaviour, others: u8) {
+        self.others[behaviour as usize] = others;
+    }
+
+    /// Values of an open behaviour that a run tries besides the usual one.
+    pub fn others(&self, behaviour: Behaviour) -> impl Iterator<Item = u8> + use<> {
+        let (usual, others) = (self.get(behaviour), self.others[behaviour as usize]);
+        let can = move |value: u8| match others {
+            0 => !behaviour.is_rare(value),
+            others => others >> value & 1 == 1,
+        };
+        (0..behaviour.values().len() as u8).filter(move |value| *value != usual && can(*value))
     }
 
     /// The same with another value of one behaviour.

@@ -329,6 +329,9 @@ faults! {
     NextRunTurned = 328, verdict(Verdict::Assumed);
     /// Plain rounding of corners has no bound on the target's control, and one on the source's.
     RoundsFreely = 329, verdict(Verdict::Assumed);
+    /// An arc under cutter compensation on which F counts otherwise in the output: whether it counts along the contour in the
+    /// source, or there in the output, and whether it is an inner arc.
+    FeedOnArcs { contour_in_source: bool, inner: bool } = 332, verdict(Verdict::Assumed);
     /// A cut at a feed that was stated before the units changed: what it was, and what the source's control makes of it;
     /// nanos of a millimetre.
     FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);

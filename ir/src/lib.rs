@@ -8,6 +8,7 @@
 //! This crate knows no dialect by name, reads no file and prints nothing.
 
 pub mod alarms;
+pub mod arc_feed;
 pub mod arguments;
 pub mod behaviour;
 pub mod beside;

@@ -61,6 +61,7 @@ impl Fault {
             | Fault::StartedAgain { .. }
             | Fault::OpenBehaviour { .. }
             | Fault::MovedAtChange
+            | Fault::FeedOnArcs { .. }
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }
             | Fault::NextRunTurned

@@ -112,6 +112,9 @@ pub const CORNERS: &str = "corners";
 /// Key of the reading that corners of programs without a path mode may be taken as the control begins.
 pub const CORNERS_AT_START: &str = "corners-at-start";
 
+/// Key of the reading that F on arcs under cutter compensation may count otherwise than on the other control.
+pub const FEED_ON_ARCS: &str = "feed-on-compensated-arcs";
+
 /// Key of the reading that the tool goes onto a compensated contour, and leaves it, as on the other control.
 pub const CONTOUR_ENDS: &str = "contour-ends";
 
@@ -181,6 +184,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
         Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
         Fault::PathAtStart { .. } => (Side::To, Place::Confirmed(CORNERS_AT_START.to_owned())),
+        Fault::FeedOnArcs { .. } => (Side::To, Place::Confirmed(FEED_ON_ARCS.to_owned())),
         Fault::AssumedPath { .. } | Fault::RoundsFreely => (Side::To, Place::Confirmed(CORNERS.to_owned())),
         Fault::AssumedTip => (Side::To, Place::Confirmed(TIP.to_owned())),
         Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
@@ -280,6 +284,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         CORNERS,
         CORNERS_AT_START,
         EDGE_IS_ENTRY,
+        FEED_ON_ARCS,
         MOTION_AT_CYCLES,
         RADIUS_IS_ENTRY,
         TIP,

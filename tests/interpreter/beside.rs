@@ -3,7 +3,7 @@
 //!
 //! Not here: the path of the tool's centre.
 
-use super::{Halt, Machine, Place};
+use super::{Halt, Machine, Place, What};
 
 /// The tool goes beside the contour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,20 @@ pub struct Beside {
     pub entry: Option<u32>,
     /// The diameter that the program states, in hundredths of a micrometre; then there is no entry.
     pub diameter: Option<i64>,
+    /// On an arc: F is the speed along the contour, not that of the tool centre.
+    pub on_contour: bool,
+}
+
+/// What F is the speed of on arcs beside a contour (808D milling, p. 79, of CFC and CFTCP; CFIN as it is remembered).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ArcFeed {
+    /// The tool centre: Fanuc, Haas, LinuxCNC, CFTCP.
+    #[default]
+    Centre,
+    /// The contour: CFC, with which a Sinumerik begins.
+    Contour,
+    /// The contour where the tool is inside of the arc, else the centre: CFIN.
+    Inner,
 }
 
 impl Machine {
@@ -31,7 +45,13 @@ impl Machine {
         if entry == Some(0) {
             return self.halt("compensation by no radius");
         }
-        self.beside = Some(Beside { left: left != reversed, plane: self.plane, entry, diameter: None });
+        self.beside = Some(Beside {
+            left: left != reversed,
+            plane: self.plane,
+            entry,
+            diameter: None,
+            on_contour: false,
+        });
         self.lead = true;
         Ok(())
     }
@@ -45,6 +65,17 @@ impl Machine {
         let diameter = Some((diameter.abs() * 1e5).round() as i64);
         self.beside = self.beside.map(|beside| Beside { diameter, ..beside });
         Ok(())
+    }
+
+    /// How the tool goes beside the contour in an event, with what F counts in it.
+    pub(super) fn fed(&self, beside: Option<Beside>, what: &What) -> Option<Beside> {
+        let of_arc = |left: bool| match (what, self.feeds.arcs) {
+            (What::Arc { .. }, ArcFeed::Contour) => true,
+            // The middle of an arc that goes to the left is on its left.
+            (What::Arc { sweep, .. }, ArcFeed::Inner) => left == (*sweep > 0.0),
+            _ => false,
+        };
+        beside.map(|beside| Beside { on_contour: of_arc(beside.left), ..beside })
     }
 
     /// Compensation off.

@@ -4,7 +4,7 @@
 //! Written from the manuals: the corner is that of a line or an arc at feed and the very next one, in the
 //! plane in force; where they are tangent nothing is put in.
 
-use super::{Event, Halt, Machine, What};
+use super::{ArcFeed, Event, Halt, Machine, What};
 
 /// What a corner becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub enum Cut {
 }
 
 /// A cut behind an event, in the plane of two axes.
-pub(super) type Planned = (usize, Cut, (usize, usize, usize));
+pub(super) type Planned = (usize, Cut, (usize, usize, usize), ArcFeed);
 
 type Flat = (f64, f64);
 
@@ -111,7 +111,8 @@ impl Machine {
         if self.asked.is_some() {
             return self.halt("a corner and no move");
         }
-        while let Some((at, cut, axes)) = self.cuts.pop() {
+        while let Some((at, cut, axes, arcs)) = self.cuts.pop() {
+            self.feeds.arcs = arcs;
             if let Err(why) = self.cut(at, cut, axes) {
                 self.line = self.events[at].line;
                 return self.halt(why);
@@ -213,6 +214,8 @@ impl Machine {
                 What::Arc { normal, centre, sweep: arc.sweep(from, to) }
             }
         };
+        // The tool is beside the corner as it was beside the move before it.
+        inserted.beside = self.fed(inserted.beside, &inserted.what);
         place(&mut self.events[at], from);
         if let What::Arc { sweep, .. } = &mut self.events[at].what {
             *sweep = a.sweep(a.from, from);

@@ -60,7 +60,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         placed: true,
     };
     let rotary = if haas { Rotary::Diameter } else { Rotary::Degrees };
-    control.m.feeds = Feeds { rotary, arcs_by_radius: !haas };
+    control.m.feeds = Feeds { rotary, arcs_by_radius: !haas, ..Feeds::default() };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
     if !control.program(main, &programs)? {
         control.m.record(What::TextEnd);

@@ -11,7 +11,7 @@ mod tilt;
 use std::collections::HashMap;
 
 use super::siemens::frame::Frame;
-use super::{Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What};
+use super::{ArcFeed, Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What};
 use text::{Line, Token, label, tokens};
 
 /// Runs a program.
@@ -461,7 +461,7 @@ impl Control {
                     _ => return self.m.halt("a path mode without its name"),
                 };
             }
-            "ADVISE" => {}
+            "ADVISE" => self.advise(a),
             "LIMIT_SPINDLE_SPEED" => self.m.fastest = Some(self.first(a)?),
             "ORIENT_SPINDLE" => {
                 let angle = if a.is_empty() { None } else { Some(self.first(a)?) };
@@ -580,6 +580,17 @@ impl Control {
     }
 
     /// Side and radius: an entry, that of the tool's number, or that whose length is in force.
+    /// What F counts on arcs beside a contour; all other advice changes nothing that can be seen.
+    fn advise(&mut self, a: &[Token]) {
+        let [Token::Text(kind), Token::Sign(','), Token::Text(value), ..] = a else { return };
+        self.m.feeds.arcs = match (kind.as_str(), value.as_str()) {
+            ("compensated-feed", "contour") => ArcFeed::Contour,
+            ("compensated-feed", "centre") => ArcFeed::Centre,
+            ("compensated-feed", "inside") => ArcFeed::Inner,
+            _ => return,
+        };
+    }
+
     fn compensate(&mut self, a: &[Token]) -> Result<(), Halt> {
         let (first, second, normal) = self.m.axes();
         let Some(reversed) = self.chain().reverses(first, second, normal) else {

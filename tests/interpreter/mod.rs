@@ -25,7 +25,7 @@ mod stored;
 mod threads;
 mod tilt;
 
-pub use beside::Beside;
+pub use beside::{ArcFeed, Beside};
 pub use corner::Cut;
 use corner::Planned;
 pub use hole::Hole;
@@ -428,14 +428,13 @@ impl Machine {
     pub fn record(&mut self, what: What) {
         assert!(self.events.len() < 1_000_000, "line {}: a program without an end", self.line);
         if let Some(cut) = self.asked.take() {
-            self.cuts.push((self.events.len(), cut, self.axes()));
+            self.cuts.push((self.events.len(), cut, self.axes(), self.feeds.arcs));
         }
         let mut program = self.at;
         for (axis, value) in program.iter_mut().enumerate() {
             *value -= self.shift(axis);
         }
         self.events.push(Event {
-            what,
             line: self.line,
             machine: self.at,
             program,
@@ -449,7 +448,8 @@ impl Machine {
             spindle: self.spindle,
             tool: self.tool,
             coolant: self.coolant,
-            beside: self.beside,
+            beside: self.fed(self.beside, &what),
+            what,
             five: [self.tip, self.plane_set],
             by_itself: self.by_itself,
             timed: false,

@@ -1,5 +1,6 @@
 //! How long moves take whose F each control counts in a way of its own, from the manuals.
 
+use super::beside::ArcFeed;
 use super::{Machine, Per, Place};
 
 /// What F counts where linear and rotary axes move together.
@@ -21,6 +22,8 @@ pub struct Feeds {
     pub rotary: Rotary,
     /// Under a feed by time, F of an arc is the feed over its radius (Fanuc B-62764EN, chapter 5).
     pub arcs_by_radius: bool,
+    /// On arcs beside a contour.
+    pub arcs: ArcFeed,
 }
 
 impl Machine {

@@ -18,7 +18,7 @@ mod variables;
 
 use std::collections::BTreeMap;
 
-use super::{Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
+use super::{ArcFeed, Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
 use text::{ADVICE, Argument, Item, Mark, NOTHING, Unit, Value};
 use variables::Variables;
@@ -31,7 +31,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     let units = text::units(&characters(text));
     let modes = setup.power_on;
     let mut m = Machine::new(setup);
-    m.tool = modes.tool;
+    (m.tool, m.feeds.arcs) = (modes.tool, ArcFeed::Contour);
     let mut control = Control {
         units: &units,
         m,

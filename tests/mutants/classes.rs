@@ -112,7 +112,7 @@ pub(crate) fn rounded(
     let inch = [&b"G20"[..], b"G70", b"INCHES", b"inch"].iter().any(|code| has(code));
     let half = if inch { 0.00128 } else { 0.000_501 };
     let corners = Corners::between(source.dialect, emitted.dialect);
-    let within = Tolerance { place: half, feed: half, corners };
+    let within = Tolerance { place: half, feed: half, corners, arcs: plain::says_arcs(emitted.dialect) };
     for seed in [0, 1, 2] {
         let world = plain::of_dialect(plain::world(seed), source.dialect);
         let start = world.start.map(|n| n as f64 / 1e9);

@@ -223,7 +223,8 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
 
 /// The second interpreter finds the same moves in both, in three worlds, with all skip switches off and on.
 fn makes_the_same(from: &str, source: &[u8], to: &str, text: &[u8]) -> Result<(), String> {
-    let within = Tolerance { corners: Corners::between(from, to), ..Tolerance::ROUNDED };
+    let within =
+        Tolerance { corners: Corners::between(from, to), arcs: plain::says_arcs(to), ..Tolerance::ROUNDED };
     for world in [0, 1, 2].map(plain::world) {
         let world = plain::of_dialect(world, from);
         let start = world.start.map(|n| n as f64 / 1e9);

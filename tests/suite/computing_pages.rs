@@ -128,7 +128,8 @@ fn agrees(dialect: &str, text: &str) -> Result<(), String> {
 
 /// Two texts make the same moves for the second interpreter.
 fn same(from: &str, left: &str, to: &str, right: &[u8]) -> Result<(), String> {
-    let within = Tolerance { corners: Corners::between(from, to), ..Tolerance::ROUNDED };
+    let within =
+        Tolerance { corners: Corners::between(from, to), arcs: plain::says_arcs(to), ..Tolerance::ROUNDED };
     for world in [0, 1, 2].map(plain::world) {
         let start = world.start.map(|n| n as f64 / 1e9);
         let list = |machine: &Machine| plain::of_machine(machine, start);

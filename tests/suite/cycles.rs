@@ -96,7 +96,7 @@ fn read(path: &PathBuf) -> Cited {
         start,
         unit,
         moves,
-        within: Tolerance { place, feed: 1e-6, corners: Corners::All },
+        within: Tolerance { place, feed: 1e-6, corners: Corners::All, arcs: true },
         refused: page.fact("canon").and_then(|f| f.strip_prefix("refused ")).map(str::to_owned),
     }
 }

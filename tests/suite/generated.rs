@@ -116,7 +116,12 @@ impl Source {
         // A feed in inches has three digits somewhere.
         let inches = self.text.contains("G20");
         let feed = if inches { 0.0005 * 25.4 + 0.002 } else { Tolerance::ROUNDED.feed };
-        Tolerance { corners: Corners::between(self.from, to), feed, ..Tolerance::ROUNDED }
+        Tolerance {
+            corners: Corners::between(self.from, to),
+            arcs: plain::says_arcs(to),
+            feed,
+            ..Tolerance::ROUNDED
+        }
     }
 }
 

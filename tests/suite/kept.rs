@@ -32,7 +32,11 @@ fn what_is_kept_makes_the_moves_of_its_source() {
         };
         let to = path.extension().and_then(|to| DIALECTS.into_iter().find(|d| to == *d));
         let Some(to) = to.filter(|_| is_program(&text)) else { continue };
-        let within = Tolerance { corners: Corners::between(source.dialect, to), ..Tolerance::ROUNDED };
+        let within = Tolerance {
+            corners: Corners::between(source.dialect, to),
+            arcs: plain::says_arcs(to),
+            ..Tolerance::ROUNDED
+        };
         for seed in [0, 1, 2] {
             let world = plain::of_dialect(plain::world(seed), source.dialect);
             let start = world.start.map(|n| n as f64 / 1e9);

@@ -120,8 +120,11 @@ fn blocks_agree_by_the_second_interpreter() {
                 };
                 for (dialect, list) in rest {
                     compared += 1;
-                    let within =
-                        Tolerance { corners: Corners::between(first, dialect), ..Tolerance::ROUNDED };
+                    let within = Tolerance {
+                        corners: Corners::between(first, dialect),
+                        arcs: plain::says_arcs(dialect),
+                        ..Tolerance::ROUNDED
+                    };
                     let result = list.clone().and_then(|l| plain::compare(expected, &l, within));
                     failures.check(format!("{name}: {first} and {dialect}, skip {skip:b}"), result);
                 }

@@ -107,6 +107,7 @@ fn pairs(job: &Job, source: &[u8], output: &[u8]) -> Result<Vec<Pair>, String> {
     let rough = Resolution { mm: 2, inch: 3, degree: 2, feed: 1, feed_inch: 2, second: 2 };
     let mut comparison = Comparison::new(rough, world.start);
     comparison.keep_pairs(true);
+    comparison.see(job.to.dialect.caps.seen());
     comparison.advance(&mut a, &mut b, true).map_err(|d| format!("{d:?}"))?;
     Ok(comparison.take_pairs())
 }

@@ -76,7 +76,11 @@ fn emitted_programs_make_the_same_moves() {
                 Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => Some(offset),
                 _ => None,
             });
-            let within = Tolerance { corners: Corners::between(program.dialect, to), ..rounded(&program) };
+            let within = Tolerance {
+                corners: Corners::between(program.dialect, to),
+                arcs: plain::says_arcs(to),
+                ..rounded(&program)
+            };
             for world in [0, 1, 2].map(plain::world) {
                 // Where a peck cycle was written out, this is what the head says was assumed.
                 let world = plain::of_dialect(world, program.dialect);

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use ncc_ir::behaviour::Concern;
 use ncc_ir::diag::Fault;
+use ncc_ir::passes::PASSES;
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::{job, stopping, translate};
 
@@ -26,11 +27,13 @@ enum Right {
     Says(&'static str),
     /// The same, with facts reported that would make another cut: their names.
     SaysIf(&'static str, &'static [&'static str]),
+    /// The same, with F on arcs under compensation reported, which no word of the target changes.
+    SaysFed(&'static str),
     /// Refused with this code.
     Refused(u16),
 }
 
-use Right::{Refused, Says, SaysIf};
+use Right::{Refused, Says, SaysFed, SaysIf};
 
 /// A head of word-address controls, with a tool and its length.
 const HEAD: &str = "G21 G17 G90 G94 G54 G40 G49 G80 / T1 M6 / S1000 M3 / G0 X10. Y0 / G43 H1 Z50. / ";
@@ -285,6 +288,140 @@ const OFFSETS: &[Case] = &[
     stated("fanuc", &[], "siemens", &[("user_frames", "5")], "G57 / G0 X5.", Says("G57 / G0 X5")),
 ];
 
+const AT_CENTRE: &[(&str, &str)] = &[("feed_on_compensated_arcs", "centre")];
+const ON_CONTOUR: &[(&str, &str)] = &[("feed_on_compensated_arcs", "contour")];
+const INSIDE: &[(&str, &str)] = &[("feed_on_compensated_arcs", "inside")];
+
+/// Group 16: what F counts on arcs under cutter compensation.
+const COMPENSATED: &[Case] = &[
+    // An outer arc.
+    case(
+        "fanuc",
+        "siemens",
+        "G41 D1 G1 X10. Y10. F100. / Y20. / G02 X10.5 Y20.5 R0.5 / G1 X30. / G40 X50.",
+        Says("CFTCP / G1 G41 X10 Y10 F100 / Y20 / G2 X10.5 Y20.5 CR=0.5"),
+    ),
+    case(
+        "linuxcnc",
+        "siemens",
+        "G42 D1 G1 X20 Y0 F100 / G2 I-20 J0 / G40 G1 X0 Y0",
+        Says("CFTCP / G1 G42 X20 Y0 F100 / G2 I-20 J0"),
+    ),
+    // Inner arcs, on which a parameter or a setting of these controls lowers F.
+    case(
+        "fanuc",
+        "siemens",
+        "G41 D1 G1 X20. Y0. F100. / G3 I-20. J0. / G40 G1 X0. Y0.",
+        SaysIf("CFTCP / G1 G41 X20 Y0 F100 / G3 I-20 J0", &["feed-on-compensated-arcs"]),
+    ),
+    case(
+        "haas",
+        "siemens",
+        "G41 D1 G1 X20. Y0. F100. / G3 I-20. J0. / G40 G1 X0. Y0.",
+        SaysIf("CFTCP / G1 G41 X20 Y0 F100 / G3 I-20 J0", &["feed-on-compensated-arcs"]),
+    ),
+    case(
+        "fanuc",
+        "linuxcnc",
+        "G41 D1 G1 X20. Y0. F100. / G3 I-20. J0. / G40 G1 X0. Y0.",
+        SaysIf("G1 G41 D1 X20 Y0 F100 / G3 I-20 J0", &["feed-on-compensated-arcs"]),
+    ),
+    stated(
+        "haas",
+        INSIDE,
+        "siemens",
+        &[],
+        "G41 D1 G1 X20. Y0. F100. / G3 I-20. J0. / G40 G1 X0. Y0.",
+        Says("CFIN / G1 G41 X20 Y0 F100 / G3 I-20 J0"),
+    ),
+    stated(
+        "haas",
+        INSIDE,
+        "linuxcnc",
+        &[],
+        "G41 D1 G1 X20. Y0. F100. / G3 I-20. J0. / G40 G1 X0. Y0.",
+        SaysFed("G1 G41 D1 X20 Y0 F100 / G3 I-20 J0"),
+    ),
+    // Once, however often compensation starts; the meaning is what counts, not who has it.
+    case(
+        "fanuc",
+        "siemens",
+        "G41 D1 G1 X10. Y10. F100. / X30. / G40 X50. / G42 D1 Y10. / X30. / G40 X50.",
+        Says("CFTCP / G1 G41 X10 Y10 F100 / X30 / G40 X50 / G42 Y10 / X30 / G40 X50"),
+    ),
+    stated(
+        "fanuc",
+        &[],
+        "siemens",
+        AT_CENTRE,
+        "G41 D1 G1 X10. Y10. F100. / G2 X20. Y20. R10. / G40 G1 X50.",
+        Says("Z50 / G1 G41 X10 Y10 F100 / G2 X20 Y20 CR=10"),
+    ),
+    // An arc in a subprogram, under the compensation of its caller.
+    case(
+        "fanuc",
+        "siemens",
+        "G41 D1 G1 X10. Y10. F100. / M98 P100 / G40 X50. / M30 / O100 / G2 X20. Y20. R10. / G1 X30. / M99",
+        Says("CFTCP / G1 G41 X10 Y10 F100"),
+    ),
+    // The other way.
+    case(
+        "siemens",
+        "fanuc",
+        "G41 G1 X10 Y10 F100 / Y20 / G2 X10.5 Y20.5 CR=0.5 / G1 X30 / G40 X50",
+        SaysFed("G01 G41 D1 X10. Y10. F100. / Y20. / G02 X10.5 Y20.5 R0.5"),
+    ),
+    case(
+        "siemens",
+        "haas",
+        "G42 G1 X20 Y0 F100 / G2 I-20 J0 / G40 G1 X0 Y0",
+        SaysFed("G01 G42 D1 X20. Y0. F100. / G02 I-20. J0."),
+    ),
+    case(
+        "siemens",
+        "linuxcnc",
+        "G41 G1 X10 Y10 F100 / CHANGE: G3 X20 Y20 CR=10 / G1 Y30 / G40 X50",
+        SaysFed("G3 X20 Y20 R10"),
+    ),
+    case("siemens", "fanuc", "G41 G1 X10 Y10 F100 / Y20 / X30 / G40 X50", Says("G01 G41 D1 X10. Y10. F100.")),
+    // A program that states it.
+    case(
+        "siemens",
+        "fanuc",
+        "CFTCP / G41 G1 X10 Y10 F100 / Y20 / G2 X20 Y30 CR=10 / G1 X30 / G40 X50",
+        SaysIf("Y20. / G02 X20. Y30. R10.", &[]),
+    ),
+    case(
+        "siemens",
+        "fanuc",
+        "CFIN / G41 G1 X10 Y10 F100 / Y20 / G2 X20 Y30 CR=10 / G1 X30 / G40 X50",
+        Says("Y20. / G02 X20. Y30. R10."),
+    ),
+    case(
+        "siemens",
+        "linuxcnc",
+        "CFIN / G41 G1 X20 Y0 F100 / G3 I-20 J0 / G40 G1 X0 Y0",
+        SaysFed("G3 I-20 J0"),
+    ),
+    stated(
+        "siemens",
+        AT_CENTRE,
+        "linuxcnc",
+        &[],
+        "G41 G1 X20 Y0 F100 / G3 I-20 J0 / G40 G1 X0 Y0",
+        Says("G3 I-20 J0"),
+    ),
+    // Two machines of one kind.
+    stated(
+        "siemens",
+        ON_CONTOUR,
+        "siemens",
+        AT_CENTRE,
+        "G41 G1 X20 Y0 F100 / G3 I-20 J0 / G40 G1 X0 Y0",
+        Says("CFC / G1 G41 X20 Y0 F100 / G3 I-20 J0"),
+    ),
+];
+
 const fn case(from: &'static str, to: &'static str, blocks: &'static str, right: Right) -> Case {
     Case { from: (from, &[]), to: (to, &[]), blocks, right }
 }
@@ -334,6 +471,7 @@ fn run(cases: &[Case]) {
         let text = String::from_utf8_lossy(&written).replace("\r\n", "\n");
         let text = text.lines().collect::<Vec<_>>().join(" / ");
         let name = format!("{} to {}: {blocks}", from.0, to.0);
+        let fed = outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::FeedOnArcs { .. }));
         let mut says = |words: &str, facts: &[&str]| {
             // What a tool change does is another matter.
             let told: Vec<&str> = open.iter().copied().filter(|name| !name.ends_with("-at-change")).collect();
@@ -341,10 +479,12 @@ fn run(cases: &[Case]) {
                 failures.add(&name, format!("says {text}, {codes:?}"));
             } else if told != facts {
                 failures.add(&name, format!("reports {told:?}"));
+            } else if fed != matches!(right, SaysFed(_)) {
+                failures.add(&name, "F on arcs under compensation is reported, or should be");
             }
         };
         match right {
-            Says(words) => says(words, &[]),
+            Says(words) | SaysFed(words) => says(words, &[]),
             SaysIf(words, facts) => says(words, facts),
             Refused(code) if codes.contains(code) && written.is_empty() => {}
             Refused(_) => failures.add(&name, format!("is refused with {codes:?}, or says {text}")),
@@ -386,4 +526,35 @@ fn work_offsets_that_a_machine_may_lack() {
 #[test]
 fn edges_that_are_in_force() {
     run(EDGES);
+}
+
+#[test]
+fn feeds_on_arcs_under_compensation() {
+    run(COMPENSATED);
+}
+
+/// Where compensation is worked out, arcs get the F of the tool centre, unless the control or the program counts there.
+#[test]
+fn feeds_of_the_tool_centre_where_compensation_is_worked_out() {
+    let pass = PASSES.iter().find(|pass| pass.name == "expand-compensation").expect("the pass");
+    let contour = "$TC_DP6[1,1]=4 / G41 X20 Y0 F100 / G3 X-20 Y0 CR=20 / G1 X-30 / G2 X-40 Y-10 CR=10 F150 / G1 Y-30 / G40 X-50";
+    for (code, option, feeds) in [
+        ("", "contour", ["F80", "F100", "F210", "F150"]),
+        ("CFC / ", "centre", ["F80", "F100", "F210", "F150"]),
+        ("CFTCP / ", "contour", ["F100", "", "F150", ""]),
+        ("", "centre", ["F100", "", "F150", ""]),
+        ("CFIN / ", "contour", ["F80", "F100", "F150", ""]),
+    ] {
+        let mut job = job("siemens", "linuxcnc", "part");
+        job.from.choose("feed_on_compensated_arcs", option).expect("an option of the dialect");
+        job.head = false;
+        job.passes.push(pass);
+        let source = format!("{HEAD_S}G1 / {code}{contour} / M30\n").replace(" / ", "\n");
+        let (outcome, written) = translate(&job, source.as_bytes());
+        let text = String::from_utf8_lossy(&written);
+        let said: Vec<&str> =
+            text.split_whitespace().filter(|word| word.starts_with('F') && *word != "F100").collect();
+        let want: Vec<&str> = feeds.into_iter().filter(|feed| !feed.is_empty() && *feed != "F100").collect();
+        assert_eq!(said, want, "{code} {option}: {text} {:?}", stopping(&job, &outcome));
+    }
 }

@@ -163,7 +163,7 @@ fn second_opinion(
     }
     let corners = Corners::between(from, to);
     // A feed in inches has three digits.
-    let within = Tolerance { corners, feed: 0.015, ..Tolerance::ROUNDED };
+    let within = Tolerance { corners, arcs: plain::says_arcs(to), feed: 0.015, ..Tolerance::ROUNDED };
     for seed in [0, 1] {
         let world = plain::of_dialect(plain::world(seed), from);
         let start = world.start.map(|n| n as f64 / 1e9);

@@ -193,6 +193,36 @@ fn a_contour_that_the_tool_does_not_fit_into_is_timed_as_programmed() {
     assert!((timed.seconds - plain.seconds).abs() < 1.0, "{} {}", timed.seconds, plain.seconds);
 }
 
+/// F along the contour takes the time of the contour, whatever the tool's radius; F at the tool centre that of its path.
+#[test]
+fn a_compensated_arc_takes_the_time_of_what_f_counts() {
+    // Ten times round: inside of a circle of 20 mm, and outside of one of 10 mm.
+    let circles = |code: &str, side: &str, x: u32| {
+        let circle = format!("G3 I-{x} / ").repeat(10);
+        format!(
+            "G710 G17 G90 G94 G54 {code} / T1 M6 / D1 / G0 X0 Y0 / G1 F1200 / {side} G1 X{x} Y0 / {circle}G40 G1 X0 Y0 / M30"
+        )
+    };
+    let fast = "path_tolerance = 100\nexact_stop = false\nlook_ahead = 1000";
+    let seconds = |code: &str, side: &str, x: u32, diameter: u32| {
+        let tool = format!("[[tool]]\nnumber = 1\ndiameter = {diameter}\n");
+        timing("siemens", fast, &tool, &circles(code, side, x)).seconds
+    };
+    // Circles at 20 mm/s; ways to them and from them, and slower starts, take less than this.
+    let near = |seconds: f64, radius: f64| {
+        let want = 10.0 * std::f64::consts::TAU * radius / 20.0;
+        assert!(seconds > want && seconds < want + 4.0, "{seconds} {want}");
+    };
+    for code in ["CFC", ""] {
+        near(seconds(code, "G41", 20, 10), 20.0);
+        near(seconds(code, "G42", 20, 10), 20.0);
+    }
+    near(seconds("CFTCP", "G41", 20, 10), 15.0);
+    near(seconds("CFTCP", "G42", 20, 10), 25.0);
+    near(seconds("CFIN", "G41", 20, 10), 20.0);
+    near(seconds("CFIN", "G42", 20, 10), 25.0);
+}
+
 /// 600 blocks of 0.1 mm at 9 m/min.
 fn short_blocks(dialect: &str) -> String {
     let head =

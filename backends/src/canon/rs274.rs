@@ -154,8 +154,13 @@ struct Printer<'p> {
 
 /// The program with coordinates in place of polar words, and the path of the tool's centre in place of contours.
 fn beside(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
-    let compensating =
-        Compensating { rules: Rules::INTERPRETER, known: true, radii: tables.radii.clone(), listing: true };
+    let compensating = Compensating {
+        rules: Rules::INTERPRETER,
+        known: true,
+        radii: tables.radii.clone(),
+        listing: true,
+        ..Compensating::default()
+    };
     let target = Target { decimals: 9, compensating, ..Target::default() };
     let (mut program, mut found) = (program.clone(), Vec::new());
     polar_words::run(&mut program, &target, start, &mut found);

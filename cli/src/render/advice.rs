@@ -157,6 +157,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::RoundsFreely => own(
             "state how far corners lie from the path on the source's machine, `--from-option path_tolerance=0.02`, or program a tolerance",
         ),
+        Fault::FeedOnArcs { contour_in_source: true, .. } => {
+            own("look at F on inner arcs: the contour is cut faster there, and slower on outer ones")
+        }
+        Fault::FeedOnArcs { inner: false, .. } => {
+            own("look at F on outer arcs: the contour is cut faster there, and slower on inner ones")
+        }
+        Fault::FeedOnArcs { .. } => own("look at F on inner arcs: the contour is cut slower there"),
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {

@@ -290,6 +290,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::OpenBehaviour { .. }
         | Fault::FeedAtUnits { .. }
         | Fault::MovedAtChange
+        | Fault::FeedOnArcs { .. }
         | Fault::PathAtStart { .. }
         | Fault::NextRunShifted { .. }
         | Fault::NextRunTurned

@@ -4,7 +4,7 @@
 //! is in `advice`, the background on the fault's page in `pages/`.
 
 use ncc_dialects::{Dialect, Meaning};
-use ncc_ir::behaviour::Concern;
+use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
 use ncc_ir::maps::Numbered;
@@ -251,9 +251,20 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "check at the machine: the program sets no path mode".into(),
             format!("corners: {source} on {from}, {target} on {to}"),
         ),
+        Fault::FeedOnArcs { contour_in_source, .. } => (
+            "check at the machine: feed on arcs under cutter compensation".into(),
+            match contour_in_source {
+                true => format!("F counts along the contour on {from}, at the tool centre on {to}"),
+                false => format!("F counts at the tool centre on {from}, along the contour on {to}"),
+            },
+        ),
         Fault::MovedAtChange => (
             "check at the machine: this tool change takes Z to machine zero".into(),
             format!("{to} goes there by itself, {from} does not"),
+        ),
+        Fault::SideEffectWritten { behaviour: behaviour @ Behaviour::FeedOnArcs } => (
+            format!("{}, written as a code", behaviour.about()),
+            format!("{from} and {to} begin with another meaning of F there"),
         ),
         Fault::SideEffectWritten { behaviour } => (
             format!("{}, written as words", behaviour.about()),

@@ -11,7 +11,6 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
-use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
@@ -134,11 +133,6 @@ pub(super) fn target(job: &Job) -> Target {
         // What is asked for by name is done in the source's numbers.
         ..Target::default()
     }
-}
-
-/// The pass that writes what codes do besides their names.
-pub(super) fn side_effects(job: &Job) -> SideEffects {
-    SideEffects::new(job.source_behaviours(), job.target_behaviours(), job.from.fine_increments())
 }
 
 /// How the two controls take corners that no program speaks of, where that is not the same.

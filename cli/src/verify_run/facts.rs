@@ -10,6 +10,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::source::Span;
 use ncc_ir::verify::{Aspect, Difference};
 
 use super::{Run, Stop, Verifier, different};
@@ -45,6 +46,13 @@ impl Other {
 }
 
 impl Run {
+    /// Where F counts otherwise on an arc under compensation, with another value of what it counts there: a target without
+    /// codes for it is not compared in that.
+    pub(super) fn fed_otherwise(&self) -> Option<Span> {
+        let arcs = matches!(self.other, Some(Other::Behaviour { behaviour: Behaviour::FeedOnArcs, .. }));
+        arcs.then(|| self.source.arc_fed_otherwise(&self.target)).flatten().map(|(at, _)| at)
+    }
+
     /// Takes another fact for granted from now on.
     pub(super) fn take(&mut self, other: Other) {
         self.other = Some(other);
@@ -71,7 +79,11 @@ impl Verifier {
 
     /// What the verification has to say of its own reach, and of facts that would make another cut.
     pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
-        let matters = std::mem::take(&mut self.matters);
+        let fed = self.runs.first().and_then(|run| run.source.arc_fed_otherwise(&run.target));
+        let mut matters = std::mem::take(&mut self.matters);
+        // That the usual values differ is reported.
+        let arcs = |other: &Other| matches!(other, Other::Behaviour { behaviour: Behaviour::FeedOnArcs, .. });
+        matters.retain(|(other, _)| fed.is_none() || !arcs(other));
         let told = matters.into_iter().map(|(other, at)| {
             let fault = match other {
                 Other::OptionalStop => Fault::OptionalStopDiffers,
@@ -87,6 +99,9 @@ impl Verifier {
         let told: Vec<Diagnostic> = told.collect();
         let mut notes = std::mem::take(&mut self.notes);
         notes.extend(told);
+        notes.extend(fed.map(|(at, [contour_in_source, inner])| {
+            Diagnostic::new(Fault::FeedOnArcs { contour_in_source, inner }, at)
+        }));
         let standing = self.runs.first().and_then(|run| run.source.cut_standing());
         notes.extend(standing.map(|at| Diagnostic::new(Fault::CutStanding, at)));
         notes
@@ -131,12 +146,11 @@ impl Verifier {
         run.map_or(0, |run| if source { &run.source } else { &run.target }.behaviours().get(behaviour))
     }
 
-    /// Values of a behaviour but the one that the runs have.
+    /// Values of a behaviour that the control can have, but the one that the runs have.
     pub(super) fn other_values(&self, behaviour: Behaviour, source: bool) -> Vec<u8> {
-        let usual = self.usual(behaviour, source);
-        (0..behaviour.values().len() as u8)
-            .filter(|value| *value != usual && !behaviour.is_rare(*value))
-            .collect()
+        let Some(run) = self.runs.first() else { return Vec::new() };
+        let exec = if source { &run.source } else { &run.target };
+        exec.behaviours().others(behaviour).collect()
     }
 
     /// Adds a run with another fact, unless there is one, or it is known to make another cut.
@@ -179,7 +193,13 @@ impl Verifier {
                     found.push((other, at));
                     false
                 }
-                (Ok(()) | Err(_), _) => true,
+                (Ok(()) | Err(_), other) => match run.fed_otherwise() {
+                    Some(at) => {
+                        found.extend(other.map(|other| (other, at)));
+                        false
+                    }
+                    None => true,
+                },
             }
         });
         self.matters.append(&mut found);

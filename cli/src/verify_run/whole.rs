@@ -390,6 +390,9 @@ impl Verifier {
                     }
                     self.matters.push((other, fault.span));
                 }
+                Ok(()) if run.fed_otherwise().is_some() => {
+                    self.matters.extend(run.fed_otherwise().map(|at| (other, at)));
+                }
                 // It cannot be executed so, or is long enough.
                 Ok(()) | Err(Ended::Source(_) | Ended::NotSo(_) | Ended::Enough) => {}
             }

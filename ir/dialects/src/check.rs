@@ -71,6 +71,9 @@ fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fau
         let Some((behaviour, _)) = row.meaning() else {
             return Err(fault(&row.name, "is no behaviour, or has no such value", &places.behaviour, at));
         };
+        if !row.others.iter().all(|name| behaviour.value(name).is_some()) {
+            return Err(fault(&row.name, "has no value of these `others`", &places.behaviour, at));
+        }
         let name = behaviour.option();
         if !row.open || dialect.option.iter().any(|option| option.name == name) {
             continue;

@@ -451,6 +451,9 @@ pub struct BehaviourRow {
     /// whose value `unknown` leaves it open; and every program that comes to it is executed with the other values.
     #[serde(default)]
     pub open: bool,
+    /// Of an open one: the values that this control can have besides the usual one. Without it all values that are not rare.
+    #[serde(default)]
+    pub others: Vec<String>,
     /// Codes that it belongs to, for readers of the tables.
     #[serde(default)]
     pub codes: Vec<String>,
@@ -536,6 +539,8 @@ impl Dialect {
         for row in &self.behaviour {
             if let Some((behaviour, value)) = row.meaning() {
                 all.set(behaviour, value, row.open);
+                let others = row.others.iter().filter_map(|name| behaviour.value(name));
+                all.set_others(behaviour, others.fold(0, |bits, value| bits | 1 << value));
             }
         }
         all

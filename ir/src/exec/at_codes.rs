@@ -47,6 +47,7 @@ impl Exec {
             | bit(dwells, Behaviour::DwellPerRevolution)
             | bit(arcs, Behaviour::ArcByTime)
             | bit(self.is_fine_in(stmts), Behaviour::FineDigits)
+            | bit(self.feeds_arcs_in(stmts), Behaviour::FeedOnArcs)
             | self.lengths_aside_in(stmts)
             | self.by_blocks(stmts)
     }

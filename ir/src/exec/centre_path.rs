@@ -7,9 +7,11 @@
 //! axis that turns along the contour, feeds by time.
 
 use super::{Event, Exec, Kind};
+use crate::arc_feed::centre_speed;
 use crate::beside::{Beside, Leg, Rules, Spot, Unreachable};
 use crate::canon::{AXES, Axis, FeedMode, Plane, Side, Turn, same_point};
 use crate::diag::{Diagnostic, Fault};
+use crate::geometry;
 use crate::num::{Nanos, ONE};
 use crate::program::{CutterRadius, Op, Stmt};
 use crate::source::Span;
@@ -157,6 +159,7 @@ impl Exec {
         }
         let mut made = Vec::new();
         self.step_plainly(stmt, &mut made)?;
+        self.feed_of_arcs(&mut made);
         let Some(mut path) = self.centre_path.take() else { return Ok(()) };
         let words = super::compensation::to(&stmt.op);
         let of_the_plane = words.is_some_and(|to| path.axes.iter().any(|axis| to.axes[*axis].is_some()));
@@ -256,7 +259,7 @@ impl CentrePath {
     /// An event on the contour.
     fn along(&mut self, mut event: Event, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = event.span;
-        let side = event.state.compensation.side;
+        let (side, on_contour) = (event.state.compensation.side, event.state.compensation.on_contour);
         event.state.compensation = super::Compensation::default();
         let Some(radius) = self.radius else {
             if event.kind.moves().is_some() {
@@ -329,11 +332,29 @@ impl CentrePath {
                     out.push(around);
                 }
                 put(&mut event.end, self.axes, now);
+                if let (true, Leg::Arc { centre, ccw, .. }) = (on_contour, leg) {
+                    event.rate = self.rate_of_centre(event.rate, &programmed, centre, ccw, left);
+                }
             }
         }
         self.contour = programmed;
         self.held.push(event);
         Ok(())
+    }
+
+    /// The feed of the tool centre on an arc, from where the contour is, of which F is the speed along the contour.
+    fn rate_of_centre(&self, feed: Nanos, to: &[Nanos; AXES], centre: Spot, ccw: bool, left: bool) -> Nanos {
+        let Some(tool) = self.radius else { return feed };
+        let normal = self.plane.axes().2 as usize;
+        let from = spot(&self.contour, self.axes);
+        let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
+        let along = (to[normal] - self.contour[normal]) as f64 / ONE as f64;
+        let of = |point: &[Nanos; AXES]| self.axes.map(|axis| point[axis]);
+        let turn = if ccw { Turn::Counterclockwise } else { Turn::Clockwise };
+        let middle = centre.map(|mm| (mm * ONE as f64).round() as Nanos);
+        let angle = geometry::sweep_degrees(of(&self.contour), of(to), middle, turn, 0).abs().to_radians();
+        let part = centre_speed(radius, tool.abs(), left == ccw, angle, along);
+        (feed as f64 * part).round() as Nanos
     }
 
     /// Ends the held move, and passes on what stands behind it.

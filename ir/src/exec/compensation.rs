@@ -5,8 +5,10 @@
 //! an arc as the first move or as the one that leaves, cycles, another plane, another frame, another
 //! tool or length, moves to points of the machine. Not here: the path of the tool's centre.
 
-use super::{Event, Exec, Length};
-use crate::canon::{Axis, Plane, Side};
+use super::{Event, Exec, Kind, Length};
+use crate::arc_feed::{self, ArcFeed};
+use crate::behaviour::Behaviour;
+use crate::canon::{AdviceKind, Axis, Plane, Side};
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::{conduct, drilling, flow, miscellaneous, variables};
 use crate::num::{Nanos, ONE};
@@ -23,6 +25,8 @@ pub struct Compensation {
     /// Whether two blocks or more without a move in the plane, or one that goes nowhere, stood before
     /// this move: some controls then do not look as far as this move for the corner before it.
     pub gap: bool,
+    /// Of an arc: whether F counts along the contour, and not at the tool centre.
+    pub on_contour: bool,
     /// The place of the radius: an entry of the table, or with `EDGE` an edge that is none; with `STATED`
     /// the diameter that the program states, in hundredths of a micrometre.
     pub radius: u32,
@@ -37,13 +41,14 @@ impl Compensation {
             Plane::Zx => "ZX",
             Plane::Yz => "YZ",
         };
+        let feed = if self.on_contour { ", F along the contour" } else { "" };
         match self.radius & (EDGE | STATED) {
-            0 => format!("{} in {plane} by entry {}", side.name(), self.radius),
+            0 => format!("{} in {plane} by entry {}{feed}", side.name(), self.radius),
             STATED => {
                 let diameter = f64::from(self.radius & !STATED) / 1e5;
-                format!("{} in {plane} by diameter {diameter}", side.name())
+                format!("{} in {plane} by diameter {diameter}{feed}", side.name())
             }
-            _ => format!("{} in {plane} by an edge of the tool", side.name()),
+            _ => format!("{} in {plane} by an edge of the tool{feed}", side.name()),
         }
     }
 }
@@ -57,7 +62,7 @@ impl Compensation {
 
 impl Default for Compensation {
     fn default() -> Compensation {
-        Compensation { side: None, plane: Plane::Xy, gap: false, radius: 0 }
+        Compensation { side: None, plane: Plane::Xy, gap: false, on_contour: false, radius: 0 }
     }
 }
 
@@ -136,7 +141,8 @@ impl Exec {
             Some(true) => side.other(),
             None => return self.not_executed("cutter radius compensation in a plane that is tilted", span),
         };
-        self.state.compensation = super::Compensation { side: Some(side), plane, gap: false, radius: place };
+        self.state.compensation =
+            super::Compensation { side: Some(side), plane, radius: place, ..super::Compensation::default() };
         let Contour { elsewhere, lines, .. } = self.contour;
         self.contour = Contour { watched: true, elsewhere, lines, plane: Some(plane), ..Contour::default() };
         self.start_path(radius, span)
@@ -239,7 +245,12 @@ impl Exec {
         let computed = self.centre_path.is_some();
         match computed {
             true => self.step_beside(stmt, on, out)?,
-            false => self.step_plainly(stmt, out)?,
+            false => {
+                self.step_plainly(stmt, out)?;
+                if let Some(events) = out.get_mut(events..) {
+                    self.feed_of_arcs(events);
+                }
+            }
         }
         let goes = |axis: Axis| {
             // A word that leads off a computed contour leads to where the program is already.
@@ -270,6 +281,46 @@ impl Exec {
             self.contour.still = 2;
         }
         Ok(())
+    }
+
+    /// Notes of events under compensation what F counts on their arcs.
+    pub(super) fn feed_of_arcs(&mut self, events: &mut [Event]) {
+        for event in events {
+            let (Kind::Arc { turn, .. }, Some(side)) = (&event.kind, self.state.compensation.side) else {
+                event.state.compensation.on_contour = false;
+                continue;
+            };
+            let feed = match (self.state.advice & arc_feed::ADVICE) >> AdviceKind::CompensatedFeed.bits() {
+                0 => {
+                    self.asked |= Behaviour::FeedOnArcs.bit();
+                    ArcFeed::of(&self.world.behaviours)
+                }
+                value => ArcFeed::stated(value as u8 - 1),
+            };
+            let on_contour = feed.on_contour(side, *turn);
+            event.state.compensation.on_contour = on_contour;
+            let inner = usize::from(arc_feed::is_inner(side, *turn));
+            self.arc_feeds[inner][usize::from(on_contour)].get_or_insert(event.span);
+        }
+    }
+
+    /// The first arc under compensation on which F counts otherwise than on the same kind of arc (inner, outer) of another
+    /// run; whether it counts along the contour there, and whether the arc is an inner one.
+    pub fn arc_fed_otherwise(&self, other: &Exec) -> Option<(Span, [bool; 2])> {
+        let of = |inner: usize, on_contour: usize| {
+            let [own, others] = [self, other].map(|exec| exec.arc_feeds[inner]);
+            let otherwise = others[on_contour].is_none() && others[1 - on_contour].is_some();
+            own[on_contour].filter(|_| otherwise).map(|at| (at, [on_contour == 1, inner == 1]))
+        };
+        [of(0, 0), of(0, 1), of(1, 0), of(1, 1)].into_iter().flatten().min_by_key(|(at, _)| at.start)
+    }
+
+    /// Whether these statements come to an arc under compensation on which no code of the program says what F counts.
+    pub(super) fn feeds_arcs_in(&self, stmts: &[Stmt]) -> bool {
+        let starts = |stmt: &Stmt| matches!(stmt.op, Op::StartCutterRadiusCompensation { .. });
+        self.state.advice & arc_feed::ADVICE == 0
+            && (self.state.compensation.side.is_some() || stmts.iter().any(starts))
+            && stmts.iter().any(|stmt| is_arc(&stmt.op) || matches!(stmt.op, Op::Corner { .. }))
     }
 
     /// What no move under compensation can be, or each control does in its own way.

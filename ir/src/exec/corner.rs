@@ -6,7 +6,7 @@
 //! between moves of different feeds, or taken differently; in a frame that scales. Not here: the geometry
 //! (`corner`).
 
-use super::{Event, Exec, Kind};
+use super::{Event, Exec, Kind, State};
 use crate::canon::{AXES, CornerShape, FeedMode, Plane};
 use crate::corner::{self, Leg};
 use crate::diag::{Diagnostic, Fault};
@@ -257,7 +257,12 @@ impl Exec {
         if event.rate != next.rate {
             return not_told("a corner between moves of different feeds", span);
         }
-        if event.state != next.state {
+        // A corner beside a contour has a feed of its own.
+        let but_for_feed = |mut state: State| {
+            state.compensation.on_contour = false;
+            state
+        };
+        if but_for_feed(event.state) != but_for_feed(next.state) {
             return not_told("a corner between moves that are taken differently", span);
         }
         let made = corner::between(&before, leg, asked.shape, asked.size);
@@ -285,12 +290,13 @@ impl Exec {
                 Kind::Arc { plane, turn, full: false, centre }
             }
         };
-        let inserted = Event { kind, end: placed(made.to), span: asked.span, ..event.clone() };
+        let mut inserted = [Event { kind, end: placed(made.to), span: asked.span, ..event.clone() }];
         if made.from != before.from {
             event.end = placed(made.from);
             out.push(event);
         }
-        out.push(inserted);
+        self.feed_of_arcs(&mut inserted);
+        out.extend(inserted);
         out.append(&mut told);
         leg.from = made.to;
         Ok(())

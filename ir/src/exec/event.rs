@@ -1,6 +1,7 @@
 //! Events of the canonical stream.
 
 use super::{Compensation, TiltedPlane};
+use crate::arc_feed;
 use crate::canon::{AXES, AdviceKind, FeedMode, PathMode, Plane, Spindle, SpindleMode, Turn};
 use crate::num::Nanos;
 use crate::program::{Probe, Text, ToolValue, Toward};
@@ -351,7 +352,8 @@ impl State {
             && (self.turned, self.one_side) == (other.turned, other.one_side)
             && self.path == other.path
             && self.compensation == other.compensation
-            && self.advice == other.advice
+            // What F counts on arcs is compared on each of them.
+            && (self.advice ^ other.advice) & !arc_feed::ADVICE == 0
             && self.within == other.within
     }
 }
@@ -400,7 +402,10 @@ impl Seen {
         let tolerance = AdviceKind::PathTolerance.bits();
         // An exact stop of one move leaves the lengths of the mode around it as they are, without a use for them.
         let lengths = self.path && state.path.is_some_and(|mode| seen(mode) && mode != PathMode::ExactStop);
+        let mut compensation = state.compensation;
+        compensation.on_contour &= self.advice & arc_feed::ADVICE == arc_feed::ADVICE;
         State {
+            compensation,
             path: path.filter(|_| self.path),
             advice: state.advice & self.advice,
             within: [

@@ -164,6 +164,8 @@ pub struct Exec {
     counted: u64,
     /// Cuts with the spindle stopped.
     standing: standing::Standing,
+    /// The first arc under compensation: outer and inner ones, each with F at the tool centre and along the contour.
+    arc_feeds: [[Option<Span>; 2]; 2],
 }
 
 /// Modes in force; a control always has a value for each.
@@ -264,6 +266,7 @@ impl Exec {
             every_move: false,
             counted: 0,
             standing: standing::Standing::default(),
+            arc_feeds: [[None; 2]; 2],
         };
         exec.along = exec.length_axis();
         exec.reframe(world.start);

@@ -6,18 +6,24 @@
 //! the tool get an arc before the move that follows them. Refused is a contour that cannot be gone along
 //! without cutting into it ([`crate::beside`]), and what would have to be known and is not: a position, what
 //! a block that may be skipped does, a called program, frames that turn left into right or scale.
+//!
+//! Where F counts along the contour on arcs ([`crate::arc_feed`]), each arc gets the F of the tool centre that takes the
+//! same time.
 
 use std::collections::BTreeMap;
 
 use super::walk::Walk;
 use super::write::{Rebuild, at, exact, rebuild, rounded, unit_of};
 use super::{Target, each_body};
+use crate::arc_feed::{ArcFeed, centre_speed, is_inner};
 use crate::beside::{Beside, Corner, Leg, Rules, Spot, Unreachable};
-use crate::canon::{AXES, Axis, Distance, Fact, FeedMode, Motion, Plane, Side, Turn};
+use crate::canon::{AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Motion, Plane, Side, Turn};
 use crate::cycle::absolute;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
-use crate::num::{Nanos, ONE};
+use crate::geometry;
+use crate::kinds::flow;
+use crate::num::{Nanos, Num, ONE};
 use crate::program::{Arc, Centre, CentreFrom, Coord, CutterRadius, Data, Move, Op, Point, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
@@ -34,12 +40,21 @@ pub struct Compensating {
     pub radii: BTreeMap<u32, Nanos>,
     /// Whether the statements that switch it on and off stay, and every block is one: for a list of calls.
     pub listing: bool,
+    /// What F counts on arcs where the program states nothing, as the source's control has it.
+    pub arc_feed: ArcFeed,
+    /// Digits of F behind the point in the target.
+    pub feed_decimals: u8,
 }
 
 /// Works compensation out.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut told = false;
+    let begins = target.compensating.arc_feed;
+    let mut one = Some(begins);
+    program.procedures.iter().for_each(|procedure| only_meaning(&procedure.body, &mut one));
+    let mut first = true;
     each_body(program, entry, |body, walk| {
+        let main = std::mem::take(&mut first);
         let mut pass = Expansion {
             how: &target.compensating,
             decimals: target.decimals,
@@ -48,6 +63,11 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
             leaving: None,
             no_arc: false,
             told: std::mem::take(&mut told),
+            one_meaning: one.is_some(),
+            // A subprogram has the meaning of its caller.
+            arc_feed: one.or(main.then_some(begins)),
+            feed_decimals: target.compensating.feed_decimals.max(target.caps.feed_decimals),
+            own_feed: None,
         };
         rebuild(body, |stmt, made| {
             walk.enter(stmt.skip);
@@ -71,6 +91,30 @@ struct Expansion<'t> {
     /// The next move must be straight.
     no_arc: bool,
     told: bool,
+    /// Whether all arcs of the program have one meaning of F.
+    one_meaning: bool,
+    /// What F counts on arcs; `None` is not known here.
+    arc_feed: Option<ArcFeed>,
+    /// Digits of F behind the point.
+    feed_decimals: u8,
+    /// The F in force in the output, where it is that of an arc of the tool centre and not the source's.
+    own_feed: Option<Num>,
+}
+
+/// What F counts on arcs in all of a program, if it is one meaning.
+fn only_meaning(body: &[Stmt], one: &mut Option<ArcFeed>) {
+    for stmt in body {
+        match &stmt.op {
+            Op::Advise(advice)
+                if advice.kind == AdviceKind::CompensatedFeed
+                    && *one != Some(ArcFeed::stated(advice.value)) =>
+            {
+                *one = None;
+            }
+            Op::Control(control) => control.bodies().for_each(|body| only_meaning(body, one)),
+            _ => {}
+        }
+    }
 }
 
 /// A contour beside which the tool goes.
@@ -111,6 +155,14 @@ impl Expansion<'_> {
             return cannot("a block that may be skipped", span);
         }
         match &stmt.op {
+            Op::Advise(advice) if advice.kind == AdviceKind::CompensatedFeed && !self.one_meaning => {
+                self.arc_feed = stmt.skip.is_none().then(|| ArcFeed::stated(advice.value));
+            }
+            flow!() if !self.one_meaning => self.arc_feed = None,
+            Op::SetFeedRate(_) => self.own_feed = None,
+            _ => {}
+        }
+        match &stmt.op {
             Op::StartCutterRadiusCompensation { side, radius } => {
                 let contour = self.start(*side, radius, walk, span)?;
                 diags.push(Diagnostic::new(
@@ -135,9 +187,14 @@ impl Expansion<'_> {
                 if let Some(contour) = self.on.take() {
                     self.end(contour, walk, made, span)?;
                     walk.step(&stmt);
-                    match self.how.listing {
-                        true => made.push(stmt),
-                        false => made.leave_out(stmt),
+                    let feed = self.source_feed(walk).map(|op| (true, op));
+                    match (self.how.listing, feed) {
+                        (true, None) => made.push(stmt),
+                        (true, Some(feed)) => {
+                            made.replace(stmt, [feed, (true, Op::StopCutterRadiusCompensation)]);
+                        }
+                        (false, None) => made.leave_out(stmt),
+                        (false, Some(feed)) => made.replace(stmt, [feed]),
                     }
                 } else {
                     walk.step(&stmt);
@@ -279,6 +336,28 @@ impl Expansion<'_> {
             }
             _ => Leg::Line { rapid: motion == Motion::Traverse },
         };
+        let part = match leg {
+            Leg::Arc { centre, ccw, turns } => {
+                let feed = self.arc_feed.ok_or_else(|| {
+                    refuse(Fault::CannotSay {
+                        what: "an arc under cutter radius compensation that is worked out, where what F counts on it is not known"
+                            .into(),
+                    })
+                })?;
+                let side = if contour.left { Side::Left } else { Side::Right };
+                let turn = if ccw { Turn::Counterclockwise } else { Turn::Clockwise };
+                let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
+                match feed.on_contour(side, turn) {
+                    true => {
+                        let arc = (centre, turn, turns);
+                        let (angle, along) = writer.climb(words, from, to, arc).map_err(refuse)?;
+                        Some(centre_speed(radius, contour.radius, is_inner(side, turn), angle, along))
+                    }
+                    false => None,
+                }
+            }
+            Leg::Line { .. } => None,
+        };
         let mut before = None;
         match &mut contour.path {
             None => {
@@ -304,11 +383,34 @@ impl Expansion<'_> {
             Leg::Arc { centre, ccw, turns } => writer.arc(words, centre, ccw, turns),
             Leg::Line { .. } => straight(motion, words),
         };
+        let mut stmt = stmt;
+        let arc_feed = match part {
+            Some(part) => Some(self.feed_of_centre(walk, part, span)?),
+            None => None,
+        };
+        let source_feed = (motion != Motion::Traverse && (arc_feed.is_none() || before.is_some()))
+            .then(|| self.source_feed(walk))
+            .flatten();
+        if arc_feed.is_some()
+            && before.is_none()
+            && let Some(stated) = made.out.pop_if(|last| stmt.joined && matches!(last.op, Op::SetFeedRate(_)))
+        {
+            // F in the same block is that of the contour.
+            (stmt.joined, stmt.number) = (stated.joined, stated.number.or(stmt.number));
+        }
         walk.step(&stmt);
         let listing = self.how.listing;
-        let joined = before.is_some() && listing;
-        let all = before.into_iter().map(|op| (true, op)).chain([(joined, op)]);
-        let all: Vec<(bool, Op)> = all.collect();
+        let mut all: Vec<(bool, Op)> = Vec::new();
+        all.extend(source_feed.map(|op| (true, op)));
+        all.extend(before.map(|op| (true, op)));
+        let joined =
+            all.is_empty() || listing || !all.iter().any(|(_, op)| !matches!(op, Op::SetFeedRate(_)));
+        let in_force = self.own_feed.is_some() && self.own_feed == arc_feed;
+        match arc_feed.filter(|_| !in_force) {
+            Some(feed) => all.extend([(joined, Op::SetFeedRate(feed.into())), (true, op)]),
+            None => all.push((joined, op)),
+        }
+        self.own_feed = arc_feed.or(self.own_feed);
         let own = all.len() == 1;
         match own {
             true => made.push(Stmt { op: all.into_iter().next().map_or(Op::Blank, |(_, op)| op), ..stmt }),
@@ -318,6 +420,25 @@ impl Expansion<'_> {
             contour.held = made.out.len() - 1;
         }
         Ok(())
+    }
+
+    /// The source's F, where the output has another one in force.
+    fn source_feed(&mut self, walk: &Walk) -> Option<Op> {
+        let own = self.own_feed.take();
+        walk.at.feed.filter(|_| own.is_some()).map(|feed| Op::SetFeedRate(feed.into()))
+    }
+
+    /// F of the tool centre: this part of F.
+    fn feed_of_centre(&self, walk: &Walk, part: f64, span: Span) -> Result<Num, Diagnostic> {
+        let Some(feed) = walk.at.feed else {
+            return cannot("an arc with an F along the contour that is not known here", span);
+        };
+        let number = feed.mantissa as f64 / 10f64.powi(i32::from(feed.scale)) * part;
+        let said = Num::from_nanos(nanos(number), self.feed_decimals, feed.unit);
+        match said.is_zero() {
+            true => cannot("an arc with an F at the tool centre that has too few digits", span),
+            false => Ok(said),
+        }
     }
 
     /// Ends a contour.
@@ -443,6 +564,29 @@ impl Written<'_> {
             point[axis as usize].ok_or(Fault::PositionUnknown { axis: char::from(axis.letter()) })
         };
         Ok([at(first)?, at(second)?])
+    }
+
+    /// Angle of an arc of the contour, radians, and how far it goes along the third axis, mm.
+    fn climb(
+        &self,
+        words: &Point,
+        from: Spot,
+        to: Spot,
+        (centre, turn, turns): (Spot, Turn, u32),
+    ) -> Result<(f64, f64), Fault> {
+        let normal = self.plane.axes().2;
+        let along = match words.get(normal) {
+            None => 0.0,
+            Some(_) => {
+                let (at, end) = (&self.walk.at.position, self.walk.at.target(words));
+                let fault = || Fault::PositionUnknown { axis: char::from(normal.letter()) };
+                let climb = at[normal as usize].zip(end[normal as usize]).map(|(here, end)| end - here);
+                mm(climb.ok_or_else(fault)?)
+            }
+        };
+        let of = |spot: Spot| spot.map(nanos);
+        let angle = geometry::sweep_degrees(of(from), of(to), of(centre), turn, turns);
+        Ok((angle.abs().to_radians(), along))
     }
 
     fn coordinate(&self, axis: Axis, mm: f64) -> Coord {

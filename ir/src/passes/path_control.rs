@@ -101,7 +101,8 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
                 }
             },
             Op::Advise(advice) if !caps.advises(advice.kind, advice.value) => {
-                if state.first_time(advice.kind as u32) {
+                // What F counts on arcs is compared where one is cut.
+                if advice.kind != AdviceKind::CompensatedFeed && state.first_time(advice.kind as u32) {
                     let kind = advice.kind.name().into();
                     diags.push(Diagnostic::new(Fault::AdviceLeftOut { kind }, stmt.span));
                 }

@@ -17,7 +17,11 @@
 //!
 //! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
 
+mod arc_feed;
+
+use super::fine_digits;
 use super::tool_words::ToolWords;
+use crate::arc_feed::ArcFeed;
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Axis};
 use crate::diag::{Diagnostic, Fault};
@@ -28,7 +32,7 @@ use crate::num::Num;
 use crate::program::{FrameSlot, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
 
-use super::fine_digits;
+use arc_feed::{compensated, states};
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,6 +73,13 @@ pub struct SideEffects {
     /// Digits that the source's control cuts off.
     fine: fine_digits::State,
     tools: ToolWords,
+    /// What F counts on arcs in the source, to be stated before compensation starts; `None`: the same in the target, or the
+    /// target has no code for it.
+    arc_feed: Option<ArcFeed>,
+    /// Whether a code states it on every path to here.
+    arc_feed_said: bool,
+    /// Whether it is stated where the program begins.
+    arc_feed_at_head: bool,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -105,6 +116,9 @@ impl SideEffects {
             only_sense: None,
             fine: fine_digits::State::new(&source, &target, increments),
             tools: ToolWords::default(),
+            arc_feed: None,
+            arc_feed_said: false,
+            arc_feed_at_head: false,
         }
     }
 
@@ -114,6 +128,7 @@ impl SideEffects {
             || self.source != self.target
                 && (self.again.iter().any(Option::is_some)
                     || self.length_next.is_some()
+                    || self.states_arc_feed(stmts)
                     || stmts.iter().any(|stmt| is_code(&stmt.op)))
     }
 
@@ -128,6 +143,10 @@ impl SideEffects {
             self.tools.before(&stmt, &mut made);
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
+                if let Some(at) = control.bodies().find_map(|body| compensated(body)) {
+                    self.state_arc_feed(&mut stmt.joined, at, &mut made, diags);
+                }
+                let Op::Control(control) = &mut stmt.op else { continue };
                 let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
                 let mut left = [None, None];
                 for body in control.bodies_mut() {
@@ -153,6 +172,7 @@ impl SideEffects {
     pub fn run(&mut self, procedures: &mut [Procedure], diags: &mut Vec<Diagnostic>) {
         self.only_sense = only_sense(procedures);
         self.tools.survey(procedures);
+        self.arc_feed_at_head(procedures, diags);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
@@ -192,6 +212,9 @@ impl SideEffects {
             Op::ProgramEnd => {
                 self.switch(END, false, &mut stmt, made, diags);
                 self.cancel_shifts(&mut stmt, made, diags);
+            }
+            Op::StartCutterRadiusCompensation { .. } => {
+                self.state_arc_feed(&mut stmt.joined, stmt.span, made, diags);
             }
             op if cuts(op) => self.again_before(made, &mut stmt.joined, diags, stmt.span),
             _ => {}
@@ -462,7 +485,11 @@ impl SideEffects {
             Op::SetFrame(_) => self.shifted(FrameSlot::Chain),
             Op::SetPosition(_) => self.shifted(FrameSlot::Shift),
             Op::ClearFrame(slot) if sure => self.shifts.retain(|own| own != slot),
-            flow!() => self.elsewhere(),
+            Op::Advise(_) if states(stmt) => self.arc_feed_said = true,
+            flow!() => {
+                self.elsewhere();
+                self.arc_feed_said &= self.arc_feed_at_head;
+            }
             _ => {}
         }
         self.note_z(stmt);

@@ -1,6 +1,6 @@
 //! Blocks with axis words: straight lines, and arcs in all the forms that a Sinumerik knows.
 
-use super::super::{Halt, Place};
+use super::super::{ArcFeed, Halt, Place};
 use super::text::{Mark, Value};
 use super::{AXES, Control, Motion, Words, arcs};
 
@@ -19,6 +19,14 @@ impl Control<'_> {
 
     /// G41 and G42: by the radius of the edge that the block, or one before it, has made active.
     pub(super) fn compensate(&mut self, w: &Words) -> Result<(), Halt> {
+        for name in &w.names {
+            match *name {
+                "CFC" => self.m.feeds.arcs = ArcFeed::Contour,
+                "CFTCP" => self.m.feeds.arcs = ArcFeed::Centre,
+                "CFIN" => self.m.feeds.arcs = ArcFeed::Inner,
+                _ => {}
+            }
+        }
         let side = w.letters.iter().find_map(|(letter, value, _)| match (letter, value.number as u32) {
             ('G', code @ (41 | 42)) => Some(code == 41),
             _ => None,
