@@ -80,7 +80,7 @@ fn no_milling_program_is_refused() {
     failures.finish();
 }
 
-/// Whether a file describes programs and is none.
+/// Whether a file describes programs, or is a report on one, and is none.
 fn is_prose(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "md" || ending == "txt")
+    path.extension().is_some_and(|ending| ending == "md" || ending == "txt" || ending == "stderr")
 }

@@ -52,6 +52,11 @@ const CONTROL: [&[u8]; 18] = [
     b"REPEAT",
     b"UNTIL",
 ];
+/// Signs that no control writes outside comments and texts in quotes. Braces are left out: some macro languages
+/// have them.
+const FOREIGN: &[u8] = b"\\?!|`^";
+/// A line with more words than these is a sentence, though it may name a code.
+const MANY_WORDS: usize = 4;
 /// Of the lines of a text, so many percent may look like blocks, and so many must be sentences.
 const PROSE: (usize, usize) = (20, 30);
 
@@ -84,6 +89,8 @@ pub(super) struct Course {
     feed_mode: bool,
     /// G93 or G95: G98 and G99 are no modes of the feed then.
     feed_code: bool,
+    /// The first G95.
+    per_revolution: Option<Range<usize>>,
     unit: Unit,
     cycles: bool,
     per_turn: Option<Range<usize>>,
@@ -161,6 +168,12 @@ impl Course {
                 found.map(|(_, place)| place.clone()).filter(|_| !self.incremental && !self.moves_y)
             }
             Sort::FeedPerTurn => self.per_turn.clone().filter(|_| !self.feed_code && self.feeds_below(2.0)),
+            Sort::TurnedFeed => {
+                // G98 and G99 beside G95 are return levels of a mill's cycles.
+                let turned = !self.cycles && self.per_turn.is_none() && self.xz.is_some();
+                let turned = turned && self.feeds_below(2.0);
+                without_y(&self.per_revolution).filter(|_| turned)
+            }
             Sort::LowFeed => {
                 let told = self.per_turn.is_some() || self.feed_mode;
                 self.first_feed.clone().filter(|_| !told && self.feeds_below(1.0))
@@ -224,6 +237,9 @@ impl Course {
         self.incremental |= block.code(b'G', 910);
         self.feed_mode |= [930, 940, 950].iter().any(|code| block.code(b'G', *code));
         self.feed_code |= block.code(b'G', 930) || block.code(b'G', 950);
+        if let Some((_, word)) = block.codes(b'G').find(|(code, _)| *code == 950) {
+            first(&mut self.per_revolution, &word.place);
+        }
         self.length_offset |= block.has(b'H') && (block.code(b'G', 430) || block.code(b'G', 440));
         self.tool_change |= block.code(b'M', 60);
         if block.code(b'G', 210) || block.code(b'G', 710) && !block.has(b'P') && !block.has(b'U') {
@@ -400,23 +416,59 @@ impl Course {
             return;
         }
         self.lines += 1;
+        match Line::of(block) {
+            Line::Block => self.blocks += 1,
+            Line::Sentence => {
+                self.sentences += 1;
+                first(&mut self.first_sentence, &block.place);
+            }
+            Line::Neither => {}
+        }
+    }
+}
+
+/// What a line looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Line {
+    /// A block of some control.
+    Block,
+    /// Words of a text; comments and texts in quotes are none.
+    Sentence,
+    /// It may be either.
+    Neither,
+}
+
+impl Line {
+    /// Of a line that is more than a comment.
+    pub(super) fn of(block: &Block) -> Line {
+        let foreign = block.code.iter().any(|b| FOREIGN.contains(b));
+        if foreign && !block.names.is_empty() && !block.code.contains(&b'#') {
+            return Line::Sentence;
+        }
+        let plain = block.names.iter().filter(|(name, _)| name.iter().all(u8::is_ascii_alphabetic)).count();
+        let codes = block.words.iter().filter(|word| is_block_word(word)).count();
+        if plain > MANY_WORDS && codes <= 2 && !block.code.iter().any(|b| b"=[#<".contains(b)) {
+            return Line::Sentence;
+        }
+        let starts = |sign: &[u8]| block.code.first().is_some_and(|b| sign.contains(b));
+        // A label is a name with a colon; `:1000` is the number of a program.
+        let label = block.names.first().is_some_and(|(name, _)| block.code.get(name.len()) == Some(&b':'));
         let block_like = block.words.iter().any(is_block_word)
-            || block.code.iter().any(|b| b"=%[$:".contains(b))
+            || block.code.iter().any(|b| b"=[".contains(b))
+            || starts(b"%:$/")
+            || label && block.names.len() < 4
             || block.text.windows(2).any(|two| two[0] == b'#' && b"0123456789[<#".contains(&two[1]))
+            || block.text.windows(2).any(|two| two[0] == b'$' && two[1].is_ascii_uppercase())
             || block.text.iter().position(|b| *b == b'(').is_some_and(|at| {
                 at > 1 && block.text[..at].iter().all(|b| b.is_ascii_uppercase() || *b == b'_')
             })
             || block.names.first().is_some_and(|(name, _)| {
                 CONTROL.contains(&&name[..]) || name.starts_with(b"GOTO") || name.contains(&b'_')
             });
-        self.blocks += usize::from(block_like);
-        if block_like {
-            return;
-        }
-        // Comments and texts in quotes are none of them.
-        if block.names.len() >= 4 {
-            self.sentences += 1;
-            first(&mut self.first_sentence, &block.place);
+        match (block_like, block.names.len()) {
+            (true, _) => Line::Block,
+            (false, 4..) => Line::Sentence,
+            (false, _) => Line::Neither,
         }
     }
 }

@@ -14,8 +14,8 @@ pub mod signs;
 use std::ops::Range;
 
 use blocks::Block;
-use course::Course;
-use signs::{Kind, SIGNS, Sign, Sort, System};
+use course::{Course, Line};
+use signs::{Kind, SIGNS, Shape, Sign, Sort, System};
 
 /// How much of a text is weighed, in bytes from its beginning.
 pub const BEGINNING: usize = 1 << 16;
@@ -25,6 +25,8 @@ const MARK: &[u8] = b"\xEF\xBB\xBF";
 const ENOUGH: i32 = 3;
 /// From this weight on, nothing is left to ask.
 const CERTAIN: i32 = 5;
+/// So many hints of different kinds stand for a second strong sign.
+const MANY_HINTS: i32 = 3;
 /// Hints do not count for more than this together, so that no number of them is a strong sign.
 const MOST_HINTS: i32 = 1;
 
@@ -85,8 +87,11 @@ impl Weighed {
         for line in text.split_inclusive(|b| *b == b'\n') {
             block.read(line, at);
             at += line.len();
+            let sentence = Line::of(&block) == Line::Sentence;
             for (found, shape) in shown.iter_mut().zip(shapes) {
-                if found.is_none() {
+                // The words of a sentence are no codes, but it may name a control.
+                let weighed = !sentence || !matches!(shape, Shape::Block { .. });
+                if found.is_none() && weighed {
                     *found = shape.place(&block);
                 }
             }
@@ -119,10 +124,11 @@ impl Weighed {
     fn weight(&self, kind: Kind) -> i32 {
         let own = || self.shown.iter().filter(move |shown| shown.sign.kind == kind).map(|shown| shown.sign);
         let strong = own().filter(|sign| sign.weight >= 2);
-        if own().all(|sign| sign.weight < 3) && strong.clone().count() < 2 {
+        let hints: i32 = own().filter(|sign| sign.weight < 2).map(|sign| i32::from(sign.weight)).sum();
+        let supported = strong.clone().count() > 1 || strong.clone().count() == 1 && hints >= MANY_HINTS;
+        if own().all(|sign| sign.weight < 3) && !supported {
             return 0;
         }
-        let hints: i32 = own().filter(|sign| sign.weight < 2).map(|sign| i32::from(sign.weight)).sum();
         let strong: i32 = strong.map(|sign| i32::from(sign.weight)).sum();
         strong + hints.min(MOST_HINTS) - self.course.milling(kind)
     }

@@ -89,6 +89,8 @@ pub enum Sort {
     RepeatedCycle(u32),
     /// G98 or G99 before any canned cycle, and feeds as low as per revolution.
     FeedPerTurn,
+    /// G95 with feeds as low as that, moves of X and Z, and neither a Y nor a canned cycle.
+    TurnedFeed,
     /// Feeds as low as per revolution while nothing says that they count revolutions.
     LowFeed,
     /// Moves of X and Z, and never a Y.
@@ -216,6 +218,8 @@ pub const SIGNS: &[Sign] = &[
     sign(Lathe, 2, Words("G92 S !X !Y !Z"), BC, "G92 S limits the spindle of a lathe", FANUC_T),
     sign(Lathe, 3, Words("G28 U W !Y"), AH, "U and W are the lathe's incremental X and Z", FANUC_T),
     sign(Lathe, 3, Words("G28 U !Y !V"), AH, "G28 U is the lathe's X to its reference point", FANUC_T),
+    sign(Lathe, 3, Words("G30 U W !Y"), AH, "U and W are the lathe's incremental X and Z", FANUC_T),
+    sign(Lathe, 3, Words("G30 U !Y !V"), AH, "G30 U is the lathe's X to a reference point", FANUC_T),
     sign(Lathe, 3, Words("U W X !Y !V !G10"), AH, "U and W are the lathe's incremental X and Z", FANUC_T),
     sign(Lathe, 2, Words("U Z !Y !V !G10"), AH, "U is the lathe's incremental X", FANUC_T),
     sign(Lathe, 2, Words("W X !Y !V !G10"), AH, "W is the lathe's incremental Z", FANUC_T),
@@ -224,6 +228,7 @@ pub const SIGNS: &[Sign] = &[
     sign(Lathe, 2, Course(Sort::Turret), ANY, "several tools, never M06 and never a Y: a turret", WRITTEN),
     sign(Lathe, 2, Course(Sort::SurfaceSpeed), ANY, "G96 or G97 and never a Y: a turned part", FANUC_T),
     sign(Lathe, 2, Course(Sort::FeedPerTurn), AH, "G98 or G99 with such a feed counts revolutions", FANUC_T),
+    sign(Lathe, 3, Course(Sort::TurnedFeed), ANY, "G95 with X and Z, and never a Y: a turned part", WRITTEN),
     sign(Lathe, 2, Course(Sort::LowFeed), ANY, "a feed as low as this counts revolutions", WRITTEN),
     sign(Lathe, 3, Name("DIAMON"), SIEMENS, "DIAMON: X counts the diameter", SIEMENS_T),
     sign(Lathe, 3, Name("DIAM90"), SIEMENS, "DIAM90: X counts the diameter", SIEMENS_T),
@@ -269,7 +274,7 @@ pub const SIGNS: &[Sign] = &[
     sign(Okuma, 3, Begins("MODIN O"), ANY, "MODIN is a modal call of an Okuma", OKUMA),
     sign(Okuma, 3, Name("MODOUT"), ANY, "MODOUT ends a modal call of an Okuma", OKUMA),
     sign(Okuma, 3, Name("NOEX"), ANY, "NOEX is a word of an Okuma", OKUMA),
-    sign(Okuma, 3, Says("SB="), ANY, "SB= is the speed of an Okuma's driven tool", OKUMA),
+    sign(Okuma, 3, Name("SB"), ANY, "SB= is the speed of an Okuma's driven tool", OKUMA),
     sign(Okuma, 3, Says("G20 HP="), ANY, "G20 HP= is an Okuma's home position", OKUMA),
     sign(Okuma, 3, Begins("DEF WORK"), ANY, "DEF WORK describes an Okuma's blank", OKUMA),
     sign(Okuma, 2, Course(Sort::CommonVariable), ANY, "VC is a common variable of an Okuma", OKUMA),
@@ -281,7 +286,7 @@ pub const SIGNS: &[Sign] = &[
     sign(Okuma, 3, Words("G16 H !G43 !G44"), ANY, "G16 H is an Okuma's work offset", OKUMA),
 
     // Mazatrol.
-    sign(Mazatrol, 3, Says("MAZATROL"), ANY, "the text names Mazatrol", MAZATROL),
+    sign(Mazatrol, 3, Name("MAZATROL"), ANY, "the text names Mazatrol", MAZATROL),
     sign(Mazatrol, 3, Begins("UNO. UNIT"), ANY, "UNo. UNIT heads a unit of Mazatrol", MAZATROL),
     sign(Mazatrol, 3, Begins("UNO UNIT"), ANY, "UNo. UNIT heads a unit of Mazatrol", MAZATROL),
     sign(Mazatrol, 3, Begins("UNO. MAT."), ANY, "UNo. MAT. heads a Mazatrol program", MAZATROL),

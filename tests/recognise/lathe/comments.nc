@@ -1,0 +1,10 @@
+; turning a pin, roughing
+G21 G90
+G18
+S900 M3
+G0 X40.0 Z4.0
+G0 X28.0
+G1 Z-35.0 F0.25
+G1 X31.0 F0.3
+G0 Z4.0
+M30
