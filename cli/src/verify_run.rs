@@ -82,6 +82,8 @@ pub(crate) struct Verifier {
     optional_stop: bool,
     /// Facts that were found to make another cut, each where it does.
     matters: Vec<(Other, Span)>,
+    /// Events of the sets of values, where the program cannot be executed without them.
+    events_of_sets: u64,
     levels: u16,
     /// Whether the target's machine has numbers of its own: then controls are never in one state.
     renamed: bool,
@@ -241,6 +243,7 @@ impl Verifier {
             open: looked_at(job),
             optional_stop: stops_differ(job),
             matters: Vec::new(),
+            events_of_sets: 0,
             levels: 0,
             renamed: !renaming.is_empty(),
             watched: false,
@@ -450,7 +453,7 @@ impl Verifier {
         Verified {
             worlds: WORLDS,
             skip_settings: self.runs.len() as u32 / WORLDS,
-            events: self.runs.iter().map(|r| r.comparison.events).sum(),
+            events: self.runs.iter().map(|r| r.comparison.events).sum::<u64>() + self.events_of_sets,
         }
     }
 

@@ -67,6 +67,25 @@ const STOPS: &[Case] = &[
         &[],
         &[("spindle_at_stop", "stops"), ("coolant_at_stop", "stops")],
     ),
+    // A stop that the block-skip switch leaves out stops nothing.
+    case("haas", "fanuc", "G01 Z-1. F100. / /M00 / X20.", "/M05 / /M00 / X20. / M05 / M30", &[426]),
+    case("haas", "siemens", "M08 / G01 Z-1. F100. / /M00 / X20.", "/M5 M9 / /M0 / X20 / M5 M9 / M30", &[426]),
+    // On a path that not every run takes, and in a program whose variables are set elsewhere.
+    case(
+        "fanuc",
+        "siemens",
+        "G01 Z-1. F100. / IF [#500 NE 7.] GOTO 5 / M00 / G01 X20. / N5 G00 Z10.",
+        "M0 / G1 X20",
+        &[323],
+    ),
+    case("fanuc", "haas", "G01 Z-1. F100. X#24 / M00 / G01 X20.", "M00 / M03 / G01 X20.", &[322, 323]),
+    case(
+        "siemens",
+        "fanuc",
+        "G1 Z-1 F100 / IF R5==7 GOTOF ON / GOTOF OFF / ON: M0 / G1 X20 / OFF: G0 Z10",
+        "M00",
+        &[323],
+    ),
     // An optional stop, which may not be made.
     case("haas", "fanuc", "G01 Z-1. F100. / M01 / X20.", "M05 / M01 / M03 / X20.", &[322, 325, 426]),
     case("linuxcnc", "haas", "G01 Z-1. F100. / M01 / X20.", "M01 / M03 / X20.", &[322]),
@@ -164,6 +183,53 @@ const LENGTHS: &[Case] = &[
     case("linuxcnc", "fanuc", PLACE, "G53 G00 Z0. / G00 X50. / G43 H1 Z10. / G01", &[]),
     case("haas", "fanuc", PLACE, "G53 G00 Z0. / G00 X50. / G43 H1 Z10. / G01", &[]),
     case("fanuc", "haas", PLACE, "", &[509]),
+    // Where paths join: after a decision, in both its bodies, and in a loop that begins again.
+    case(
+        "linuxcnc",
+        "fanuc",
+        "G1 Z-1 F100 / o1 if [#100 EQ 7] / G53 G0 Z0 / o1 endif / G0 Z10 / G1 Z-1",
+        "G53 G00 Z0. / N10 / G00 G43 H1 Z10. / G01",
+        &[],
+    ),
+    case(
+        "linuxcnc",
+        "fanuc",
+        "G1 Z-1 F100 / G53 G0 Z0 / o1 if [#5 LT 2] / G0 X50 Z10 / o1 else / G0 Z20 / o1 endif / G1 Z-1",
+        "G00 G43 H1 X50. Z10. / GOTO 20 / N10 / G00 G43 H1 Z20. / N20",
+        &[],
+    ),
+    case(
+        "linuxcnc",
+        "fanuc",
+        "#1=0 / o1 while [#1 LT 2] / G0 Z10 / G1 Z-1 F100 / G53 G0 Z0 / #1=[#1+1] / o1 endwhile / G0 Z20",
+        "G00 G43 H1 Z10. / G01 Z-1. F100. / G53 G00 Z0. / #1 = #1 + 1 / END1 / G00 G43 H1 Z20.",
+        &[],
+    ),
+    case(
+        "haas",
+        "linuxcnc",
+        "#1=0 / WHILE [#1 LT 2] DO1 / G00 Z10. / G01 Z-1. F100. / G91 G28 Z0. / G90 / #1=#1+1 / END1",
+        "",
+        &[501],
+    ),
+    stated(
+        case(
+            "fanuc",
+            "haas",
+            "#1=0 / WHILE [#1 LT 2] DO1 / G00 Z10. / G01 Z-1. F100. / G91 G28 Z0. / G90 / #1=#1+1 / END1",
+            "DO1 / G00 G43 H1 Z10. / G01 Z-1. F100.",
+            &[],
+        ),
+        &[("length_after_return", "returns")],
+        &[],
+    ),
+    case(
+        "fanuc",
+        "haas",
+        "#1=0 / WHILE [#1 LT 2] DO1 / G00 Z10. / G01 Z-1. F100. / G91 G28 Z0. / G90 / #1=#1+1 / END1",
+        "",
+        &[509],
+    ),
     // It is called up again anyhow.
     case(
         "fanuc",

@@ -189,6 +189,17 @@ struct Came {
     through: bool,
     /// Which start, and the first set with it, with which it is longer than the run of a set may be.
     goes_on: Option<(usize, u32)>,
+    /// Open facts that were come to, a bit each: of the source's control, of the target's.
+    asked: [u64; 2],
+    /// Starts and sets that took a path which none before them had taken.
+    new_paths: Vec<(usize, u32)>,
+    /// Events that were the same on both sides.
+    events: u64,
+}
+
+/// Open facts that either of two runs has come to.
+fn either(asked: [u64; 2], run: &Run) -> [u64; 2] {
+    [asked[0] | run.source.asked(), asked[1] | run.target.asked()]
 }
 
 /// What the target's control refuses of an arc that the source's has made: no pass knows the size of a computed one.
@@ -302,10 +313,11 @@ impl Verifier {
         let mut runs = std::mem::take(&mut self.runs);
         let plain = runs.first().cloned();
         let mut asked = [0; 2];
+        let mut sets = Vec::new();
         for run in &mut runs {
             let start = (!given.open.is_empty() && run.skip == 0).then(|| run.clone());
             let ended = self.run_against(run, [source, &target], given, Set::long(0), &mut gone, pairs);
-            asked = [asked[0] | run.source.asked(), asked[1] | run.target.asked()];
+            asked = either(asked, run);
             match ended {
                 Ok(()) => {}
                 // With other values it may be executed.
@@ -322,10 +334,16 @@ impl Verifier {
         self.runs = runs;
         self.compare_next_runs();
         let sides = [source, &target];
-        if let Some(plain) = plain {
-            self.whole_with_facts(&plain, sides, given, asked)?;
-        }
+        sets.extend(plain.map(|plain| (plain, 0)));
         let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
+        asked = [asked[0] | came.asked[0], asked[1] | came.asked[1]];
+        sets.extend(came.new_paths.iter().map(|(start, set)| (starts[*start].clone(), *set)));
+        if failed.is_some() {
+            self.events_of_sets += came.events;
+        }
+        for (start, set) in &sets {
+            self.whole_with_facts(start, *set, sides, given, asked)?;
+        }
         if let (false, Some((start, set))) = (came.through, came.goes_on) {
             // Only a run that comes to its end shows that the program has one.
             let mut run = starts[start].clone();
@@ -354,27 +372,33 @@ impl Verifier {
         Ok(())
     }
 
-    /// Runs both programs with each open fact that was come to, another one than usual, one at a time.
+    /// Runs both programs with a set of values and with each open fact that was come to, another one than usual, one at
+    /// a time. A fact that is known to matter is not tried again.
     fn whole_with_facts(
         &mut self,
-        plain: &Run,
+        start: &Run,
+        number: u32,
         sides: [&Program; 2],
         given: &Given,
         asked: [u64; 2],
     ) -> Result<(), Stop> {
         for (bits, source) in [(asked[0] & self.open[0], true), (asked[1] & self.open[1], false)] {
-            self.fork_whole(plain, bits, source);
+            self.fork_whole(start, bits, source);
         }
         let optional = |program: &Program| program.procedures.iter().any(|p| has_optional_stop(&p.body));
         if self.optional_stop && optional(sides[0]) {
-            let mut run = plain.clone();
+            let mut run = start.clone();
             run.take(Other::OptionalStop);
             self.others.push(run);
         }
         for mut run in std::mem::take(&mut self.others) {
             run.comparison.keep_pairs(false);
             let Some(other) = run.other else { continue };
-            let set = Set { number: 0, most: MOST_WITH_FACT, idle: None };
+            if self.matters.iter().any(|(known, _)| *known == other) {
+                continue;
+            }
+            let idle = (number > 0).then_some(MOST_OF_SET.1);
+            let set = Set { number, most: MOST_WITH_FACT, idle };
             let ended = self.run_both(&mut run, sides, given, set, &mut Gone::default(), &mut |_| {});
             match ended {
                 Err(Ended::Target(difference)) if !other.explains(&run) => {
@@ -400,12 +424,12 @@ impl Verifier {
         Ok(())
     }
 
-    fn fork_whole(&mut self, plain: &Run, bits: u64, source: bool) {
+    fn fork_whole(&mut self, start: &Run, bits: u64, source: bool) {
         for behaviour in Behaviour::ALL.iter().copied().filter(|behaviour| bits & behaviour.bit() != 0) {
             for value in self.other_values(behaviour, source) {
                 let other = Other::Behaviour { behaviour, source, value };
                 if self.others.iter().all(|run| run.other != Some(other)) {
-                    let mut run = plain.clone();
+                    let mut run = start.clone();
                     run.take(other);
                     self.others.push(run);
                 }
@@ -422,7 +446,7 @@ impl Verifier {
         through: bool,
         gone: &mut Gone,
     ) -> Result<Came, Stop> {
-        let mut came = Came { through, goes_on: None };
+        let mut came = Came { through, goes_on: None, asked: [0; 2], new_paths: Vec::new(), events: 0 };
         let [a, b] = sides.map(Runner::new);
         for set in 1..=SETS {
             let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
@@ -433,7 +457,17 @@ impl Verifier {
             for (at, start) in starts.iter().enumerate() {
                 let mut run = start.clone();
                 run.comparison.keep_pairs(false);
-                match self.run_against(&mut run, sides, given, Set::short(set), gone, &mut |_| {}) {
+                let (before, first) = ((gone.source.clone(), gone.target.clone()), !came.through);
+                let events = run.comparison.events;
+                let ended = self.run_against(&mut run, sides, given, Set::short(set), gone, &mut |_| {});
+                came.asked = either(came.asked, &run);
+                if matches!(ended, Ok(()) | Err(Ended::Enough)) {
+                    came.events += run.comparison.events - events;
+                    if first || before != (gone.source.clone(), gone.target.clone()) {
+                        came.new_paths.push((at, set));
+                    }
+                }
+                match ended {
                     Ok(()) => came.through = true,
                     Err(Ended::Enough) => came.goes_on = came.goes_on.or(Some((at, set))),
                     Err(Ended::Source(_)) => {}

@@ -18,6 +18,7 @@
 //! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
 
 mod arc_feed;
+mod joins;
 
 use super::fine_digits;
 use super::tool_words::ToolWords;
@@ -29,10 +30,11 @@ use crate::exec::Increments;
 use crate::expr::Expr;
 use crate::kinds::{drilling, flow, moves, polar};
 use crate::num::Num;
-use crate::program::{FrameSlot, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt};
+use crate::program::{Control, FrameSlot, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
 
 use arc_feed::{compensated, states};
+use joins::{Length, either};
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -148,17 +150,26 @@ impl SideEffects {
                 }
                 let Op::Control(control) = &mut stmt.op else { continue };
                 let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
+                let length = self.length_into(control, stmt.span);
                 let mut left = [None, None];
+                let mut after = (!matches!(&**control, Control::If { .. })).then(|| length.next.clone());
                 for body in control.bodies_mut() {
                     self.enter(keeps);
+                    self.take_length(&length);
                     self.over(body, diags);
                     // What a stop in a body has switched off may be off after it.
                     for (left, own) in left.iter_mut().zip(&mut self.again) {
                         *left = left.take().or(own.take());
                     }
+                    let own = self.length_next.take();
+                    after = Some(match after {
+                        None => own,
+                        Some(other) => either(own, other, &length, stmt.span),
+                    });
                 }
                 self.enter(keeps);
                 self.again = left;
+                self.take_length(&Length { next: after.flatten(), ..length });
                 made.push(stmt);
                 continue;
             }
@@ -233,6 +244,8 @@ impl SideEffects {
         diags: &mut Vec<Diagnostic>,
     ) {
         let mut off = Vec::new();
+        // A code that is skipped stops nothing.
+        let stopped = if stmt.skip.is_none() { Switch::Off } else { Switch::Unknown };
         for (at, behaviour) in both.into_iter().enumerate() {
             let state = if at == 0 { &self.spindle } else { &self.coolant };
             if *state == Switch::Off {
@@ -248,12 +261,12 @@ impl SideEffects {
                 if let (true, Switch::On(ops)) = (optional, &*state) {
                     self.again[at] = Some((behaviour, ops.clone()));
                 } else if !optional {
-                    *state = Switch::Off;
+                    *state = stopped.clone();
                 }
                 continue;
             }
             if source_stops && !optional {
-                *state = Switch::Off;
+                *state = stopped.clone();
                 continue;
             }
             // The source surely lets it go on, or usually; a spindle that turns over a change is refused elsewhere.
@@ -325,7 +338,7 @@ impl SideEffects {
             let at = insertion(made, stmt);
             insert(made, stmt, at, vec![home]);
         }
-        self.z_home |= source || target;
+        self.z_home |= (source || target) && stmt.skip.is_none();
     }
 
     /// Starts again what the target's control alone has switched off, before a block that cuts.
