@@ -34,7 +34,7 @@ use crate::program::{Control, FrameSlot, Op, Point, Procedure, Reference, Refere
 use crate::source::Span;
 
 use arc_feed::{compensated, states};
-use joins::{Length, either};
+use joins::{LeftAtPlace, Length, either};
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -82,6 +82,8 @@ pub struct SideEffects {
     arc_feed_said: bool,
     /// Whether it is stated where the program begins.
     arc_feed_at_head: bool,
+    /// Procedures that end at a place of the machine along Z.
+    left_at_place: LeftAtPlace,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -121,6 +123,7 @@ impl SideEffects {
             arc_feed: None,
             arc_feed_said: false,
             arc_feed_at_head: false,
+            left_at_place: LeftAtPlace::new(),
         }
     }
 
@@ -184,11 +187,19 @@ impl SideEffects {
         self.only_sense = only_sense(procedures);
         self.tools.survey(procedures);
         self.arc_feed_at_head(procedures, diags);
+        self.left_at_place = joins::left_at_place(procedures);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
             }
+            // What the length needs at its end, it needs at the caller's next move of Z.
+            let end = procedure.body.pop_if(|stmt| at > 0 && matches!(stmt.op, Op::Return) && !stmt.joined);
             self.over(&mut procedure.body, diags);
+            if at > 0 {
+                let span = procedure.body.last().map_or(Span::default(), |stmt| stmt.span);
+                self.again_before(&mut procedure.body, &mut false, diags, span);
+            }
+            procedure.body.extend(end);
         }
     }
 
@@ -230,7 +241,9 @@ impl SideEffects {
             op if cuts(op) => self.again_before(made, &mut stmt.joined, diags, stmt.span),
             _ => {}
         }
+        let length = (self.length.clone(), self.length_known);
         self.note(&stmt);
+        self.after_call(&stmt, length);
         made.push(stmt);
     }
 

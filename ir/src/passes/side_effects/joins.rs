@@ -11,10 +11,12 @@
 //!
 //! Not here: what a place of the machine does to the length (`side_effects`).
 
+use std::collections::BTreeMap;
+
 use crate::behaviour::Behaviour;
 use crate::canon::Axis;
 use crate::kinds::flow;
-use crate::program::{Control, Op, Stmt};
+use crate::program::{Control, Op, Procedure, Stmt, Text};
 use crate::source::Span;
 
 use super::{LengthNext, SideEffects, commands_z};
@@ -41,7 +43,32 @@ enum Tail {
     Settled,
 }
 
+/// Procedures that end at a place of the machine along Z: by what they went there, and whether the length is that of
+/// the caller.
+pub(super) type LeftAtPlace = BTreeMap<Text, (Behaviour, bool)>;
+
+/// Finds the procedures that end at a place of the machine along Z.
+pub(super) fn left_at_place(procedures: &[Procedure]) -> LeftAtPlace {
+    let ends = |procedure: &Procedure| match tail_of(&procedure.body) {
+        Tail::AtPlace(behaviour, _) => {
+            Some((behaviour, !procedure.body.iter().any(|stmt| sets_length(&stmt.op))))
+        }
+        Tail::Unchanged | Tail::Settled => None,
+    };
+    procedures.iter().filter_map(|procedure| Some((procedure.name.clone(), ends(procedure)?))).collect()
+}
+
 impl SideEffects {
+    /// The length after the call of a procedure that ends at a place of the machine; `length` is that before it.
+    pub(super) fn after_call(&mut self, stmt: &Stmt, length: (Option<Op>, bool)) {
+        let Op::Call(call) = &stmt.op else { return };
+        let Some((behaviour, keeps)) = self.left_at_place.get(&call.name).copied() else { return };
+        if keeps && stmt.skip.is_none() {
+            (self.length, self.length_known) = length;
+        }
+        self.length_next = self.length_after(behaviour, stmt.span);
+    }
+
     /// The length of the tool at the start of each body of a control structure. A loop may begin again after a place of
     /// the machine.
     pub(super) fn length_into(&self, control: &Control, span: Span) -> Length {
@@ -97,6 +124,15 @@ fn calls_up_length(op: &Op) -> bool {
     }
 }
 
+/// Whether a statement of a procedure calls a length up, or may by what it calls.
+fn sets_length(op: &Op) -> bool {
+    match op {
+        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| sets_length(&stmt.op))),
+        Op::Call(_) => true,
+        op => !matches!(op, flow!()) && calls_up_length(op),
+    }
+}
+
 /// How a control structure leaves the length of the tool.
 fn tail(control: &Control) -> Tail {
     let mut ends = control.bodies().map(|body| tail_of(body));
@@ -125,6 +161,8 @@ fn tail_of(body: &[Stmt]) -> Tail {
             Op::StraightTraverse(_) if in_machine && commands_z(&stmt.op) => {
                 Tail::AtPlace(Behaviour::LengthAfterMachineMove, stmt.span)
             }
+            // The end of a procedure.
+            Op::Return => left,
             op if stmt.skip.is_none() && (commands_z(op) || calls_up_length(op)) => Tail::Settled,
             _ => left,
         };
