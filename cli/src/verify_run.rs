@@ -494,19 +494,13 @@ impl Verifier {
                 continue;
             }
             let many = self.levels.count_ones() > ALL_SETTINGS;
-            let further: Vec<Run> = self
-                .runs
-                .iter()
-                .filter(|r| !many || r.skip.count_ones() <= 1 || r.skip == all)
-                .cloned()
-                .map(|mut run| {
-                    run.comparison.keep_pairs(false);
-                    run.skip |= bit;
-                    run.source.set_skip(run.skip);
-                    run.target.set_skip(if self.one_level { 1 << 1 } else { run.skip });
-                    run
-                })
-                .collect();
+            let keeps = |skip: u16| !many || skip.count_ones() <= 1 || skip == all;
+            let target = |skip| if self.one_level { 1 << 1 } else { skip };
+            let further = |runs: &[Run]| -> Vec<Run> {
+                runs.iter().filter(|run| keeps(run.skip)).map(|run| run.skipping(bit, target)).collect()
+            };
+            let (further, others) = (further(&self.runs), further(&self.others));
+            self.others.extend(others);
             self.runs.extend(further);
         }
     }

@@ -276,6 +276,19 @@ const TURNS: &[Case] = &[
         SaysIf("G1 A170 F500 / A20 / G91 A-300", &["rotary-feed"]),
     ),
     case("fanuc", "siemens", "G0 A270. / A190.", Says("A270 / A190")),
+    // With the block-skip switch on, or in a loop, by computed numbers.
+    case(
+        "linuxcnc",
+        "fanuc",
+        "G0 A0 / /G0 A170 / G0 A200",
+        SaysIf("/G00 A170. / G00 A200.", &["rotary-turn"]),
+    ),
+    case(
+        "linuxcnc",
+        "fanuc",
+        "G0 A0 / #1=0 / o1 while [#1 LT 3] / G0 A[#1*300] / #1=[#1+1] / o1 endwhile",
+        SaysIf("G00 A[#1 * 300]", &["rotary-turn"]),
+    ),
     // A control's own program stays what it is.
     case("fanuc", "fanuc", "G0 A0 / G1 A200. F500.", Says("A0. / G01 A200. F500.")),
 ];

@@ -183,6 +183,21 @@ const LENGTHS: &[Case] = &[
     case("linuxcnc", "fanuc", PLACE, "G53 G00 Z0. / G00 X50. / G43 H1 Z10. / G01", &[]),
     case("haas", "fanuc", PLACE, "G53 G00 Z0. / G00 X50. / G43 H1 Z10. / G01", &[]),
     case("fanuc", "haas", PLACE, "", &[509]),
+    // A block that the switch leaves out calls no length up, and does not move Z with it.
+    case(
+        "linuxcnc",
+        "fanuc",
+        "G1 Z-1 F100 / G53 G0 Z0 / /G43 H1 Z20 / G0 Z10 / G1 Z-1",
+        "/G43 H1 Z20. / G00 G43 H1 Z10. / G01",
+        &[],
+    ),
+    case(
+        "haas",
+        "fanuc",
+        "G01 Z-1. F100. / G53 G00 Z0. / /G00 Z20. / G00 Z10. / G01 Z-1.",
+        "/G00 G43 H1 Z20. / G00 G43 H1 Z10. / G01",
+        &[],
+    ),
     // Where paths join: after a decision, in both its bodies, and in a loop that begins again.
     case(
         "linuxcnc",

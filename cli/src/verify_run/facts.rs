@@ -53,6 +53,16 @@ impl Run {
         arcs.then(|| self.source.arc_fed_otherwise(&self.target)).flatten().map(|(at, _)| at)
     }
 
+    /// The run with one more block-skip switch on; `target` gives the switches of the target's control.
+    pub(super) fn skipping(&self, bit: u16, target: impl Fn(u16) -> u16) -> Run {
+        let mut run = self.clone();
+        run.comparison.keep_pairs(false);
+        run.skip |= bit;
+        run.source.set_skip(run.skip);
+        run.target.set_skip(target(run.skip));
+        run
+    }
+
     /// Takes another fact for granted from now on.
     pub(super) fn take(&mut self, other: Other) {
         self.other = Some(other);
@@ -112,30 +122,41 @@ impl Verifier {
         if self.open[0] == 0 && !self.optional_stop {
             return;
         }
-        let (mut bits, optional) = come_to(stmts);
-        bits |= self.runs.first().map_or(0, |run| run.source.comes_to(stmts));
-        if optional && self.optional_stop {
-            self.fork_with(Other::OptionalStop);
+        let (bits, optional) = come_to(stmts);
+        for at in Verifier::of_first_world(&self.runs) {
+            let own = bits | self.runs[at].source.comes_to(stmts);
+            if optional && self.optional_stop {
+                self.fork_with(at, Other::OptionalStop);
+            }
+            self.fork_with_each(at, own & self.open[0], true);
         }
-        self.fork_with_each(bits & self.open[0], true);
+    }
+
+    /// The runs of the first world: one for each setting of the block-skip switches.
+    pub(super) fn of_first_world(runs: &[Run]) -> impl Iterator<Item = usize> + use<> {
+        let first = runs.first().map(|run| run.seed);
+        let own: Vec<usize> = (0..runs.len()).filter(|at| Some(runs[*at].seed) == first).collect();
+        own.into_iter()
     }
 
     /// Adds runs for those of the target's control that the text read back comes to.
     pub(super) fn fork_for_facts(&mut self) {
         if self.open[1] != 0 {
-            let (mut bits, _) = come_to(&self.batch.stmts);
-            bits |= self.runs.first().map_or(0, |run| run.target.comes_to(&self.batch.stmts));
-            self.fork_with_each(bits & self.open[1], false);
+            let (bits, _) = come_to(&self.batch.stmts);
+            for at in Verifier::of_first_world(&self.runs) {
+                let own = bits | self.runs[at].target.comes_to(&self.batch.stmts);
+                self.fork_with_each(at, own & self.open[1], false);
+            }
         }
     }
 
-    fn fork_with_each(&mut self, bits: u64, source: bool) {
+    fn fork_with_each(&mut self, at: usize, bits: u64, source: bool) {
         if bits == 0 {
             return;
         }
         for behaviour in Behaviour::ALL.iter().copied().filter(|behaviour| bits & behaviour.bit() != 0) {
             for value in self.other_values(behaviour, source) {
-                self.fork_with(Other::Behaviour { behaviour, source, value });
+                self.fork_with(at, Other::Behaviour { behaviour, source, value });
             }
         }
     }
@@ -153,13 +174,14 @@ impl Verifier {
         exec.behaviours().others(behaviour).collect()
     }
 
-    /// Adds a run with another fact, unless there is one, or it is known to make another cut.
-    fn fork_with(&mut self, other: Other) {
+    /// Adds a run with another fact to one of the runs, unless it has one, or the fact is known to make another cut.
+    fn fork_with(&mut self, at: usize, other: Other) {
+        let skip = self.runs[at].skip;
         let known = self.matters.iter().any(|(found, _)| *found == other);
-        if known || self.others.iter().any(|run| run.other == Some(other)) {
+        if known || self.others.iter().any(|run| run.other == Some(other) && run.skip == skip) {
             return;
         }
-        let Some(mut run) = self.runs.first().cloned() else { return };
+        let mut run = self.runs[at].clone();
         run.comparison.keep_pairs(false);
         run.take(other);
         self.others.push(run);
@@ -208,8 +230,9 @@ impl Verifier {
 
     /// Leaves runs out that have come to the state of the usual one: what follows is the same.
     pub(super) fn drop_same(&mut self) {
-        let Some(usual) = self.runs.first() else { return };
+        let usual = |own: &Run| self.runs.iter().find(|run| (run.seed, run.skip) == (own.seed, own.skip));
         self.others.retain(|run| {
+            let Some(usual) = usual(run) else { return false };
             !(run.source.agrees(&usual.source)
                 && run.target.agrees(&usual.target)
                 && run.source_events == usual.source_events

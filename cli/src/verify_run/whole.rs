@@ -311,7 +311,7 @@ impl Verifier {
         let mut starts = Vec::new();
         let mut failed = None;
         let mut runs = std::mem::take(&mut self.runs);
-        let plain = runs.first().cloned();
+        let plain: Vec<Run> = Verifier::of_first_world(&runs).map(|at| runs[at].clone()).collect();
         let mut asked = [0; 2];
         let mut sets = Vec::new();
         for run in &mut runs {
@@ -334,7 +334,7 @@ impl Verifier {
         self.runs = runs;
         self.compare_next_runs();
         let sides = [source, &target];
-        sets.extend(plain.map(|plain| (plain, 0)));
+        sets.extend(plain.into_iter().map(|plain| (plain, 0)));
         let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
         asked = [asked[0] | came.asked[0], asked[1] | came.asked[1]];
         sets.extend(came.new_paths.iter().map(|(start, set)| (starts[*start].clone(), *set)));

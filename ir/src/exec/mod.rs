@@ -319,6 +319,12 @@ impl Exec {
         self.skip = skip;
     }
 
+    /// Whether a block-skip switch leaves a statement out.
+    #[inline]
+    fn skips(&self, stmt: &Stmt) -> bool {
+        stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1)
+    }
+
     /// Where the axes stand, in machine coordinates.
     #[inline]
     pub fn machine(&self) -> [Nanos; AXES] {
@@ -450,7 +456,7 @@ impl Exec {
         if self.in_block.is_some() {
             self.settle_block(stmt, out)?;
         }
-        if self.ended || stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1) {
+        if self.ended || self.skips(stmt) {
             return Ok(());
         }
         if self.state.tip || self.state.tilted {

@@ -65,7 +65,7 @@ impl Exec {
     /// Whether any of these statements turns a rotary axis in a way that controls do not agree about.
     pub(super) fn turns_far_in(&self, stmts: &[Stmt]) -> bool {
         let (mut at, mut known, mut distance) = (self.position, self.turned_known, self.modes.distance);
-        for stmt in stmts {
+        for stmt in stmts.iter().filter(|stmt| !self.skips(stmt)) {
             let to = match &stmt.op {
                 Op::SetDistanceMode(mode) => {
                     distance = *mode;

@@ -401,14 +401,19 @@ impl SideEffects {
             return;
         }
         if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } | Op::UseToolLength(_)) {
-            self.length_next = None;
+            // A block that is skipped calls nothing up.
+            self.length_next = self.length_next.take().filter(|_| stmt.skip.is_some());
             (self.length, self.length_known) = (Some(stmt.op.clone()), stmt.skip.is_none());
             return;
         }
         if !commands_z(&stmt.op) || matches!(stmt.op, Op::GoToReference(_)) {
             return;
         }
-        match self.length_next.take() {
+        let next = self.length_next.take();
+        if stmt.skip.is_some() {
+            self.length_next.clone_from(&next);
+        }
+        match next {
             None => {}
             Some(LengthNext::Say(op)) => {
                 let mut at = made.len();
