@@ -40,12 +40,14 @@ pub(super) struct State {
     by_time: bool,
     stale: bool,
     ended: bool,
+    /// The units have changed, and which feed is in force is not known: the caller or the iteration before has set it.
+    lost: bool,
 }
 
 impl State {
     /// Whether a feed waits to be said again.
     pub(super) fn is_busy(&self) -> bool {
-        self.stale || self.ended
+        self.stale || self.ended || self.lost
     }
 
     /// Notes the feed of a statement.
@@ -60,12 +62,16 @@ impl State {
             _ => return,
         };
         self.feed = feed.literal();
-        (self.stale, self.ended, self.before) = (false, false, None);
+        (self.stale, self.ended, self.lost, self.before) = (false, false, false, None);
     }
 
-    /// The units change.
-    fn units(&mut self, units: Units, known: Option<Units>, target: &Target) {
-        if known == Some(units) || self.feed.is_none() || self.by_time {
+    /// The units change; `mixed`: there are both in this body.
+    fn units(&mut self, units: Units, known: Option<Units>, mixed: bool, target: &Target) {
+        if known == Some(units) || self.by_time {
+            return;
+        }
+        if self.feed.is_none() {
+            self.lost = mixed;
             return;
         }
         self.stale = true;
@@ -90,6 +96,8 @@ pub(super) fn again(
     diags: &mut Vec<Diagnostic>,
 ) {
     let mut split = false;
+    let has = |units| body.iter().any(|stmt| stmt.op == Op::UseLengthUnits(units));
+    let mixed = says_again(target) && has(Units::Mm) && has(Units::Inch);
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         stmt.joined &= !std::mem::take(&mut split);
@@ -104,6 +112,11 @@ pub(super) fn again(
             let what = "a feed that is not known here and holds behind a code of what it counts";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
             state.ended = false;
+        }
+        let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
+        if (cuts || may_cut) && std::mem::take(&mut state.lost) {
+            let what = "a feed that is not known here and holds after a change of units";
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
         if let (true, true, Some(feed), Some(units)) = (cuts, again, state.feed, walk.at.modes.units) {
             if state.stale {
@@ -121,7 +134,7 @@ pub(super) fn again(
             made.push(said);
         }
         if let Op::UseLengthUnits(units) = &stmt.op {
-            state.units(*units, walk.at.modes.units, target);
+            state.units(*units, walk.at.modes.units, mixed, target);
             if target.caps.units_alone && walk.at.modes.units.is_some_and(|now| now != *units) {
                 (stmt.joined, split) = (false, true);
             }

@@ -142,6 +142,7 @@ impl Legaliser {
             self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
             self.taps = taps::State::default();
+            self.feed = feed_unit::State::default();
             self.threads = threads::State::default();
             self.edge.start_over();
             self.axis.start_over();
