@@ -167,6 +167,25 @@ const PITCHES: &[Case] = &[
         "G700 / F50 / G0 Z1 / MCALL CYCLE84(1,0.1,0,-0.5,,,3,,0.05,,1000,1000) / X1 / MCALL",
         Says("CYCLE84(1,0.1,0,-0.5,,,3,,0.05,,1000,1000,,3)"),
     ),
+    // Both units in one program, and a rigid tap whose code stands in another program than its cycle.
+    case(
+        "fanuc",
+        "siemens",
+        "G20 / M29 S500 / G98 G84 X1. Z-0.5 R0.2 F25. / G80 / G21 / M29 S500 / G84 X1. Z-5. R2. F500. / G80",
+        Says("-0.5,,,5,,0.05,,500,500,,3)"),
+    ),
+    case(
+        "fanuc",
+        "siemens",
+        "M29 S500 / M98 P2 / G84 X1. Z-5. R2. F500. / G80 / M30 / O2 / X2. / M99",
+        Refused(202),
+    ),
+    case(
+        "fanuc",
+        "siemens",
+        "IF [#500 GT 2.] GOTO 5 / M29 S500 / N5 G98 G84 X1. Z-5. R2. F500. / G80",
+        Refused(202),
+    ),
     // Without a word of its unit it is in millimetres where the machine is.
     case(
         "siemens",
@@ -210,6 +229,25 @@ const LENGTHS: &[Case] = &[
     case("fanuc", "siemens", "G18 / G2 X20. Z40. R10. F100. / G17 / G0 Z50.", SaysIf("G2 X20 Z40", AXIS)),
     case("haas", "siemens", "G19 / G1 Y20. Z40. F100. / G17 / G0 Z50.", SaysIf("G1 Y20 Z40", AXIS)),
     case("linuxcnc", "siemens", "G18 / G1 X20 F100 / Z40 / G17 / G0 Z50", SaysIf("G1 X20", AXIS)),
+    // In a program with variables, in a loop, and in an arc that the control would refuse then.
+    case(
+        "fanuc",
+        "siemens",
+        "#1=1 / G18 / G01 X20. Z-10. F100. / G17 / G00 Z50.",
+        SaysIf("G18 / G1 X20 Z-10", AXIS),
+    ),
+    case(
+        "haas",
+        "siemens",
+        "#1=1 / G18 / G02 X30. Z30. R20. F100. / G17 / G00 Z50.",
+        SaysIf("G18 / G2 X30 Z30 CR=20", AXIS),
+    ),
+    case(
+        "fanuc",
+        "siemens",
+        "#1=0 / WHILE [#1 LT 2] DO1 / G18 / G01 Z-10. F100. / G17 / G00 Z10. / #1=#1+1 / END1",
+        SaysIf("G18 / G1 Z-10", AXIS),
+    ),
     // Nothing in the other plane, or no length.
     case("fanuc", "siemens", "G18 / G17 / G1 X20. F100.", Says("G18 / G17 / G1 X20 F100")),
     case("fanuc", "siemens", "G49 Z60. / G18 / G2 X20. Z50. R10. F100.", Says("G2 X20 Z50")),

@@ -417,8 +417,11 @@ impl Verifier {
                 Ok(()) if run.fed_otherwise().is_some() => {
                     self.matters.extend(run.fed_otherwise().map(|at| (other, at)));
                 }
+                // The target's control stops at an arc that the source has made.
+                Err(Ended::NotSo(fault)) if other.explains(&run) => self.matters.push((other, fault.span)),
+                Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                 // It cannot be executed so, or is long enough.
-                Ok(()) | Err(Ended::Source(_) | Ended::NotSo(_) | Ended::Enough) => {}
+                Ok(()) | Err(Ended::Source(_) | Ended::Enough) => {}
             }
         }
         Ok(())

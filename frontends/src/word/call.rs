@@ -132,6 +132,7 @@ impl Lower {
         }
         self.ended |= self.now.skip.is_none();
         self.leave_motion(None, out);
+        self.tap_elsewhere(out);
         self.push(code.span, Op::Return, out);
     }
 }

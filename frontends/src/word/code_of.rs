@@ -214,7 +214,7 @@ impl Lower {
             Op::StraightTraverse(_) | Op::StraightFeed(_) => {
                 self.state.cycle = InForce::None;
                 self.state.after_cycle = false;
-                self.state.rigid = false;
+                self.state.rigid = None;
                 self.state.motion = Know::Lost;
                 (self.state.thread, self.state.lead) = (None, None);
                 self.state.no_motion = false;

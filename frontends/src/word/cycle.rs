@@ -550,7 +550,7 @@ impl Lower {
     fn tap_is_rigid(&mut self, row: &CycleRow, at: Span, out: &mut Batch) -> bool {
         match row.kind.as_str() {
             "tap-rigid" => true,
-            "tap" if self.state.rigid => true,
+            "tap" if self.state.rigid.is_some() => true,
             "tap" => self.option(TAPPING, at, out) == "rigid",
             _ => false,
         }

@@ -185,8 +185,8 @@ pub(super) struct State {
     /// Whether a tool was selected.
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
-    /// Whether the next tapping cycle is a rigid one.
-    pub(super) rigid: bool,
+    /// The code by which the next tapping cycle is a rigid one.
+    pub(super) rigid: Option<Span>,
     /// Rotation, factors or a mirror that the program has in force, a bit each.
     pub(super) turned: u8,
     /// What the words of the plane's axes are.
@@ -236,7 +236,7 @@ impl State {
             feed: Know::Lost,
             tool: Know::Lost,
             cycle: InForce::Lost,
-            rigid: false,
+            rigid: None,
             level_changed: false,
             turned: 0,
             words: Words::Cartesian,
@@ -329,7 +329,7 @@ impl State {
         }
         if self.rigid != before.rigid {
             // A block that may be skipped decides: which cycle it is, is not known.
-            self.rigid = false;
+            self.rigid = None;
             self.cycle = InForce::Lost;
         }
         self.cycle_feed = self.cycle_feed.or(before.cycle_feed);

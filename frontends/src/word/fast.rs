@@ -83,7 +83,7 @@ impl Lower {
             || no_feed
             || state.after_cycle
             || state.no_motion
-            || state.rigid
+            || state.rigid.is_some()
             || state.cycle != InForce::None
             || state.unplaced != 0
             || state.words != Words::Cartesian

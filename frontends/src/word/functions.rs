@@ -310,7 +310,7 @@ impl Lower {
 
     /// Between the code for rigid tapping and its cycle no axis moves and no speed is said: a control alarms.
     fn nothing_before_the_tap(&mut self, codes: &[Code], block: Span, words: &Words, out: &mut Batch) {
-        let waits = self.state.rigid && self.state.cycle == InForce::None;
+        let waits = self.state.rigid.is_some() && self.state.cycle == InForce::None;
         let settled =
             |c: &Code| matches!(c.meaning, Meaning::StartCycle | Meaning::EndCycle | Meaning::Dwell);
         let words = || self.has_axis_word(words) || words.get(self.roles.speed).is_some();
@@ -356,7 +356,7 @@ impl Lower {
                 Op::MachineFunction(name.into())
             }
             Meaning::RigidTapping => {
-                self.state.rigid = true;
+                self.state.rigid = Some(code.span);
                 return;
             }
             Meaning::FloodOn => Op::FloodOn,

@@ -26,7 +26,7 @@ impl Lower {
         self.state.after_cycle |= self.state.cycle != InForce::None;
         self.state.cycle = InForce::None;
         self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
-        self.state.rigid = false;
+        self.state.rigid = None;
         self.now.cycle_ended = true;
     }
 
@@ -60,7 +60,7 @@ impl Lower {
                     self.push(code.span, Op::EndCycle, out);
                 }
                 self.state.cycle = InForce::None;
-                self.state.rigid = false;
+                self.state.rigid = None;
             }
             let lead = self.state.lead;
             let before = self.state.motion;

@@ -8,7 +8,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
-use super::facts::{Know, State};
+use super::facts::{InForce, Know, State};
 use super::lower::Lower;
 use crate::Batch;
 
@@ -65,7 +65,19 @@ impl Lower {
     pub(super) fn lose_state(&mut self, out: &mut Batch) {
         self.leave_motion(None, out);
         self.carry_dwell(out);
+        self.tap_elsewhere(out);
         self.state = if self.assume { self.state.met() } else { State::lost() };
+    }
+
+    /// Control goes elsewhere between the code for rigid tapping and its cycle: nobody knows there that it is rigid.
+    pub(super) fn tap_elsewhere(&mut self, out: &mut Batch) {
+        if let Some(code) = self.state.rigid.filter(|_| !matches!(self.state.cycle, InForce::Active(_))) {
+            let fault = Fault::NotSupported {
+                code: "a call or a jump".into(),
+                name: "between the code for rigid tapping and its cycle".into(),
+            };
+            self.fault(fault, code, out);
+        }
     }
 
     /// The facts of motion are lost, or others than the next block may go on with them; `skip` is that of the code.

@@ -65,13 +65,13 @@ impl State {
         (self.stale, self.ended, self.lost, self.before) = (false, false, false, None);
     }
 
-    /// The units change; `mixed`: there are both in this body.
-    fn units(&mut self, units: Units, known: Option<Units>, mixed: bool, target: &Target) {
+    /// The units change; `lost`: a feed that is not known may be in force.
+    fn units(&mut self, units: Units, known: Option<Units>, lost: bool, target: &Target) {
         if known == Some(units) || self.by_time {
             return;
         }
         if self.feed.is_none() {
-            self.lost = mixed;
+            self.lost = lost;
             return;
         }
         self.stale = true;
@@ -114,7 +114,8 @@ pub(super) fn again(
             state.ended = false;
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
-        if (cuts || may_cut) && std::mem::take(&mut state.lost) {
+        let by_feed = cuts && !matches!(stmt.op.unwrapped(), Op::SynchronisedFeed(_));
+        if (by_feed || may_cut) && std::mem::take(&mut state.lost) {
             let what = "a feed that is not known here and holds after a change of units";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
@@ -134,7 +135,7 @@ pub(super) fn again(
             made.push(said);
         }
         if let Op::UseLengthUnits(units) = &stmt.op {
-            state.units(*units, walk.at.modes.units, mixed, target);
+            state.units(*units, walk.at.modes.units, mixed && walk.at.fed, target);
             if target.caps.units_alone && walk.at.modes.units.is_some_and(|now| now != *units) {
                 (stmt.joined, split) = (false, true);
             }
