@@ -439,6 +439,9 @@ faults! {
     /// A fact that the program leaves to what was in force before it, and that the target's control always
     /// begins with a value of its own for.
     FactUnsaid { fact: ModeName } = 507, Error;
+    /// By how many degrees a rotary axis turns is left to the two controls: by what the number says, or another way;
+    /// nanos.
+    RotaryTurnOpen { axis: Axis, by: i64, or: i64 } = 522, Error;
     /// The radii of an arc at start and end differ by more than the target's control accepts; nanos of a millimetre.
     ArcRadiiDiffer { radii: [i64; 2], allowed: i64 } = 520, Error;
     /// The target's control refuses it while cutter radius compensation is on.

@@ -188,6 +188,7 @@ impl Fault {
             | Fault::MustBeStated { .. }
             | Fault::RefusedCompensated { .. }
             | Fault::ArcRadiiDiffer { .. }
+            | Fault::RotaryTurnOpen { .. }
             | Fault::CompensatedThere { .. }
             | Fault::TargetRange { .. }
             | Fault::ProfileDenies { .. }

@@ -269,9 +269,9 @@ const SIGN: &[(&str, &str)] = &[("rotary_turn", "sign")];
 
 /// How far, and which way round, an absolute word turns a rotary axis.
 const TURNS: &[Case] = &[
-    case("linuxcnc", "fanuc", "G0 X0 A0 / G1 X20 A28800 F500 / G0 A0", Refused(501)),
-    case("fanuc", "linuxcnc", "G0 X0 A0 / G1 A200. F500.", Refused(501)),
-    case("fanuc", "siemens", "G0 A0 / G0 A170. / A200. / A20.", Refused(501)),
+    case("linuxcnc", "fanuc", "G0 X0 A0 / G1 X20 A28800 F500 / G0 A0", Refused(522)),
+    case("fanuc", "linuxcnc", "G0 X0 A0 / G1 A200. F500.", Refused(522)),
+    case("fanuc", "siemens", "G0 A0 / G0 A170. / A200. / A20.", Refused(522)),
     stated(
         "linuxcnc",
         NUMBER,
@@ -288,7 +288,7 @@ const TURNS: &[Case] = &[
         "G0 A0 / G1 A200. F500.",
         SaysIf("G1 A200 F500", &["rotary-feed"]),
     ),
-    stated("fanuc", SHORTEST, "siemens", NUMBER, "G0 A0 / G1 A200. F500.", Refused(501)),
+    stated("fanuc", SHORTEST, "siemens", NUMBER, "G0 A0 / G1 A200. F500.", Refused(522)),
     stated(
         "fanuc",
         SHORTEST,
@@ -297,7 +297,7 @@ const TURNS: &[Case] = &[
         "G0 A0 / G1 A170. F500. / A20.",
         SaysIf("G1 A170 F500 / A20", &["rotary-feed"]),
     ),
-    stated("linuxcnc", SIGN, "siemens", NUMBER, "G0 A20 / G1 A10 F500", Refused(501)),
+    stated("linuxcnc", SIGN, "siemens", NUMBER, "G0 A20 / G1 A10 F500", Refused(522)),
     stated(
         "linuxcnc",
         SIGN,

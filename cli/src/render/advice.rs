@@ -5,9 +5,9 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
-use ncc_ir::passes::{frame_increments, rotary_turns};
+use ncc_ir::passes::frame_increments;
 
-use super::words::{Context, millimetres, mode, plain, plain_upto};
+use super::words::{Context, millimetres, mode, plain, plain_upto, signed};
 use crate::review::words::decimal;
 
 /// What to do. Empty where the message says it already.
@@ -273,16 +273,26 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::CannotSay { what } if &**what == rotary_turns::REFUSED => {
+        Fault::RotaryTurnOpen { by, or, .. } => {
             let way = Behaviour::RotaryTurn;
+            let values = way.values();
             let open = [("from", at.from), ("to", at.to)]
                 .into_iter()
                 .filter(|(_, dialect)| dialect.behaviour_row(way).is_some_and(|row| row.open));
             let state = open.map(|(side, dialect)| {
-                format!("state how {} turns it: `--{side}-option {}=…`", dialect.id, way.option())
+                let option = way.option();
+                format!(
+                    "state how {} turns it: `--{side}-option {option}={}` (by {}) or `={}` (by {})",
+                    dialect.id,
+                    values[0],
+                    signed(*by),
+                    values[1],
+                    signed(*or)
+                )
             });
-            let all: Vec<String> = state.collect();
-            if all.is_empty() { own("turn it by less than half a turn in each block") } else { all }
+            let mut all: Vec<String> = state.collect();
+            all.extend(own("or turn it by less than half a turn in each block"));
+            all
         }
         Fault::CannotSay { what } if what.starts_with(frame_increments::REFUSED) => {
             let mut all = own("give the axis its first word after the change in G90");

@@ -6,6 +6,7 @@
 pub mod advice;
 pub mod human;
 pub mod json;
+mod numbers;
 pub mod questions;
 pub mod source;
 pub mod summary;

@@ -412,6 +412,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::SecondWorkOffset { .. }
         | Fault::FactUnsaid { .. }
         | Fault::ArcRadiiDiffer { .. }
+        | Fault::RotaryTurnOpen { .. }
         | Fault::CompensatedThere { .. }
         | Fault::RefusedCompensated { .. }
         | Fault::ArcVanishes

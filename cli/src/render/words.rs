@@ -3,12 +3,12 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
+pub(super) use super::numbers::{millimetres, signed};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
 use ncc_ir::maps::Numbered;
-use ncc_ir::num::ONE;
 
 /// What the wording may name besides the fault's own data.
 #[derive(Clone, Copy, Debug)]
@@ -224,8 +224,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!(
                 "{from} begins it with {} shifted by {}, {to} by {}",
                 char::from(axis.letter()),
-                millimetres(*source),
-                millimetres(*target)
+                signed(*source),
+                signed(*target)
             ),
         ),
         Fault::RoundsFreely => (
@@ -270,6 +270,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{}, written as words", behaviour.about()),
             format!("{from} does it by itself here"),
         ),
+        Fault::RotaryTurnOpen { axis, by, or } => {
+            let axis = char::from(axis.letter());
+            (
+                format!("{axis} turns by {} degrees here, or by {}?", signed(*by), signed(*or)),
+                format!("a setting of each machine decides, on {from} and on {to}"),
+            )
+        }
         Fault::MustBeStated { behaviour } => (
             format!("{}: what does {from} do here?", behaviour.about()),
             format!("a parameter of the machine decides; {to} must be told"),
@@ -671,12 +678,6 @@ fn character(c: char) -> String {
 /// Both radii of an arc.
 fn radii_of([start, end]: [i64; 2]) -> String {
     format!("radius {} mm at the start, {} mm at the end", millimetres(start), millimetres(end))
-}
-
-/// Nanos in millimetres, to four digits after the point.
-pub(super) fn millimetres(nanos: i64) -> String {
-    let text = format!("{:.4}", nanos.abs() as f64 / ONE as f64);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// The path of a return to a reference point: by its words, which are places of the part, or counted from where the

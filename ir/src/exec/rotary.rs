@@ -8,6 +8,7 @@
 use super::Exec;
 use crate::behaviour::Behaviour;
 use crate::canon::{AXES, Axis, Distance};
+use crate::kinds::frames;
 use crate::num::{Nanos, ONE};
 use crate::program::{Coord, Op, Point, Stmt};
 
@@ -65,6 +66,8 @@ impl Exec {
     /// Whether any of these statements turns a rotary axis in a way that controls do not agree about.
     pub(super) fn turns_far_in(&self, stmts: &[Stmt]) -> bool {
         let (mut at, mut known, mut distance) = (self.position, self.turned_known, self.modes.distance);
+        // Behind another zero, where an axis stands hangs on the tables.
+        let mut elsewhere = 0;
         for stmt in stmts.iter().filter(|stmt| !self.skips(stmt)) {
             let to = match &stmt.op {
                 Op::SetDistanceMode(mode) => {
@@ -72,6 +75,10 @@ impl Exec {
                     continue;
                 }
                 Op::StraightTraverse(m) | Op::StraightFeed(m) => &m.to,
+                frames!() | Op::SetData(_) => {
+                    elsewhere = known;
+                    continue;
+                }
                 _ => continue,
             };
             for (axis, at) in at.iter_mut().enumerate().skip(Axis::A as usize) {
@@ -81,7 +88,8 @@ impl Exec {
                     *at += value;
                     continue;
                 }
-                if known >> axis & 1 == 1 && end(SHORTEST, *at, value) != value {
+                let unsure = elsewhere >> axis & 1 == 1;
+                if unsure || known >> axis & 1 == 1 && end(SHORTEST, *at, value) != value {
                     return true;
                 }
                 *at = value;

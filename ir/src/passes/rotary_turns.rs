@@ -12,14 +12,15 @@ use crate::diag::{Diagnostic, Fault};
 use crate::exec::rotary_end;
 use crate::program::{Op, Stmt};
 
-/// What is said of such a word.
-pub const REFUSED: &str = "a rotary axis that turns by half a turn or more";
-
 /// What both controls do, as far as it is known.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct State {
     /// Values that either may have, a bit each.
     values: u8,
+    /// Whether somebody has stated both, so that nothing is left to be asked.
+    stated: bool,
+    /// Axes of which it was asked, a bit each.
+    asked: u8,
 }
 
 impl State {
@@ -31,7 +32,7 @@ impl State {
             if all.is_open(way) { open } else { 1 << all.get(way) }
         };
         let values = if other_control { of(source) | of(target) } else { 0 };
-        State { values }
+        State { values, stated: !source.is_open(way) && !target.is_open(way), asked: 0 }
     }
 
     /// Whether there is more than one.
@@ -39,8 +40,9 @@ impl State {
         self.values.count_ones() > 1
     }
 
-    /// Refuses words that are not the same under all of them.
-    pub(super) fn check(self, stmts: &[Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+    /// Asks about words that are not the same under all of them, once for each axis, or refuses them where both controls
+    /// are known.
+    pub(super) fn check(&mut self, stmts: &[Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
         let turns = |stmt: &Stmt| match &stmt.op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) => {
                 m.to.axes[Axis::A as usize..].iter().any(Option::is_some)
@@ -64,10 +66,17 @@ impl State {
                 let Some((from, to)) = walk.at.position[axis].zip(walk.at.nanos(&word.value)) else {
                     continue;
                 };
-                let mut ends = (0..8).filter(|value| self.values >> value & 1 == 1);
-                if absolute && ends.any(|value| rotary_end(value, from, to) != to) {
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: REFUSED.into() }, stmt.span));
+                let values = self.values;
+                let ends = (0..8).filter(|value| values >> value & 1 == 1);
+                let other = ends.map(|value| rotary_end(value, from, to)).find(|end| *end != to);
+                let Some(other) = other.filter(|_| absolute) else { continue };
+                let bit = 1 << (axis - Axis::A as usize);
+                if self.stated || self.asked & bit == 0 {
+                    let axis = Axis::ALL[axis];
+                    let fault = Fault::RotaryTurnOpen { axis, by: to - from, or: other - from };
+                    diags.push(Diagnostic::new(fault, stmt.span));
                 }
+                self.asked |= bit;
             }
             own_way = match &stmt.op {
                 Op::TurnRotaryAxes(_) => true,

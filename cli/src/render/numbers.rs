@@ -1,0 +1,14 @@
+//! Lengths and angles in messages.
+
+use ncc_ir::num::ONE;
+
+/// Nanos in millimetres, to four digits after the point.
+pub(super) fn millimetres(nanos: i64) -> String {
+    signed(nanos.abs())
+}
+
+/// A length or an angle with its sign, as [`millimetres`].
+pub(super) fn signed(nanos: i64) -> String {
+    let text = format!("{:.4}", nanos as f64 / ONE as f64);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
