@@ -24,7 +24,7 @@ use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::passes::{Legaliser, leave_out_values, machine_cuts, own_distance, passed_labels};
-use ncc_ir::program::{Op, Program, ProgramName, Stmt};
+use ncc_ir::program::{Lines, Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::{anything, computing, leads_nowhere, returns_alone};
@@ -268,19 +268,22 @@ impl<'j> Line<'j> {
         self.state_given(stmts);
         let renumbers = self.renumbering.touches(stmts);
         let there = self.taken_there(stmts, &assumed, &mut found);
-        let switches = self.side_effects.touches(stmts);
-        let touched = unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts);
-        if touched {
-            // What the passes take for granted holds for the source as well.
-            let original = unfolded.unwrap_or_else(|| stmts.clone());
+        let lines = Lines::of(stmts);
+        let passes = lines.is_some_and(|lines| self.side_effects.passes(lines));
+        let switches = !passes && self.side_effects.touches(stmts);
+        let touched = unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts, lines);
+        // What the passes take for granted holds for the source as well.
+        let original = touched.then(|| unfolded.unwrap_or_else(|| stmts.clone()));
+        if !passes {
             self.side_effects.over(stmts, &mut found);
+        }
+        if touched {
             self.renumbering.over(stmts, &mut found);
-            self.legaliser.run(stmts, &there, &mut found);
+        }
+        self.legaliser.run(stmts, &there, lines, &mut found);
+        if let Some(original) = original {
             self.take_parameters(&found);
             self.check(|v| v.source(&original, &assumed));
-        } else {
-            self.side_effects.over(stmts, &mut found);
-            self.legaliser.run(stmts, &there, &mut found);
         }
         self.write_main(stmts, &there, &mut found);
         self.take(found, Told::Writer);

@@ -12,11 +12,13 @@
 
 mod arc;
 mod frame;
+mod lines;
 mod machine;
 mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
+pub use lines::Lines;
 pub use machine::{
     CutterRadius, Data, DataMode, Detour, Probe, Reference, ReferencePoint, ToolLength, ToolValue,
 };

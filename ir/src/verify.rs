@@ -7,12 +7,16 @@
 
 use std::collections::BTreeMap;
 
+mod plain;
+
+pub use plain::same_plain;
+
 use crate::alarms::Alarms;
 use crate::canon::{AXES, Axis, Spindle, Turn, same_point};
 use crate::exec::{Event, Kind, Seen, State, Stored, by_control, cuts, named_tool};
-use crate::expr::Expr;
+
 use crate::num::{Nanos, ONE, POW10};
-use crate::program::{Op, Point, Stmt, Text};
+use crate::program::Text;
 use crate::source::Span;
 
 /// Half a unit of the sixth digit of a pitch in millimetres.
@@ -50,34 +54,6 @@ impl Resolution {
     #[inline]
     fn lengths(&self, inch: bool) -> Nanos {
         Resolution::half(if inch { self.inch } else { self.mm }, inch)
-    }
-}
-
-/// Whether two statements are the same plain move or feed, so that controls in the same state do
-/// the same. What is not so plain is left to execution.
-pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
-    let value = |a: &Expr, b: &Expr| match (a, b) {
-        (Expr::Num(a), Expr::Num(b)) => a.mantissa == b.mantissa && a.scale == b.scale && a.unit == b.unit,
-        (Expr::Node(_), _) | (_, Expr::Node(_)) => false,
-    };
-    let words = |a: &Point, b: &Point| {
-        a.axes.iter().zip(&b.axes).all(|(a, b)| match (a, b) {
-            (None, None) => true,
-            (Some(a), Some(b)) => a.distance == b.distance && value(&a.value, &b.value),
-            (None, Some(_)) | (Some(_), None) => false,
-        })
-    };
-    if a.skip.is_some() || b.skip.is_some() {
-        return false;
-    }
-    match (&a.op, &b.op) {
-        // How long a cut with rotary axes takes, each control counts for itself.
-        (Op::StraightFeed(a), Op::StraightFeed(b)) => {
-            words(&a.to, &b.to) && a.to.axes[3..].iter().all(Option::is_none)
-        }
-        (Op::StraightTraverse(a), Op::StraightTraverse(b)) => words(&a.to, &b.to),
-        (Op::SetFeedRate(a), Op::SetFeedRate(b)) => value(a, b),
-        _ => false,
     }
 }
 

@@ -9,7 +9,7 @@
 
 use super::Exec;
 use crate::behaviour::Behaviour;
-use crate::canon::{AXES, Distance};
+use crate::canon::{AXES, Axis, Distance};
 use crate::diag::Diagnostic;
 use crate::kinds::{flow, frames, machine};
 use crate::num::Nanos;
@@ -179,9 +179,15 @@ impl Exec {
         })
     }
 
-    /// Another control has executed plain moves for this one: what their axes carried is over.
+    /// Whether words count from zero, so that plain lines do the same on all controls in one state.
+    pub fn counts_absolute(&self) -> bool {
+        self.modes.distance == Distance::Absolute && self.said & super::DISTANCE != 0
+    }
+
+    /// Another control has executed plain lines for this one: what their axes carried is over.
     pub fn has_moved(&mut self, moves: &[Stmt]) {
-        if self.carried.is_some() {
+        let carries = |carried: &Carried| carried.from[..Axis::A as usize].iter().any(Option::is_some);
+        if self.carried.as_deref().is_some_and(carries) {
             moves.iter().filter_map(words).for_each(|to| self.not_carried(to));
         }
     }

@@ -9,7 +9,7 @@ use crate::canon::{AXES, Distance, Units};
 use crate::diag::Diagnostic;
 use crate::num::{Nanos, ONE};
 use crate::passes::frame_increments::words_of;
-use crate::program::{Coord, Op, Point, Stmt};
+use crate::program::{Coord, Op, Stmt};
 use crate::source::Span;
 
 /// Least increments of a control, as digits behind the point: of millimetres, of inches, of degrees.
@@ -44,27 +44,30 @@ impl Increments {
 const DIGITS: Behaviour = Behaviour::FineDigits;
 
 impl Exec {
-    /// Where words put the axes that they name; incremental ones count from `from`.
-    #[inline]
+    /// Puts the first axes where words say; incremental ones count from `from`.
+    #[inline(always)]
     pub(super) fn put(
         &mut self,
-        to: &Point,
-        mut next: [Nanos; AXES],
+        words: &[Option<Coord>],
+        next: &mut [Nanos; AXES],
         from: &[Nanos; AXES],
         span: Span,
-    ) -> Result<[Nanos; AXES], Diagnostic> {
+    ) -> Result<(), Diagnostic> {
         let mut absolute = 0;
-        for (axis, word) in to.axes.iter().enumerate() {
+        for (axis, (word, next)) in words.iter().zip(next.iter_mut()).enumerate() {
             let Some(word) = word else { continue };
-            next[axis] = self.target(word, from[axis], span)?;
             if word.distance.or(self.modes.distance) == Distance::Absolute {
+                *next = self.value(&word.value, span)?;
                 absolute |= 1 << axis;
-            } else if self.world.increments.is_some() {
-                next[axis] = from[axis] + self.cut_off(axis, next[axis] - from[axis]);
+                continue;
+            }
+            *next = self.target(word, from[axis], span)?;
+            if self.world.increments.is_some() {
+                *next = from[axis] + self.cut_off(axis, *next - from[axis]);
             }
         }
         self.relies_on_slots(absolute);
-        Ok(next)
+        Ok(())
     }
 
     /// An incremental way of an axis as the control takes it.

@@ -283,7 +283,8 @@ impl Exec {
             );
         }
         let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
-        let next = self.put(to, self.position, &from, span)?;
+        let mut next = self.position;
+        self.put(&to.axes, &mut next, &from, span)?;
         self.make_hole(&cycle, next, to.axes[self.along].is_some(), span, out)
     }
 

@@ -22,6 +22,7 @@ mod frame;
 mod holes;
 mod in_block;
 mod left;
+mod lines;
 mod message;
 mod needed;
 mod nesting;
@@ -296,7 +297,9 @@ impl Exec {
     pub fn pass(&mut self, stmts: &[Stmt]) -> Result<u64, Diagnostic> {
         (self.quiet, self.counted) = (true, 0);
         let mut none = Vec::new();
-        let passed = stmts.iter().try_for_each(|stmt| self.step(stmt, &mut none));
+        let lines = self.pass_lines(stmts);
+        let rest = lines.map(|lines| &stmts[lines..]);
+        let passed = rest.and_then(|rest| rest.iter().try_for_each(|stmt| self.step(stmt, &mut none)));
         self.quiet = false;
         passed.map(|()| self.counted)
     }
@@ -431,9 +434,12 @@ impl Exec {
     #[inline]
     fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
         let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
-        let mut next = self.put(to, self.position, &from, span)?;
+        let mut next = self.position;
         if Exec::turns(to) {
+            self.put(&to.axes, &mut next, &from, span)?;
             self.turn_rotary(to, &mut next);
+        } else {
+            self.put(&to.axes[..3], &mut next, &from, span)?;
         }
         if let Some(word) = &to.axes[self.along] {
             if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {

@@ -21,7 +21,8 @@ impl Exec {
     /// The time of a cut along a line from where the machine stands, if rotary axes turn in it.
     #[inline]
     pub(super) fn pace_of_line(&mut self, end: &[Nanos; AXES]) -> Pace {
-        if end[3..] == self.last[3..] { None } else { self.pace_of_turn(end) }
+        let turns = |axis: usize| end[axis] != self.last[axis];
+        if turns(3) || turns(4) || turns(5) { self.pace_of_turn(end) } else { None }
     }
 
     #[cold]

@@ -29,6 +29,11 @@ impl State {
         State { increments: increments.filter(|_| cuts), ..State::default() }
     }
 
+    /// Whether there is anything to do.
+    pub(super) fn is_used(&self) -> bool {
+        self.increments.is_some()
+    }
+
     /// Whether further statements may have such digits, or say what they count.
     pub(super) fn touches(&self, stmts: &[Stmt]) -> bool {
         let incremental = |stmt: &Stmt| matches!(stmt.op, Op::SetDistanceMode(_));

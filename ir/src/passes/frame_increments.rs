@@ -17,7 +17,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::kinds::flow;
 use crate::num::Nanos;
 use crate::program::{
-    Control, Coord, Data, FrameSlot, FrameStep, Op, Point, Program, Shape, Slot, Stmt, Text,
+    Control, Coord, Data, FrameSlot, FrameStep, Lines, Op, Point, Program, Shape, Slot, Stmt, Text,
 };
 use crate::track::Tracker;
 
@@ -158,6 +158,15 @@ impl State {
             note(&mut pending, op, skip.is_some());
         }
         false
+    }
+
+    /// Notes statements that go along lines alone, by absolute words.
+    pub(super) fn note_lines(&mut self, lines: Lines) {
+        for (axis, pending) in self.pending.axes.iter_mut().enumerate() {
+            if lines.axes >> axis & 1 == 1 {
+                *pending = None;
+            }
+        }
     }
 
     /// Notes statements of which none is concerned.

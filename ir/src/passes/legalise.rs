@@ -6,14 +6,13 @@
 
 mod computing;
 pub(super) mod messages;
+mod settings;
 mod subprograms;
 mod tool_data;
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE,
-    ORIENT, PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
+    PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
 };
 use super::walk::Walk;
 use super::write::EXACT;
@@ -27,13 +26,13 @@ use super::{
     work_offset,
 };
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, Modes};
+use crate::canon::{AXES, Distance, Modes};
 use crate::caps::{Caps, PolarForm};
 use crate::compensated::Refused;
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
-use crate::program::{Arc, Data, Op, Procedure, Program, Stmt};
+use crate::program::{Arc, Data, Lines, Op, Procedure, Program, Stmt};
 use crate::round::ArcRule;
 use crate::track::Tracker;
 
@@ -159,55 +158,6 @@ impl Legaliser {
         self.target.break_lift = lift;
     }
 
-    /// The entries of the target's length table that have the lengths of its tools, where they are not
-    /// the tools' numbers.
-    pub fn set_edge_entries(&mut self, entries: BTreeMap<u32, u32>) {
-        self.target.edge_entries = entries;
-    }
-
-    /// Numbers of programs that the target's machine has already, for others than this one's.
-    pub fn set_program_numbers(&mut self, numbers: BTreeSet<u32>) {
-        self.target.program_numbers = numbers;
-    }
-
-    /// The source is the program of another kind of control, whose plain rounding of corners is bounded, or not.
-    pub fn between_controls(&mut self, bounded: bool) {
-        (self.target.other_control, self.target.corners_bounded) = (true, bounded);
-        self.lacks |= ORIENT;
-        let caps = &mut self.target.caps;
-        if caps.repeat_by_numbers && !caps.repeat_count_known {
-            // A pass more or less cuts another part: written out, it is the same on every machine.
-            (caps.repeat_blocks, caps.repeat_by_numbers) = (false, false);
-            self.lacks |= CONTROL;
-        }
-        self.lacks |= RADIUS | TOOL_AXIS;
-    }
-
-    /// Which arcs the source's control accepts: where the target's has another rule, each arc is judged by it.
-    pub fn set_source_arcs(&mut self, rule: ArcRule) {
-        self.source_arcs = (rule != self.target.caps.arcs).then_some(rule);
-        if self.source_arcs.is_some() {
-            self.lacks |= ARC;
-            self.follow = true;
-        }
-    }
-
-    /// Sets the side effects of codes on the source's control. The passes compare them with the target's.
-    pub fn set_source_behaviours(&mut self, source: Behaviours) {
-        let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
-        self.walk.at.z_lost_at_change = up(&source) || up(&self.target.caps.behaviours);
-        self.target.caps.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
-        self.target.source = source;
-        self.feed_again = feed_unit::says_again(&self.target);
-        self.times_differ = feed_time::differs(&self.target);
-        let own = &self.target.caps.behaviours;
-        self.increments = frame_increments::State::new(&source, own);
-        self.length_axis = length_axis::State::new(&source, own);
-        self.rotary = rotary_turns::State::new(&source, own, self.target.other_control);
-        self.follow |= self.feed_again || self.times_differ;
-        self.follow |= self.increments.is_used() || self.length_axis.is_used() || self.rotary.is_used();
-    }
-
     /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
     pub fn set_source_refuses(&mut self, source: Refused) {
         self.compensated.refused = self.target.caps.refused_compensated.without(source);
@@ -265,19 +215,29 @@ impl Legaliser {
     }
 
     /// Brings further statements of the main procedure within the target's capabilities. `assumed`
-    /// are the facts taken for granted so far.
-    pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
+    /// are the facts taken for granted so far; `lines`: they go along lines alone.
+    pub fn run(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        assumed: &Modes,
+        lines: Option<Lines>,
+        diags: &mut Vec<Diagnostic>,
+    ) {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
-        if self.rotary.is_used() {
+        let lines = self.absolute(lines);
+        if self.rotary.is_used() && lines.is_none() {
             self.rotary.check(stmts, &self.walk, diags);
         }
         if self.length_axis.is_used() {
             self.length_axis.check(stmts, &self.walk, diags);
         }
-        match self.increments.concerns(stmts, self.walk.at.modes.distance) {
-            true => self.increments.over(stmts, &self.walk, diags),
-            false => self.increments.note(stmts, &self.walk),
+        match lines {
+            Some(lines) => self.increments.note_lines(lines),
+            None if self.increments.concerns(stmts, self.walk.at.modes.distance) => {
+                self.increments.over(stmts, &self.walk, diags);
+            }
+            None => self.increments.note(stmts, &self.walk),
         }
         if self.target.caps.change_stops_spindle {
             let up = self.target.caps.behaviours.surely(Behaviour::ZAtChange);
@@ -297,7 +257,7 @@ impl Legaliser {
                 false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
             }
         }
-        if self.times_differ {
+        if self.times_differ && lines.is_none() {
             match self.times.concerns(stmts, &self.walk) {
                 true => {
                     let mut walk = self.walk.clone();
@@ -338,11 +298,16 @@ impl Legaliser {
         }
     }
 
+    /// Lines, if their words count from zero.
+    fn absolute(&self, lines: Option<Lines>) -> Option<Lines> {
+        lines.filter(|_| self.walk.at.modes.distance == Some(Distance::Absolute))
+    }
+
     /// Whether further statements of the main procedure would be rewritten.
-    pub fn touches(&self, stmts: &[Stmt]) -> bool {
+    pub fn touches(&self, stmts: &[Stmt], lines: Option<Lines>) -> bool {
         self.needs(stmts) != 0
-            || self.times_differ && self.times.concerns(stmts, &self.walk)
-            || self.increments.concerns(stmts, self.walk.at.modes.distance)
+            || self.times_differ && lines.is_none() && self.times.concerns(stmts, &self.walk)
+            || self.absolute(lines).is_none() && self.increments.concerns(stmts, self.walk.at.modes.distance)
             || self.length_axis.concerns(stmts)
     }
 

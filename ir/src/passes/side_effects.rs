@@ -30,7 +30,9 @@ use crate::exec::Increments;
 use crate::expr::Expr;
 use crate::kinds::{drilling, flow, moves, polar};
 use crate::num::Num;
-use crate::program::{Control, FrameSlot, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt};
+use crate::program::{
+    Control, FrameSlot, Lines, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt,
+};
 use crate::source::Span;
 
 use arc_feed::{compensated, states};
@@ -125,6 +127,18 @@ impl SideEffects {
             arc_feed_at_head: false,
             left_at_place: LeftAtPlace::new(),
         }
+    }
+
+    /// Passes over statements that go along lines alone, if none of them would be rewritten.
+    pub fn passes(&mut self, lines: Lines) -> bool {
+        let busy = self.fine.is_used()
+            || self.machine
+            || self.length_next.is_some()
+            || self.again.iter().any(Option::is_some);
+        if !busy {
+            self.z_home &= !lines.names(Axis::Z);
+        }
+        !busy
     }
 
     /// Whether further statements would be rewritten.

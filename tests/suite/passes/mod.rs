@@ -35,7 +35,7 @@ use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::{
     Legaliser, PASSES, Target, control_forms, exact_comparisons, passed_labels, planes_checked,
 };
-use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::verify::{Comparison, Resolution};
 use ncc_ir::world::World;
@@ -338,7 +338,8 @@ fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
         whole |= matches!(&stmt.op, Op::SynchronisedFeed(m) if !m.back);
         piece.push(stmt);
         if rest.peek().is_none_or(|next| !next.joined && !whole) {
-            legaliser.run(&mut piece, &before.assumed, &mut diags);
+            let lines = Lines::of(&piece);
+            legaliser.run(&mut piece, &before.assumed, lines, &mut diags);
             out.append(&mut piece);
         }
     }

@@ -247,7 +247,7 @@ impl Region<'_> {
         let before = stmts.clone();
         let mut found = Vec::new();
         own.shift = self.shift;
-        own.run(stmts, &assumed, &mut found);
+        own.run(stmts, &assumed, None, &mut found);
         self.shift = own.shift;
         if own.frames.is_worked_in()
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)

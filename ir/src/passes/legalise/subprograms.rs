@@ -135,7 +135,7 @@ impl Legaliser {
         number_names::over(rest, &self.target, false, diags);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
-            self.run(&mut main.body, &assumed, diags);
+            self.run(&mut main.body, &assumed, None, diags);
             self.finish(&mut main.body, diags);
         }
         for procedure in procedures {
@@ -155,7 +155,7 @@ impl Legaliser {
             self.machine = machine_moves::State::default();
             self.change.start_over();
             self.at_once = at_once::State::default();
-            self.run(&mut procedure.body, &Modes::default(), diags);
+            self.run(&mut procedure.body, &Modes::default(), None, diags);
             self.change.start_over();
             self.finish(&mut procedure.body, diags);
             self.at_once.end_of_sub(&procedure.body, diags);
