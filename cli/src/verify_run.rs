@@ -2,6 +2,7 @@
 //! worlds and under the same block-skip settings, and their events compared.
 
 mod facts;
+mod forks;
 mod twice;
 mod whole;
 mod worlds;

@@ -42,7 +42,7 @@ const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 const FEW_SETS: u32 = 8;
 
 /// Events of a run with another fact than usual.
-const MOST_WITH_FACT: u64 = 1_000_000;
+pub(super) const MOST_WITH_FACT: u64 = 1_000_000;
 
 /// Decisions that are told; of more, the first ones.
 const MOST_TOLD: usize = 20;
@@ -71,7 +71,7 @@ const READINGS: [&[Taken]; 7] = [
 ];
 
 /// Values for what a program reads and has not set.
-struct Given<'g> {
+pub(super) struct Given<'g> {
     open: Vec<(Var, Span)>,
     /// Parameters of the main procedure, and what they hold: each has a value, which a call has converted.
     parameters: Vec<(Var, Type)>,
@@ -113,7 +113,7 @@ impl<'g> Given<'g> {
     }
 
     /// The value of a variable in a set: in the first one, a local variable has none.
-    fn value(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
+    pub(super) fn value(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
         if !self.open.iter().any(|(open, _)| open == var) {
             return None;
         }
@@ -146,7 +146,7 @@ impl<'g> Given<'g> {
 impl Given<'_> {
     /// The value of one of the output's variables: that of the source's. What the source does not have, or leaves to
     /// be set first, holds something there, where a control has no variables without a value.
-    fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
+    pub(super) fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
         let source = self.renamed.source(var).unwrap_or(var);
         let own = self.value(source, seed, set);
         match var {
@@ -225,7 +225,7 @@ fn mixed(n: u64) -> u64 {
 }
 
 /// Why a run ends before its end.
-enum Ended {
+pub(super) enum Ended {
     /// The source cannot be executed.
     Source(Diagnostic),
     /// The output does something else.
@@ -391,7 +391,11 @@ impl Verifier {
             run.take(Other::OptionalStop);
             self.others.push(run);
         }
-        for mut run in std::mem::take(&mut self.others) {
+        let runs: Vec<Run> = std::mem::take(&mut self.others);
+        let (optional, mut facts) = runs.into_iter().partition(|run| run.other == Some(Other::OptionalStop));
+        self.fork_where_asked(start, number, sides, given, &mut facts)?;
+        let rest: Vec<Run> = optional;
+        for mut run in rest.into_iter().chain(facts) {
             run.comparison.keep_pairs(false);
             let Some(other) = run.other else { continue };
             if self.matters.iter().any(|(known, _)| *known == other) {
@@ -400,29 +404,33 @@ impl Verifier {
             let idle = (number > 0).then_some(MOST_OF_SET.1);
             let set = Set { number, most: MOST_WITH_FACT, idle };
             let ended = self.run_both(&mut run, sides, given, set, &mut Gone::default(), &mut |_| {});
-            match ended {
-                Err(Ended::Target(difference)) if !other.explains(&run) => {
-                    return Err(Stop::Target(difference));
+            self.judge(ended, other, &run)?;
+        }
+        Ok(())
+    }
+
+    /// What a run with another fact has shown.
+    pub(super) fn judge(&mut self, ended: Result<(), Ended>, other: Other, run: &Run) -> Result<(), Stop> {
+        match ended {
+            Err(Ended::Target(difference)) if !other.explains(run) => return Err(Stop::Target(difference)),
+            Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
+            // So a difference is told where the source leaves open what the target's control does.
+            Err(Ended::Source(fault))
+                if matches!(fault.fault, Fault::DoneByTarget { .. } | Fault::FactUnsaid { .. }) =>
+            {
+                if !other.explains(run) {
+                    return Err(Stop::Source(fault));
                 }
-                Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
-                // So a difference is told where the source leaves open what the target's control does.
-                Err(Ended::Source(fault))
-                    if matches!(fault.fault, Fault::DoneByTarget { .. } | Fault::FactUnsaid { .. }) =>
-                {
-                    if !other.explains(&run) {
-                        return Err(Stop::Source(fault));
-                    }
-                    self.matters.push((other, fault.span));
-                }
-                Ok(()) if run.fed_otherwise().is_some() => {
-                    self.matters.extend(run.fed_otherwise().map(|at| (other, at)));
-                }
-                // The target's control stops at an arc that the source has made.
-                Err(Ended::NotSo(fault)) if other.explains(&run) => self.matters.push((other, fault.span)),
-                Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
-                // It cannot be executed so, or is long enough.
-                Ok(()) | Err(Ended::Source(_) | Ended::Enough) => {}
+                self.matters.push((other, fault.span));
             }
+            Ok(()) if run.fed_otherwise().is_some() => {
+                self.matters.extend(run.fed_otherwise().map(|at| (other, at)));
+            }
+            // The target's control stops at an arc that the source has made.
+            Err(Ended::NotSo(fault)) if other.explains(run) => self.matters.push((other, fault.span)),
+            Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
+            // It cannot be executed so, or is long enough.
+            Ok(()) | Err(Ended::Source(_) | Ended::Enough) => {}
         }
         Ok(())
     }
@@ -576,13 +584,13 @@ impl Verifier {
                 run.target.end_of_text(&mut run.target_events);
             }
             // Where one side is done and the other goes on, that must be going nowhere.
-            let advanced = self.advance(run, over);
+            let advanced = self.advance_run(run, over);
             if self.watched && set.number == 0 {
                 pairs(&run.comparison.take_pairs());
             }
             let ahead = run.source_events.len().max(run.target_events.len()) >= PIECE;
             let advanced = match advanced {
-                Ok(()) if !over && ahead => self.advance(run, true),
+                Ok(()) if !over && ahead => self.advance_run(run, true),
                 advanced => advanced,
             };
             match advanced {
@@ -596,7 +604,7 @@ impl Verifier {
         ended
     }
 
-    fn advance(&self, run: &mut Run, over: bool) -> Result<(), Stop> {
+    pub(super) fn advance_run(&self, run: &mut Run, over: bool) -> Result<(), Stop> {
         let advanced = run.comparison.advance(&mut run.source_events, &mut run.target_events, over);
         advanced.map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))
     }
@@ -652,7 +660,7 @@ fn block_at(text: &[u8], at: u32) -> String {
 }
 
 impl Ended {
-    fn target(stop: Stop) -> Ended {
+    pub(super) fn target(stop: Stop) -> Ended {
         match stop {
             Stop::Source(fault) => Ended::Source(fault),
             Stop::Target(fault) => Ended::Target(fault),

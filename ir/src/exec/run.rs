@@ -192,6 +192,14 @@ impl<'p> Runner<'p> {
         Ok(Progress::More)
     }
 
+    /// Whether another run of the same program stands at the same step, with the same in its variables.
+    pub fn is_at(&self, other: &Runner) -> bool {
+        (self.at, self.end, self.steps) == (other.at, other.end, other.steps)
+            && self.calls.len() == other.calls.len()
+            && self.turns == other.turns
+            && self.variables == other.variables
+    }
+
     /// Goes through calls, repetitions, jumps and assignments to the next statement that is to be executed by
     /// itself, its arguments computed; the caller executes it. `None` is the program's end.
     ///
@@ -395,7 +403,7 @@ impl<'p> Runner<'p> {
     }
 
     /// How many steps it has made.
-    pub(crate) fn steps(&self) -> u64 {
+    pub fn steps(&self) -> u64 {
         self.steps
     }
 
