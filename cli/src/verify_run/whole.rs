@@ -311,6 +311,8 @@ impl Verifier {
         let mut starts = Vec::new();
         let mut failed = None;
         let mut runs = std::mem::take(&mut self.runs);
+        // What was streamed has been looked at.
+        runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::ask_anew);
         let plain: Vec<Run> = Verifier::of_first_world(&runs).map(|at| runs[at].clone()).collect();
         let mut asked = [0; 2];
         let mut sets = Vec::new();

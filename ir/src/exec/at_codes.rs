@@ -26,6 +26,11 @@ impl Exec {
         self.asked
     }
 
+    /// From here on it counts what the program comes to.
+    pub fn ask_anew(&mut self) {
+        self.asked = 0;
+    }
+
     /// What codes of this control do besides their names.
     pub fn behaviours(&self) -> &Behaviours {
         &self.world.behaviours
