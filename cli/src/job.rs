@@ -119,8 +119,8 @@ impl Job {
         self.from.dialect.id != to.id && !to.can.everything && !to.can.flat
     }
 
-    /// Side effects of codes on the source's control. A list of events has no word for machine zero: it holds the
-    /// program's own moves only.
+    /// Side effects of codes on the source's control. A list of events cannot say machine zero. It holds only the
+    /// program's own moves.
     pub fn source_behaviours(&self) -> Behaviours {
         let mut source = self.from.behaviours();
         if self.to.dialect.can.flat {
@@ -148,7 +148,7 @@ impl Job {
         target
     }
 
-    /// What writes side effects of codes as words.
+    /// The pass that writes side effects of codes as words.
     pub fn side_effects(&self) -> SideEffects {
         let all =
             SideEffects::new(self.source_behaviours(), self.target_behaviours(), self.from.fine_increments());

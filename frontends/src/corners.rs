@@ -24,13 +24,9 @@ pub(crate) struct Corners {
 impl Corners {
     /// As the options of a dialect have it; `None` if nothing is stated.
     pub(crate) fn of(settings: &Settings) -> Option<Corners> {
-        let text = settings.get(PATH_TOLERANCE);
-        let (whole, part) = text.split_once('.').unwrap_or((text, ""));
-        let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
-        let scale = u8::try_from(part.len()).ok().filter(|scale| *scale < 10)?;
-        let within = Num { mantissa, scale, point: true, unit: Unit::Mm }.trimmed();
+        let within = settings.length(PATH_TOLERANCE).filter(|within| within.mantissa > 0)?;
         let at_start = settings.dialect.starts_rounding();
-        (mantissa > 0).then_some(Corners { within, at_start, inch: false })
+        Some(Corners { within, at_start, inch: false })
     }
 
     /// A program that is called begins as its caller has it.

@@ -123,7 +123,7 @@ struct Printer<'p> {
     program: &'p Program,
     source: &'p [u8],
     tables: &'p Tables,
-    /// Which arcs the interpreter takes.
+    /// The rule by which the interpreter takes arcs.
     arcs: ArcRule,
     out: String,
     /// Modes, position and the cycle in force.

@@ -65,7 +65,7 @@ pub enum Fact {
     DecimalPoint,
     /// By which of two codes of distance the words of a return to a reference point are read.
     ReturnPath,
-    /// Which tool M06 puts in, beside a T while another tool waits.
+    /// The tool that M06 puts in, where its block has a T and another tool waits.
     ToolChange,
 }
 
@@ -170,12 +170,12 @@ struct Candidate {
     settings: [Settings; 2],
     /// Which of them is ncc's own.
     taken: usize,
-    /// What each of them makes, where the text itself shows it.
+    /// The result of each, where the text itself shows it.
     shown: Option<[Shown; 2]>,
 }
 
 impl Candidate {
-    /// What both readings make, as far as the text shows it.
+    /// The results of both readings, as far as the text shows them.
     fn shown(&self) -> [Shown; 2] {
         self.shown.clone().unwrap_or([Shown::Nothing, Shown::Nothing])
     }

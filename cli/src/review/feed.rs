@@ -25,12 +25,11 @@ pub(crate) struct Settings {
     pub(crate) mute: Option<bool>,
     /// The control's own parameters of cycles.
     pub(crate) clearances: [Option<Nanos>; 2],
-    /// What both controls are taken to do besides the names of codes, with the switch for optional stops on; nothing is
-    /// as each of them does.
+    /// Side effects that both controls are taken to have, with the switch for optional stops on; `None`: each has its own.
     pub(crate) besides: Option<Besides>,
 }
 
-/// What spindle, coolant and Z do at stops, tool changes and the end of a program.
+/// Values for spindle, coolant and Z at stops, tool changes and the end of a program.
 pub(crate) type Besides = [(Behaviour, u8); 7];
 
 /// Executes a side and hands out its records, piece by piece; `take` may break off.

@@ -8,7 +8,7 @@ use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::num::Num;
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
@@ -141,15 +141,11 @@ pub(super) fn path_at_start(job: &Job) -> Option<Diagnostic> {
         [&job.from, &job.to].map(|side| side.dialect.power_on.path.as_ref().map(|fact| fact.value));
     let (from, to) = (from?, to?);
     let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
-    let stated = job.from.get(PATH_TOLERANCE) != "0" && !job.from.get(PATH_TOLERANCE).is_empty();
+    let stated = job.from.length(PATH_TOLERANCE).is_some_and(|within| within.mantissa > 0);
     (job.between_controls() && from != to && !stated).then(|| Diagnostic::new(fault, Span::default()))
 }
 
 /// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
 pub(crate) fn parameter(job: &Job, option: &str) -> Option<Num> {
-    let text = job.from.get(option);
-    let (whole, part) = text.split_once('.').unwrap_or((text, ""));
-    let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
-    (part.len() < 10)
-        .then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
+    job.from.length(option)
 }

@@ -6,15 +6,16 @@
 
 use ncc_ir::exec::{Exec, Runner, touched};
 use ncc_ir::program::{Program, Stmt};
+use ncc_ir::source::Span;
 
 use super::facts::Other;
-use super::whole::{Ended, Given, MOST_WITH_FACT};
+use super::whole::{Ended, Given, MOST_OF_SET, MOST_WITH_FACT};
 use super::{Run, Stop, Verifier, unreadable};
 
 /// Steps of a program between two looks at forks.
 const STEPS: u64 = 4096;
 
-/// Steps of a source without an event after which its forks are left alone.
+/// Steps of each program after which its forks are left alone: it is long enough.
 const MOST_STEPS: u64 = 20_000_000;
 
 /// Source and output on their ways.
@@ -37,8 +38,8 @@ impl<'p> Lane<'p> {
             && self.run.target_events == usual.run.target_events
     }
 
-    /// The next statement of one side, and its control.
-    fn next(&mut self, side: usize, to: u64) -> Result<Option<Stmt>, Ended> {
+    /// The next statement of one side, before so many steps; `at` is where the source stands.
+    fn next(&mut self, side: usize, to: u64, at: Span) -> Result<Option<Stmt>, Ended> {
         let exec = if side == 0 { &self.run.source } else { &self.run.target };
         if self.over[side] || self.runners[side].steps() >= to {
             return Ok(None);
@@ -49,17 +50,18 @@ impl<'p> Lane<'p> {
                 self.over[side] = true;
                 Ok(None)
             }
-            Err(fault) => Err(Ended::Source(fault)),
+            Err(fault) if side == 0 => Err(Ended::Source(fault)),
+            Err(fault) => Err(Ended::target(unreadable(&fault, at))),
         }
     }
 
     /// Executes a statement of one side.
-    fn step(&mut self, side: usize, stmt: &Stmt, verifier: &Verifier) -> Result<(), Ended> {
+    fn step(&mut self, side: usize, stmt: &Stmt, at: Span) -> Result<(), Ended> {
         if side == 0 {
             return self.run.source.step(stmt, &mut self.run.source_events).map_err(Ended::Source);
         }
         let stepped = self.run.target.step(stmt, &mut self.run.target_events);
-        stepped.map_err(|fault| Ended::target(unreadable(&fault, verifier.last)))
+        stepped.map_err(|fault| Ended::target(unreadable(&fault, at)))
     }
 }
 
@@ -82,12 +84,23 @@ impl Verifier {
         usual.run.comparison.keep_pairs(false);
         usual.runners[0].give(&mut |var| given.value(var, start.seed, number));
         usual.runners[1].give(&mut |var| given.value_there(var, start.seed, number));
+        if number > 0 {
+            usual.runners.iter_mut().for_each(|runner| runner.limit_idle(MOST_OF_SET.1));
+        }
         let (mut lanes, mut seen): (Vec<(Other, Lane)>, Vec<Other>) = (Vec::new(), Vec::new());
         let mut to = 0;
         while to < MOST_STEPS && usual.run.comparison.events < MOST_WITH_FACT {
             to += STEPS;
             for side in [0, 1] {
-                while let Ok(Some(stmt)) = usual.next(side, to) {
+                loop {
+                    let stmt = match usual.next(side, to, self.last) {
+                        Ok(Some(stmt)) => stmt,
+                        Ok(None) => break,
+                        Err(_) => {
+                            usual.over = [true; 2];
+                            break;
+                        }
+                    };
                     let exec = if side == 0 { &usual.run.source } else { &usual.run.target };
                     let comes = comes_to(exec, &stmt);
                     for other in wanted.iter().filter(|other| comes & bit(**other, side) != 0) {
@@ -97,13 +110,13 @@ impl Verifier {
                         if !known {
                             let mut lane = usual.clone();
                             lane.run.take(*other);
-                            match lane.step(side, &stmt, self) {
+                            match lane.step(side, &stmt, self.last) {
                                 Ok(()) => lanes.push((*other, lane)),
                                 Err(ended) => self.judge(Err(ended), *other, &lane.run)?,
                             }
                         }
                     }
-                    if usual.step(side, &stmt, self).is_err() {
+                    if usual.step(side, &stmt, self.last).is_err() {
                         // What the program does alone was told of before.
                         usual.over = [true; 2];
                     }
@@ -137,8 +150,8 @@ impl Verifier {
     /// Goes on to so many steps of each program; `true` is the end of both.
     fn go_on(&self, lane: &mut Lane, to: u64) -> Result<bool, Ended> {
         for side in [0, 1] {
-            while let Some(stmt) = lane.next(side, to)? {
-                lane.step(side, &stmt, self)?;
+            while let Some(stmt) = lane.next(side, to, self.last)? {
+                lane.step(side, &stmt, self.last)?;
             }
         }
         let over = lane.over == [true; 2];

@@ -18,30 +18,41 @@ impl Verifier {
     /// Tells where the next run of source and output would not begin alike, once both have ended.
     pub(super) fn compare_next_runs(&mut self) {
         let leaves = |run: &&Run| run.source.leaves_slots() || run.target.leaves_slots();
-        let Some(run) = self.runs.iter().find(leaves) else { return };
-        let behaviours = [*run.source.behaviours(), *run.target.behaviours()];
-        let at = run.source.filled_at().unwrap_or(self.last);
-        if let Some(fault) = apart(run, behaviours) {
-            self.notes.push(Diagnostic::new(fault, at));
-            return;
-        }
+        let runs: Vec<&Run> = self.runs.iter().filter(leaves).collect();
+        let Some(first) = runs.first() else { return };
+        let behaviours = [*first.source.behaviours(), *first.target.behaviours()];
+        let last = self.last;
+        // With another setting of the block-skip switches a program may leave something else.
+        let first_apart = |behaviours| {
+            let told = |run: &&Run| Some((apart(run, behaviours)?, run.source.filled_at().unwrap_or(last)));
+            runs.iter().find_map(told)
+        };
+        let mut notes = Vec::new();
         let mut found = Vec::new();
-        for behaviour in Behaviour::ALL.iter().copied().filter(|one| one.concern() == Concern::AtEnd) {
-            for source in [true, false] {
-                if self.open[usize::from(!source)] & behaviour.bit() == 0 {
-                    continue;
-                }
+        if let Some((fault, at)) = first_apart(behaviours) {
+            notes.push(Diagnostic::new(fault, at));
+        } else {
+            for (behaviour, source) in self.open_at_end() {
                 for value in self.other_values(behaviour, source) {
                     let mut other = behaviours;
                     let side = &mut other[usize::from(!source)];
                     *side = side.with(behaviour, value);
-                    if apart(run, other).is_some() {
-                        found.push((Other::Behaviour { behaviour, source, value }, at));
-                    }
+                    let told = first_apart(other);
+                    found.extend(told.map(|(_, at)| (Other::Behaviour { behaviour, source, value }, at)));
                 }
             }
         }
+        self.notes.append(&mut notes);
         self.matters.append(&mut found);
+    }
+
+    /// Open facts of the end of a program that are looked at, and whether each is the source's.
+    fn open_at_end(&self) -> impl Iterator<Item = (Behaviour, bool)> + use<> {
+        let open = self.open;
+        let at_end = Behaviour::ALL.iter().copied().filter(|one| one.concern() == Concern::AtEnd);
+        at_end
+            .flat_map(|behaviour| [(behaviour, true), (behaviour, false)])
+            .filter(move |(behaviour, source)| open[usize::from(!source)] & behaviour.bit() != 0)
     }
 }
 

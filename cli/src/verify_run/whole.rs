@@ -35,7 +35,7 @@ const MOST_EVENTS: u64 = 50_000_000;
 const SETS: u32 = 200;
 
 /// Events of a run with such a set, and steps that it may do nothing.
-const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
+pub(super) const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 
 /// Sets of which one must come to the program's end; if none does, one of them is run as far as a program without
 /// variables of others is.

@@ -8,7 +8,7 @@ use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
 use ncc_ir::exec::Increments;
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::round::{ArcRule, MOST_SHORT};
 
 use crate::Quantity;
@@ -217,6 +217,15 @@ impl Settings {
             }
         }
         all
+    }
+
+    /// The value of an option that takes a length, mm.
+    pub fn length(&self, option: &str) -> Option<Num> {
+        let text = self.get(option);
+        let (whole, part) = text.split_once('.').unwrap_or((text, ""));
+        let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
+        (part.len() < 10)
+            .then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
     }
 
     /// The least increments of the control, where digits below them may not count.

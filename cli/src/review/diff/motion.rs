@@ -65,8 +65,8 @@ pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Res
     let mut found = Collector::default();
     let stops = sides.iter().all(|side| side.dialect().caps.shows_at_stops());
     let muted = mute.then_some(stops);
-    // What a stop, a tool change or the end does besides its name is the machine's: what one control does, both are taken
-    // to do, and a program is not another one for that. But where Z goes for a tool change, which is not in the text.
+    // Side effects of a stop, a tool change or the end are the machine's: both controls are taken to do what one of them
+    // does, and a program is not another one for that. Not so where Z goes for a tool change: that is not in the text.
     let own = [0, 1].map(|side: usize| sides[side].job.from.behaviours());
     let besides = [
         Behaviour::SpindleAtStop,
