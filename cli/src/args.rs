@@ -12,6 +12,7 @@ use ncc_ir::diag::Verdict;
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::passes::Pass;
 
+use crate::m_codes::MCode;
 use crate::milling::Assumed;
 use crate::setting::{Lines, Standing, Telling};
 
@@ -54,6 +55,10 @@ pub struct Cli {
     /// The unit of lengths of a source that never states it
     #[arg(long, global = true, value_name = "mm|inch", value_enum, hide_possible_values = true)]
     pub units: Option<UnitsArg>,
+    /// What becomes of an M code that the source's dialect does not know: `M31=drop` leaves it out,
+    /// `M31=carry` writes it as it stands, `M31=M88` writes another one
+    #[arg(long, global = true, value_name = "CODE=WHAT", value_parser = MCode::read)]
+    pub m_code: Vec<MCode>,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,

@@ -7,6 +7,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFiles;
@@ -17,7 +18,9 @@ use ncc_dialects::{
 };
 
 use ncc_ir::canon::Units;
+use ncc_machines::reading::Side;
 
+use crate::m_codes::MCode;
 use crate::problem::{Exit, Problem};
 
 /// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
@@ -34,6 +37,10 @@ pub struct Known {
     assumes: bool,
     /// Units of lengths of sources that never state them, as far as the user has stated them.
     units: Option<Units>,
+    /// What becomes of M codes that dialects do not know.
+    m_codes: Vec<MCode>,
+    /// Dictionaries with these put in, each with the address of the one that it was made of.
+    derived: Arc<Mutex<Vec<(usize, Side, &'static Dialect)>>>,
 }
 
 impl Known {
@@ -110,6 +117,35 @@ impl Known {
     /// Units of sources that never state them, as far as the user has stated them.
     pub fn units(&self) -> Option<Units> {
         self.units
+    }
+
+    /// Says what becomes of M codes that dialects do not know.
+    pub fn state_m_codes(&mut self, codes: &[MCode]) {
+        self.m_codes = codes.to_vec();
+    }
+
+    /// What becomes of M codes that dialects do not know.
+    pub fn m_codes(&self) -> &[MCode] {
+        &self.m_codes
+    }
+
+    /// A dictionary with something put in, made once for each and side; it lives as long as the process.
+    pub(crate) fn derived(
+        &self,
+        of: &'static Dialect,
+        side: Side,
+        put: impl FnOnce(&mut Dialect),
+    ) -> &'static Dialect {
+        let address = std::ptr::from_ref(of) as usize;
+        let mut made = self.derived.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((.., dialect)) = made.iter().find(|(from, on, _)| (*from, *on) == (address, side)) {
+            return dialect;
+        }
+        let mut dialect = of.clone();
+        put(&mut dialect);
+        let dialect: &'static Dialect = Box::leak(Box::new(dialect));
+        made.push((address, side, dialect));
+        dialect
     }
 
     /// Folders in which called programs are looked for.

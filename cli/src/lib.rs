@@ -23,6 +23,7 @@ pub mod job;
 pub mod judge;
 pub mod known;
 mod listing;
+mod m_codes;
 pub mod machines;
 pub mod milling;
 mod order;

@@ -6,13 +6,13 @@
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
-use ncc_ir::canon::Units;
 use ncc_machines::reading::Side;
 
 use crate::args::{Eol, Translate};
 use crate::given::Given;
 use crate::job::Job;
 use crate::known::Known;
+use crate::m_codes;
 use crate::machines::pair::{Machines, agreed};
 use crate::problem::Problem;
 use crate::provenance::annotate;
@@ -32,10 +32,8 @@ pub(crate) struct Order {
     pub(crate) named: Option<&'static Dialect>,
     /// The same with what was chosen of it. What a profile states is put in once: it is kept for good.
     from: Option<Settings>,
-    /// The units of sources that never state them.
-    units: Option<Units>,
-    /// Whether ncc's own readings are taken where a program has two.
-    assumes: bool,
+    /// What is known of all sources.
+    known: Known,
 }
 
 impl Order {
@@ -56,7 +54,8 @@ impl Order {
                  or name a machine: --machine-from MACHINE",
             ));
         }
-        let to = settings(machines.settings(Side::To, to), &args.to_option)?;
+        let mut to = settings(machines.settings(Side::To, to), &args.to_option)?;
+        m_codes::state(&mut to, Side::To, known)?;
         if args.annotate && !annotate::can(to.dialect) {
             return Err(Problem::usage(
                 format!("{} has no comments that could stand at the end of a line", to.dialect.id),
@@ -70,9 +69,10 @@ impl Order {
         let mut from = from.transpose()?;
         if let Some(from) = &mut from {
             state_units(from, known.units())?;
+            m_codes::state(from, Side::From, known)?;
         }
         let given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
-        Ok(Order { from, machines, to, given, named, units: known.units(), assumes: known.assumes() })
+        Ok(Order { from, machines, to, given, named, known: known.clone() })
     }
 
     /// Line ends, as far as they are the same for all.
@@ -95,7 +95,8 @@ impl Order {
             Some(settings) => settings.clone(),
             None => {
                 let mut own = settings(self.machines.settings(Side::From, from), &args.from_option)?;
-                state_units(&mut own, self.units)?;
+                state_units(&mut own, self.known.units())?;
+                m_codes::state(&mut own, Side::From, &self.known)?;
                 own
             }
         };
@@ -115,7 +116,7 @@ impl Order {
             called: None,
             assumed: Vec::new(),
             rivals: Vec::new(),
-            questions: if self.assumes { Policy::Assume } else { Policy::Ask },
+            questions: if self.known.assumes() { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),
             deny: args.deny.clone(),
         })

@@ -58,6 +58,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Some(None) => known.assume_readings(),
     }
     known.state_units(cli.units.map(Units::from));
+    known.state_m_codes(&cli.m_code);
     if let Err(problem) = known.look_in(&cli.include) {
         return fail(&problem, &mut err, as_json);
     }

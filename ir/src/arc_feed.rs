@@ -71,7 +71,7 @@ pub fn is_inner(side: Side, turn: Turn) -> bool {
 }
 
 /// Bits of [`State::advice`](crate::exec::State::advice) that state it.
-pub const ADVICE: u64 = 15 << AdviceKind::CompensatedFeed.bits();
+pub const ADVICE: u64 = 7 << AdviceKind::CompensatedFeed.bits();
 
 /// The speed of the tool centre as a part of F, where F counts along the contour: an arc of this radius and angle (in
 /// radians), so far along the axis at right angles to its plane; the tool is `inner` or outer by its own radius. Lengths

@@ -214,11 +214,19 @@ pub enum AdviceKind {
     SpeedOverride,
     /// Whether a switch of the machine holds the feed.
     FeedStop,
+    /// How many blocks are read ahead of the one that is executed.
+    ReadAhead,
+    /// What takes the chips away.
+    ChipConveyor,
+    /// The door of the working area.
+    Door,
+    /// Whether the screen is drawn anew while the program runs.
+    Screen,
 }
 
 impl AdviceKind {
     /// All kinds with their names in text.
-    pub const ALL: [(AdviceKind, &'static str); 16] = [
+    pub const ALL: [(AdviceKind, &'static str); 20] = [
         (AdviceKind::LookAhead, "look-ahead"),
         (AdviceKind::ContourControl, "contour-control"),
         (AdviceKind::HighPrecision, "high-precision"),
@@ -235,6 +243,10 @@ impl AdviceKind {
         (AdviceKind::FeedOverride, "feed-override"),
         (AdviceKind::SpeedOverride, "speed-override"),
         (AdviceKind::FeedStop, "feed-stop"),
+        (AdviceKind::ReadAhead, "read-ahead"),
+        (AdviceKind::ChipConveyor, "chip-conveyor"),
+        (AdviceKind::Door, "door"),
+        (AdviceKind::Screen, "screen"),
     ];
 
     /// Its name in text.
@@ -247,7 +259,7 @@ impl AdviceKind {
         AdviceKind::ALL.iter().find(|(_, n)| *n == name).map(|(kind, _)| *kind)
     }
 
-    /// What it can be, by names in text; at most 14.
+    /// What it can be, by names in text; at most seven.
     pub const fn values(self) -> &'static [&'static str] {
         match self {
             AdviceKind::LookAhead
@@ -258,7 +270,8 @@ impl AdviceKind {
             | AdviceKind::StrokeCheck
             | AdviceKind::FeedOverride
             | AdviceKind::SpeedOverride
-            | AdviceKind::FeedStop => &["off", "on"],
+            | AdviceKind::FeedStop
+            | AdviceKind::Screen => &["off", "on"],
             AdviceKind::Acceleration => &["stepped", "soft", "reduced"],
             AdviceKind::Compressor => &["off", "lines", "curves", "cad", "surface"],
             AdviceKind::Dynamics => {
@@ -268,6 +281,9 @@ impl AdviceKind {
             AdviceKind::Orientation => &["workpiece", "machine"],
             AdviceKind::PathTolerance => &["off", "roughing", "semi-finishing", "finishing"],
             AdviceKind::CompensatedFeed => &["contour", "centre", "inside"],
+            AdviceKind::ReadAhead => &["unlimited", "limited"],
+            AdviceKind::ChipConveyor => &["stopped", "forward", "back"],
+            AdviceKind::Door => &["closed", "open"],
         }
     }
 
@@ -281,14 +297,19 @@ impl AdviceKind {
         matches!(self, AdviceKind::PathTolerance)
     }
 
-    /// Whether its word alone means on: what else would it be said for.
-    pub const fn on_alone(self) -> bool {
-        matches!(self, AdviceKind::FeedOverride | AdviceKind::SpeedOverride | AdviceKind::FeedStop)
+    /// Its value where its code stands without a word: a switch is on, what else would it be said for; and what a
+    /// number limits has no limit.
+    pub const fn alone(self) -> Option<u8> {
+        match self {
+            AdviceKind::FeedOverride | AdviceKind::SpeedOverride | AdviceKind::FeedStop => Some(1),
+            AdviceKind::ReadAhead | AdviceKind::PathTolerance => Some(0),
+            _ => None,
+        }
     }
 
-    /// Its place among the values of all kinds: where they begin, in bits; each has four.
+    /// Its place among the values of all kinds: where they begin, in bits; each has three.
     pub const fn bits(self) -> u32 {
-        self as u32 * 4
+        self as u32 * 3
     }
 }
 

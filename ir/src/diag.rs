@@ -364,6 +364,10 @@ faults! {
     BlockSplit = 410, verdict(Verdict::Reformatted);
     /// A message that the target cannot show.
     MessageDropped = 411, verdict(Verdict::Dropped);
+    /// A code of the machine that has no effect on the cut, as its user has stated.
+    CodeLeftOut { code: Box<str> } = 444, verdict(Verdict::Reformatted);
+    /// A message that is shown while the program goes on, which the target cannot do: it is a comment there.
+    MessageAsComment = 443, verdict(Verdict::Reformatted);
     /// A repetition written out.
     RepeatExpanded { times: u32 } = 412, verdict(Verdict::Expanded);
 

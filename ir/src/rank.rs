@@ -85,6 +85,7 @@ impl Fault {
             | Fault::ValueNotRead { .. }
             | Fault::NotCalled { .. }
             | Fault::ArgumentNeeded { .. }
+            | Fault::CodeLeftOut { .. }
             | Fault::CutStanding => Rank::Check,
 
             Fault::AssumedMode {
@@ -104,6 +105,7 @@ impl Fault {
             | Fault::AssumedHoleOrder { .. } => Rank::Usual,
 
             Fault::CommentReformatted
+            | Fault::MessageAsComment
             | Fault::ArcReformatted
             | Fault::Rounded { .. }
             | Fault::PatternExpanded { .. }

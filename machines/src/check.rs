@@ -279,11 +279,8 @@ fn codes(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             found.takes::<MCodeRow>("code", m.code.span.clone());
             continue;
         };
-        if let Some(known) = dialect.code_row(b'M', number * 10) {
-            let means = match (&known.means, &known.refuse) {
-                (Some(meaning), _) => meaning.to_string(),
-                (None, refuse) => refuse.clone().unwrap_or_default(),
-            };
+        if let Some(means) = dialect.code_row(b'M', number * 10).and_then(|known| known.means) {
+            let means = means.to_string();
             found.add(Wrong::CodeKnown { code: code.clone(), means }, m.code.span.clone());
         }
         found.once(&mut codes, number.to_string(), format!("code {code}"), m.code.span.clone());

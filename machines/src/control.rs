@@ -4,11 +4,11 @@
 //! written are rows of the dictionary too. A derived dictionary is made once for each use of a
 //! profile and lives as long as the process.
 
-use ncc_dialects::{CodeRow, Dialect, Meaning, PowerOnFact, Quantity, Settings};
+use ncc_dialects::{Dialect, Meaning, PowerOnFact, Quantity, Settings};
 
 use crate::fact::Fact;
 use crate::profile::Profile;
-use crate::schema::{BlockNumbers, Characters, LineEnds, MCodeRow, ToolChangeForm};
+use crate::schema::{BlockNumbers, Characters, Effect, LineEnds, MCodeRow, ToolChangeForm};
 
 /// How programs for the machine are laid out, as far as the shop has said.
 #[derive(Clone, Debug, Default)]
@@ -94,41 +94,15 @@ impl Profile {
 
 /// Puts an M code of the machine in.
 fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
-    let (Some(code), Some(function)) = (&row.code.value, &row.function.value) else { return };
-    // The profile has been checked: it is a code that the dialect does not have.
-    let Some(tenths) = code.get(1..).and_then(|n| n.parse::<usize>().ok()).map(|n| n * 10) else { return };
-    let Ok(at) = u16::try_from(dialect.code.len()) else { return };
-    if dialect.index.m.len() <= tenths {
-        dialect.index.m.resize(tenths + 1, None);
-    }
-    dialect.index.m[tenths] = Some(at);
-    dialect.code.push(CodeRow {
-        after_move: false,
-        code: code.clone(),
-        upto: None,
-        count: None,
+    let Some(number) = row.code.value.as_deref().and_then(|code| code.get(1..)?.parse().ok()) else { return };
+    let means = match (&row.function.value, row.effect.value) {
         // A derived dictionary lives as long as the process.
-        means: Some(Meaning::MachineFunction(Box::leak(function.clone().into_boxed_str()))),
-        refuse: None,
-        group: String::new(),
-        words: String::new(),
-        turns: String::new(),
-        blocks: String::new(),
-        own_feed: false,
-        feed_stays: false,
-        feed_mode: None,
-        limits_speed: false,
-        limit: None,
-        orient: None,
-        other_machine: false,
-        own_tool: false,
-        dwell: Vec::new(),
-        on: None,
-        refused_under_compensation: None,
-        write: true,
-        sure: true,
-        source: "the machine's profile".to_owned(),
-    });
+        (Some(function), _) => Meaning::MachineFunction(Box::leak(function.clone().into_boxed_str())),
+        (None, Some(Effect::None)) => Meaning::LeftOut,
+        (None, None) => return,
+    };
+    // The profile has been checked: it is a code that the dialect does not have, or refuses.
+    dialect.put_m_code(number, means, "the machine's profile");
 }
 
 /// Puts a stated fact in, as one that always holds.

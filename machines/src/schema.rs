@@ -152,6 +152,11 @@ words! {
         /// All.
         Utf8
     }
+    /// What an M code does to the cut.
+    Effect {
+        /// Nothing.
+        None
+    }
     /// Blocks of a tool change.
     ToolChangeForm {
         /// Selection and change in one block.
@@ -321,13 +326,15 @@ table! {
 }
 
 table! {
-    /// An M code that this machine has and its dialect has not. It is carried from one machine to
-    /// another where both name the same function.
+    /// An M code that this machine has and its dialect has not, or refuses. It is carried from one machine to
+    /// another where both name the same function, and left out where it has no effect on the cut.
     MCodeRow "[[m_code]]" {
         /// The code as it is written; a row without it says nothing.
         code: String = "`M` and a number";
         /// Its function, the same word on every machine: `chip-conveyor-on`.
         function: String = "small letters, digits and hyphens";
+        /// In place of a function: that it has no effect on the cut. It is left out of a translation, and told.
+        effect: Effect = "`none`";
         /// Seconds that it takes.
         seconds: f64 = "a number from 0";
     }

@@ -113,6 +113,8 @@ pub(crate) struct AdviceCode {
     pub code: Code,
     /// Letter of that word, and the number for on.
     pub word: Option<(u8, u32)>,
+    /// Letter of the length that belongs to it.
+    pub amount: Option<Letter>,
 }
 
 /// The code of a probing move.
@@ -627,7 +629,9 @@ impl Codes {
                     Some(meaning @ Meaning::Advise(kind, value)) if row.write => {
                         let letter = row.words.bytes().next().filter(|_| value.is_none());
                         let word = letter.map(|letter| (letter, row.on.unwrap_or(1)));
-                        Some(AdviceCode { kind, value, code: find.row(&row.code, meaning)?, word })
+                        let amount = row.words.chars().nth(1).filter(|_| kind.has_amount());
+                        let amount = amount.and_then(|letter| find.letter(letter, Quantity::Length));
+                        Some(AdviceCode { kind, value, code: find.row(&row.code, meaning)?, word, amount })
                     }
                     _ => None,
                 })

@@ -86,7 +86,7 @@ impl Writer {
                 Ok(())
             }
             Op::Corner { shape, size } => self.ask_corner(*shape, size, span, sink),
-            Op::Advise(advice) => self.advise(advice, sink),
+            Op::Advise(advice) => self.advise(advice, stmt.span, sink),
             Op::SetSpindleMode(SpindleMode::Surface) => self.surface_speed(stmt, sink),
             Op::LimitSpindleSpeed(limit) => self.speed_limit(limit, span, sink),
             Op::SelectToolByName(name) => Err(cannot(format!("a tool called {name}"))),
@@ -367,12 +367,12 @@ impl Writer {
     }
 
     /// Advice: a code of its own, or one with a word that switches it, which stands alone.
-    fn advise(&mut self, advice: &Advice, sink: &mut Sink) -> Result<(), Fault> {
+    fn advise(&mut self, advice: &Advice, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let says = |found: &&AdviceCode| {
             let value = found.value.is_none_or(|value| value == advice.value);
-            found.kind == advice.kind && value && advice.amount.is_none()
+            found.kind == advice.kind && value && (advice.amount.is_none() || found.amount.is_some())
         };
-        let Some(AdviceCode { code, word, .. }) = self.codes.advice.iter().find(says).copied() else {
+        let Some(AdviceCode { code, word, amount, .. }) = self.codes.advice.iter().find(says).copied() else {
             return Err(cannot(format!("advice on {}", advice.kind.name())));
         };
         let Some((letter, on)) = word else {
@@ -386,8 +386,17 @@ impl Writer {
         }
         self.admit(&Need::new(Rank::Alone).code(Some(code)).letter(letter), sink)?;
         self.block.code(Part::Mode, &code);
-        let value = if advice.value == 0 { 0 } else { on };
+        let value = match advice.value {
+            0 if advice.kind.alone() == Some(0) => return Ok(()),
+            0 => 0,
+            value if advice.kind.has_amount() => u32::from(value),
+            _ => on,
+        };
         self.block.digits(Part::Mode, letter, &value.to_string());
+        if let (Some(letter), Some(value)) = (amount, &advice.amount) {
+            let value = self.value(&letter, value, span, sink)?;
+            self.block.word(Part::Mode, letter.letter, value);
+        }
         Ok(())
     }
 

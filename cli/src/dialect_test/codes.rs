@@ -435,7 +435,7 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             let hole = "START_CYCLE(tap-rigid(clockwise, pitch feed, after stopped), XY, retract 3mm, depth -12mm, return initial, plane-first, feed 120mm)\nHOLE(X 10mm)";
             vec![Said { after: "END_CYCLE()".to_owned(), ..Said::new(hole) }]
         }
-        Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),
+        Meaning::LeftOut | Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),
         Meaning::OrientSpindle => {
             let row = d.code.iter().find(|row| row.code == name);
             let words = row.and_then(|row| row.orient.as_ref()).filter(|words| words.option.is_none());

@@ -24,6 +24,7 @@ use crate::args::pair;
 use crate::files;
 use crate::job::{Job, Rest};
 use crate::known::Known;
+use crate::m_codes;
 use crate::machines::pair::{Machines, agreed};
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
@@ -111,7 +112,9 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     };
     let mut said = settings(machines.settings(Side::From, from), &args.from_option)?;
     state_units(&mut said, known.units())?;
-    let into = settings(machines.settings(Side::To, to), &args.to_option)?;
+    m_codes::state(&mut said, Side::From, known)?;
+    let mut into = settings(machines.settings(Side::To, to), &args.to_option)?;
+    m_codes::state(&mut into, Side::To, known)?;
     let start = args.standing.start.unwrap_or_default();
     let assumed = source.assumed.clone();
     let mut job =
@@ -134,6 +137,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
         codes.iter().for_each(|code| profile.add_code(code, &stand_in(code)));
         job.from = settings(profile.settings(), &args.from_option)?;
         state_units(&mut job.from, known.units())?;
+        m_codes::state(&mut job.from, Side::From, known)?;
         source.rewind()?;
         outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
         for (rest, diagnostic) in unknown {

@@ -46,6 +46,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
         Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 
+        Fault::UnknownCode { code } if is_m_code(code) => vec![m_code(code)],
+        Fault::NotSupported { code, .. } if is_m_code(code) => vec![m_code(code)],
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
@@ -252,6 +254,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::AdviceLeftOut { .. }
         | Fault::WorkOffsetLeftOut { .. }
         | Fault::NameAsComment
+        | Fault::MessageAsComment
+        | Fault::CodeLeftOut { .. }
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
@@ -417,4 +421,18 @@ fn mend(at: Context) -> String {
         }
     };
     format!("write the digit 0: `{before}{mended}{after}`")
+}
+
+/// Whether a code is one of the machine's.
+fn is_m_code(code: &str) -> bool {
+    code.strip_prefix('M')
+        .is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// What can be said of a code that is the machine's own.
+fn m_code(code: &str) -> String {
+    format!(
+        "`--m-code {code}=drop` if it has no effect on the cut, `--m-code {code}=carry` if the target's machine has \
+         it too, `--m-code {code}=M…` if that has another code for it; or `[[m_code]]` in the profiles"
+    )
 }

@@ -346,12 +346,14 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
             Some(PathMode::Tapping) => "the feed, which can be held and overridden".to_owned(),
             _ => format!("{}, as {}", plain(from), plain(mode)),
         },
-        Fault::AdviceLeftOut { kind } => format!("advice on {} left out", plain(kind)),
+        Fault::AdviceLeftOut { kind } => format!("{} left out", plain(&kind.replace('-', " "))),
         Fault::WorkOffsetLeftOut { offset } => format!("work offset {offset} left out: nothing moves in it"),
         Fault::NumbersLeftOut { count } => {
             format!("{count} block {} left out", plural(u64::from(*count), "number"))
         }
         Fault::NameChanged { from, to } => format!("the name {}, as {}", plain(from), plain(to)),
+        Fault::CodeLeftOut { code } => format!("{} left out, as stated", plain(code)),
+        Fault::MessageAsComment => "messages, as comments".to_owned(),
         Fault::NameAsComment => "the program's name, as a comment".to_owned(),
         Fault::BlockSplit => "blocks, as several".to_owned(),
         Fault::MessageDropped => "messages to the operator".to_owned(),

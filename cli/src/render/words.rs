@@ -462,7 +462,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             ),
         },
         Fault::AdviceLeftOut { kind } => (
-            format!("advice on {} left out", plain(kind)),
+            format!("{} left out: no effect on the cut", plain(&kind.replace('-', " "))),
             format!("{to} has no word of this kind; the programmed moves stay"),
         ),
         Fault::WorkOffsetLeftOut { offset } => (
@@ -483,6 +483,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::MessageDropped => {
             ("message to the operator lost".into(), format!("{to} cannot show a message"))
         }
+        Fault::CodeLeftOut { code } => {
+            (format!("{} left out", quoted(code)), "stated to have no effect on the cut".into())
+        }
+        Fault::MessageAsComment => (
+            "message kept as a comment".into(),
+            format!("{to} shows none while the program runs"),
+        ),
         Fault::RepeatExpanded { times } => (
             format!("repetition written out {times} {}", plural(u64::from(*times), "time")),
             format!("{to} has no word for it"),

@@ -20,6 +20,7 @@ use crate::given::Given;
 use crate::guess::{Guess, guess};
 use crate::job::Job;
 use crate::known::Known;
+use crate::m_codes;
 use crate::machines::pair::{Machines, agreed};
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
@@ -224,6 +225,7 @@ impl Opened {
         if !fixed {
             state_units(&mut from, known.units())?;
         }
+        m_codes::state(&mut from, Whose::From, known)?;
         called::gather(&mut self.source, &from, known.folders())?;
         self.source.rewind()?;
         let mut side = Side::of(self.source, from, machines, asked.start);

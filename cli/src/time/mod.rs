@@ -45,6 +45,7 @@ use crate::files::{self, Destination, Source};
 use crate::guess::better;
 use crate::job::{Failure, Job, Output};
 use crate::known::Known;
+use crate::m_codes;
 use crate::machines::pair::Machines;
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
@@ -238,6 +239,7 @@ pub(crate) fn job(
     };
     let mut from = settings(machines.settings(Side::From, dialect), &args.reading.from_option)?;
     state_units(&mut from, known.units())?;
+    m_codes::state(&mut from, Side::From, known)?;
     called::gather(source, &from, known.folders())?;
     source.rewind()?;
     Ok(Job {

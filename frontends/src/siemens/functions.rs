@@ -131,6 +131,12 @@ impl Lower {
                 // Without a move there is nothing to stop.
                 Meaning::ExactStop if words.has_point() => Op::ExactStop,
                 Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
+                Meaning::LeftOut => {
+                    if self.first_time(code.name) {
+                        out.report(Fault::CodeLeftOut { code: code.name.into() }, code.span);
+                    }
+                    continue;
+                }
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
                 // By the radius of the edge in force.

@@ -64,6 +64,10 @@ pub(super) struct Frame {
     title: bool,
     /// Whether programs may have names.
     named: bool,
+    /// Whether the main program may have number 0, which is none.
+    zero: bool,
+    /// Whether a mark behind the end needs none before the program.
+    mark_behind_end: bool,
     /// Whether the mark that opens the text has been met.
     opened: bool,
     /// Nothing is read any more: the closing mark has been met.
@@ -92,6 +96,8 @@ impl Frame {
             number: [sign(program.number), sign(program.number_also)],
             title: program.title,
             named: program.names,
+            zero: program.zero_unnumbered,
+            mark_behind_end: program.mark_behind_end,
             opened: false,
             closed: false,
             blocks: false,
@@ -131,7 +137,7 @@ impl Reader {
         }
         // The rest of the opening line is a leader, which controls ignore.
         if self.frame.opened || self.frame.blocks || !self.frame.programs.is_empty() {
-            if !self.frame.opened {
+            if !self.frame.opened && !(self.frame.mark_behind_end && self.lower.ended) {
                 out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into() }, span);
                 self.frame.faulty = true;
             }
@@ -189,7 +195,9 @@ impl Reader {
             return false;
         };
         let number = match word.value {
-            Value::Number(d) if !d.point && d.mantissa > 0 => u32::try_from(d.mantissa).ok(),
+            Value::Number(d) if !d.point && (d.mantissa > 0 || self.is_unnumbered(d.mantissa)) => {
+                u32::try_from(d.mantissa).ok()
+            }
             Value::Number(_) | Value::Computed(_) | Value::None => None,
         };
         let Some(number) = number else {
@@ -204,6 +212,11 @@ impl Reader {
             self.block.comments.remove(0);
         }
         self.block.is_empty()
+    }
+
+    /// Whether a number of the main program is the one that stands for none.
+    fn is_unnumbered(&self, number: i64) -> bool {
+        number == 0 && self.frame.zero && self.frame.programs.is_empty() && !self.frame.blocks
     }
 
     /// The name of the main program of a control with O words, which nothing calls; `true` if it is that.
@@ -258,7 +271,9 @@ impl Reader {
         self.frame.programs.push(name.clone());
         if is_main {
             match called {
-                Called::Number(number) => (out.name.number, out.name.title) = (Some(number), title),
+                Called::Number(number) => {
+                    (out.name.number, out.name.title) = (Some(number).filter(|number| *number > 0), title);
+                }
                 Called::Name(name) => out.name.title = Some(name),
             }
             return;

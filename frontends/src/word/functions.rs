@@ -211,6 +211,12 @@ impl Lower {
         }
         self.set_mode(code.meaning, out);
         let op = match code.meaning {
+            Meaning::LeftOut => {
+                if self.first_time(code.row) {
+                    out.report(Fault::CodeLeftOut { code: code.row.code.as_str().into() }, code.span);
+                }
+                return;
+            }
             Meaning::NoEffect => {
                 let name = code.row.code.as_str();
                 if self.assume && self.first_time(code.row) {
@@ -266,12 +272,9 @@ impl Lower {
         let code_text: Box<str> = code.row.code.as_str().into();
         let letter = code.row.words.bytes().next().unwrap_or(b' ');
         let Some(word) = words.take(letter) else {
-            if kind.on_alone() {
-                return self.push(
-                    code.span,
-                    Op::Advise(Box::new(Advice { kind, value: 1, amount: None })),
-                    out,
-                );
+            if let Some(value) = kind.alone() {
+                let advice = Advice { kind, value, amount: None };
+                return self.push(code.span, Op::Advise(Box::new(advice)), out);
             }
             let word = char::from(letter).to_string().into();
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
@@ -283,13 +286,23 @@ impl Lower {
         let value = match self.whole(&word, src, out) {
             None => return,
             Some(0) => 0,
+            // However many blocks it is limited to.
+            Some(_) if kind == AdviceKind::ReadAhead => 1,
+            Some(value) if kind.has_amount() && (value as usize) < kind.values().len() => value as u8,
             Some(value) if code.row.on.unwrap_or(1) == value => 1,
             Some(_) => {
                 let name = "another use of this code".into();
                 return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
             }
         };
-        self.push(code.span, Op::Advise(Box::new(Advice { kind, value, amount: None })), out);
+        let letter = code.row.words.bytes().nth(1).filter(|_| kind.has_amount());
+        let word = letter.and_then(|letter| words.take(letter));
+        let amount = match word.map(|word| self.amount(&word, Quantity::Length, words, src, out)) {
+            Some(None) => return,
+            Some(amount) => amount,
+            None => None,
+        };
+        self.push(code.span, Op::Advise(Box::new(Advice { kind, value, amount })), out);
     }
 
     /// Speed and tool words.

@@ -72,6 +72,8 @@ pub(super) struct Lower {
     pub(super) tip: Met,
     pub(super) tilt: Met,
     pub(super) tools: ToolsNamed,
+    /// Letters of rotary axes that the text has named so far, a bit each.
+    pub(super) rotary_named: u32,
 }
 
 /// Cycles in the whole text: where it has none, none is in force anywhere.
@@ -230,6 +232,7 @@ impl Lower {
             tip: Met::default(),
             tilt: Met::default(),
             tools: ToolsNamed::default(),
+            rotary_named: 0,
         };
         lower.refresh();
         lower
@@ -559,11 +562,11 @@ impl Lower {
 }
 
 /// Where the rest of a comment begins that begins with a word, blanks and the size of letters apart.
-pub(crate) fn begins(text: &[u8], word: &str) -> Option<usize> {
+pub(crate) fn begins(text: &[u8], word: impl AsRef<[u8]>) -> Option<usize> {
     let mut at = 0;
-    for byte in word.bytes() {
+    for byte in word.as_ref() {
         at += text[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
-        if !text.get(at)?.eq_ignore_ascii_case(&byte) {
+        if !text.get(at)?.eq_ignore_ascii_case(byte) {
             return None;
         }
         at += 1;

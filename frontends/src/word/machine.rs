@@ -67,6 +67,12 @@ impl Lower {
         to
     }
 
+    /// The linear axes, and the rotary ones that the text has named so far: others stay where they are, if there are any.
+    fn axes_at_hand(&self) -> [bool; AXES] {
+        let named = |axis: Axis| self.rotary_named >> (axis.letter() - b'A') & 1 == 1;
+        Axis::ALL.map(|axis| self.axis_row(axis).is_some() && (!axis.is_rotary() || named(axis)))
+    }
+
     #[allow(clippy::too_many_arguments)] // All that a block says of its move.
     fn in_machine(
         &mut self,
@@ -135,11 +141,14 @@ impl Lower {
         let code_text = || code.row.code.as_str().into();
         let mut axes: [bool; AXES] = std::array::from_fn(|axis| via.axes[axis].is_some());
         if via.is_empty() {
-            if !matches!(point, ReferencePoint::Stored(_)) {
-                let word = "X".into();
-                return self.fault(Fault::WordMissing { code: code_text(), word }, code.span, out);
-            }
-            axes = Axis::ALL.map(|axis| self.axis_row(axis).is_some());
+            axes = match point {
+                ReferencePoint::Stored(_) => Axis::ALL.map(|axis| self.axis_row(axis).is_some()),
+                _ if code.row.alone_all_axes => self.axes_at_hand(),
+                _ => {
+                    let word = "X".into();
+                    return self.fault(Fault::WordMissing { code: code_text(), word }, code.span, out);
+                }
+            };
         }
         let point = match (point, number) {
             (ReferencePoint::Further(0), Some(n @ 2..=4)) => ReferencePoint::Further(n as u8),

@@ -41,6 +41,22 @@ fn centre_open() -> Fault {
 }
 
 impl Lower {
+    /// Whether a point behind a whole number of this word is read; told, the first time.
+    fn point_read(&mut self, word: &Word, src: Source, out: &mut Batch) -> bool {
+        let Value::Number(Digits { mantissa, point: true, .. }) = word.value else { return false };
+        let place = usize::from(word.letter.wrapping_sub(b'A'));
+        let Some(row) = self.letters.get(place).copied().flatten().filter(|row| row.point_read) else {
+            return false;
+        };
+        let told = self.reported.letters >> place & 1 == 1;
+        if row.sure && self.assume && !told {
+            self.reported.letters |= 1 << place;
+            let meaning = format!("{}{mantissa}", row.letter).into();
+            out.report(Fault::AssumedRow { code: src.text(word.span), meaning }, word.span);
+        }
+        true
+    }
+
     /// The literal of a word; `None` if it is refused (reported), as what is computed is.
     pub(super) fn number(
         &mut self,
@@ -70,7 +86,8 @@ impl Lower {
             Quantity::Factor => (Unit::One, Fact::Entry),
             Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => {
                 let whole = quantity != Quantity::Speed && digits.scale > 0;
-                if digits.point && (rules.point == PointRule::Never || whole) {
+                let read = digits.scale == 0 && self.point_read(word, src, out);
+                if digits.point && (rules.point == PointRule::Never || whole) && !read {
                     return self.refuse(Fault::PointNotAllowed { word: src.text(word.span) }, word.span, out);
                 }
                 if quantity == Quantity::Milliseconds {

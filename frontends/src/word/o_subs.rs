@@ -243,8 +243,9 @@ impl Lower {
 
     /// A return from a subprogram.
     pub(super) fn o_return(&mut self, label: &str, values: Vec<Expr>, span: Span, out: &mut Batch) {
+        // It goes back from the program that it stands in, whatever its label (rs274, run).
         let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(Kind::Sub(_))));
-        if own.is_none_or(|sub| *sub.name != *label) && !self.o.alone.is(label) {
+        if own.is_none() && !self.o.alone.is(label) {
             let told = "return of no subprogram that is open";
             return self.fault(refused(label, FlowWord::Return, told), span, out);
         }

@@ -167,6 +167,7 @@ impl Lower {
                 }
             }
         }
+        self.rotary_named |= words.left & self.roles.rotary;
         self.two_distances(block, codes, src, out);
         codes.sort_by_key(|c| self.rank(c));
     }
@@ -213,7 +214,12 @@ impl Lower {
             let name = row.refuse.as_deref().unwrap_or_default().into();
             return self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, word.span, out);
         };
-        let other = codes.iter().find(|c| !row.group.is_empty() && c.row.group == row.group);
+        let of_group = |c: &Code| !row.group.is_empty() && c.row.group == row.group;
+        if row.passed_over && codes.iter().any(of_group) {
+            return;
+        }
+        codes.retain(|c| !(c.row.passed_over && of_group(c)));
+        let other = codes.iter().find(|c| of_group(c));
         if let Some(other) = other.filter(|_| !self.may_have_two_distances(meaning, codes)) {
             let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(word.span) };
             self.now.failed = true;
@@ -247,7 +253,7 @@ pub(crate) const RANK_AFTER: u8 = 30;
 /// When a code's function happens within its block.
 pub(crate) fn rank(meaning: Meaning) -> u8 {
     match meaning {
-        Meaning::NoEffect => 0,
+        Meaning::NoEffect | Meaning::LeftOut => 0,
         Meaning::UseLengthUnits(_) => 1,
         Meaning::SelectPlane(_) => 2,
         Meaning::SetDistanceMode(_) => 3,

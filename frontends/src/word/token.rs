@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Function};
 
 use super::block::Digits;
+use super::lower::begins;
 use super::output;
 
 /// What of the dictionary the lexer needs.
@@ -373,13 +374,17 @@ impl<'t> Tokens<'t> {
         let rest = &self.raw.source()[start..];
         let (in_expression, after_name) = (self.depth > 0 || self.value_next, self.decides);
         let fits = |word: &[u8]| rest.get(..word.len()).is_some_and(|t| t.eq_ignore_ascii_case(word));
-        let words = match (in_expression, after_name) {
-            (true, _) => O_OPERATORS,
-            (false, true) => FLOW,
-            (false, false) => &[],
-        };
-        if let Some(&(word, token)) = words.iter().find(|(word, _)| fits(word)) {
+        if in_expression && let Some(&(word, token)) = O_OPERATORS.iter().find(|(word, _)| fits(word)) {
             self.raw.bump(word.len() - 1);
+            return Some(token);
+        }
+        // Blanks within a word count for nothing: `end sub` (rs274, run).
+        if !in_expression
+            && after_name
+            && let Some((len, token)) =
+                FLOW.iter().find_map(|(word, token)| Some((begins(rest, word)?, *token)))
+        {
+            self.raw.bump(len - 1);
             return Some(token);
         }
         let label = !in_expression && rest[0].eq_ignore_ascii_case(&self.signs.program);

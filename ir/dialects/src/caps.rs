@@ -328,6 +328,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         frames_shut: dialect.can.frames_shut,
         only_path: dialect.can.only_path.map(Into::into),
         exact_stop: everything || dialect.can.flat || says(Meaning::ExactStop),
+        bare_stage: everything
+            || dialect.code_for(Meaning::Advise(AdviceKind::PathTolerance, None)).is_some(),
         advice: AdviceKind::ALL
             .iter()
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
@@ -473,8 +475,7 @@ fn entries(dialect: &Dialect) -> Vec<(System, i64)> {
 /// Whether a code, a word or a call gives this advice.
 fn says_advice(dialect: &Dialect, kind: AdviceKind, value: u8) -> bool {
     let meaning = Meaning::Advise(kind, Some(value));
-    let by_word =
-        value < 2 && kind.values().len() == 2 && dialect.code_for(Meaning::Advise(kind, None)).is_some();
+    let by_word = dialect.code_for(Meaning::Advise(kind, None)).is_some();
     // A word that is called with the value.
     let called = dialect.name_for(NameMeaning::Code(Meaning::Advise(kind, None))).is_some();
     by_word

@@ -113,6 +113,8 @@ pub enum Meaning {
     /// The pattern of the row with the same code.
     Pattern,
     NoEffect,
+    /// On this machine without an effect on the cut, as its user has stated: read, told, and not written.
+    LeftOut,
     StartSpindleClockwise,
     StartSpindleCounterclockwise,
     StopSpindleTurning,
@@ -279,6 +281,7 @@ impl fmt::Display for Meaning {
             Meaning::StopSpindleTurning => "STOP_SPINDLE_TURNING",
             Meaning::RigidTapping => "RIGID_TAPPING",
             Meaning::ChangeTool => "CHANGE_TOOL",
+            Meaning::LeftOut => return f.write_str("LEFT_OUT"),
             Meaning::MachineFunction(name) => return write!(f, "MACHINE_FUNCTION {name}"),
             Meaning::FloodOn => "FLOOD_ON",
             Meaning::MistOn => "MIST_ON",
@@ -429,6 +432,7 @@ impl FromStr for Meaning {
             ("END_CYCLE", "") => Meaning::EndCycle,
             ("PATTERN", "") => Meaning::Pattern,
             ("NO_EFFECT", "") => Meaning::NoEffect,
+            ("LEFT_OUT", "") => Meaning::LeftOut,
             ("START_SPINDLE_CLOCKWISE", "") => Meaning::StartSpindleClockwise,
             ("START_SPINDLE_COUNTERCLOCKWISE", "") => Meaning::StartSpindleCounterclockwise,
             ("STOP_SPINDLE_TURNING", "") => Meaning::StopSpindleTurning,

@@ -141,6 +141,10 @@ pub struct ProgramRules {
     pub number_also: Option<char>,
     /// Whether the main program is written without a number, and the number is a comment.
     pub unnumbered_main: bool,
+    /// Whether the number 0 of the main program stands for one that it gets at the control.
+    pub zero_unnumbered: bool,
+    /// Whether a mark behind the end of a program counts for nothing where none stands before it.
+    pub mark_behind_end: bool,
     /// Whether a call writes the number with the least digits as well, because it is a name.
     pub padded_calls: bool,
     /// Least digits of a written program number.
@@ -348,6 +352,10 @@ pub struct Address {
     /// Whether the value may be a name in quotation marks.
     #[serde(default)]
     pub named: bool,
+    /// Whether a point behind a whole number is read where the quantity has none: no source says what the control does
+    /// with it, and it can mean nothing else. Each program with one is told.
+    #[serde(default)]
+    pub point_read: bool,
     /// Whether it is confirmed that entry 0 of a table is none.
     #[serde(default = "yes")]
     pub zero_sure: bool,

@@ -57,8 +57,8 @@ impl Exec {
             Op::TurnRotaryAxes(ways) => self.ways = Some(*ways),
             Op::Advise(advice) => {
                 let bits = advice.kind.bits();
-                self.state.advice &= !(15 << bits);
-                self.state.advice |= u64::from(advice.value.min(13) + 1) << bits;
+                self.state.advice &= !(7 << bits);
+                self.state.advice |= u64::from(advice.value.min(6) + 1) << bits;
                 if advice.kind.has_amount() {
                     self.state.within[2] = self.length_within(&advice.amount, span)?;
                 }

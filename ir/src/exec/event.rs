@@ -256,7 +256,7 @@ pub struct State {
     /// Spindle speed in the unit of its mode (rev/min, m/min), nanos; counts only while the spindle
     /// turns.
     pub speed: Nanos,
-    /// Advice in force, four bits a kind: its value and one, or 0 where none was given.
+    /// Advice in force, three bits a kind: its value and one, or 0 where none was given.
     pub advice: u64,
     /// Highest spindle speed in thousandths of a turn a minute; counts only while the spindle turns.
     pub limit: u32,
@@ -369,7 +369,7 @@ pub struct Seen {
     pub merges: bool,
     /// Whether an exact stop is told from rounding at all.
     pub path: bool,
-    /// Kinds of advice, four bits each.
+    /// Kinds of advice, three bits each.
     pub advice: u64,
 }
 
@@ -411,7 +411,7 @@ impl Seen {
             within: [
                 if lengths { state.within[0] } else { 0 },
                 if lengths && self.in_rapids { state.within[1] } else { 0 },
-                if self.advice >> tolerance & 15 == 15 { state.within[2] } else { 0 },
+                if self.advice >> tolerance & 7 == 7 { state.within[2] } else { 0 },
                 if lengths && self.merges { state.within[3] } else { 0 },
             ],
             ..*state

@@ -100,7 +100,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
                     made.leave_out(stmt);
                 }
             },
-            Op::Advise(advice) if !caps.advises(advice.kind, advice.value) => {
+            Op::Advise(advice) if !caps.says_advice(advice) => {
                 // What F counts on arcs is compared where one is cut.
                 if advice.kind != AdviceKind::CompensatedFeed && state.first_time(advice.kind as u32) {
                     let kind = advice.kind.name().into();
@@ -163,5 +163,5 @@ pub fn seen_advice(caps: &Caps) -> u64 {
     let kinds = AdviceKind::ALL.into_iter().map(|(kind, _)| kind);
     // Of a kind of which it has not all values, what is left out cannot be told from what stays.
     let whole = |kind: &AdviceKind| (0..kind.values().len() as u8).all(|value| caps.advises(*kind, value));
-    kinds.filter(whole).fold(0, |bits, kind| bits | 15 << kind.bits())
+    kinds.filter(whole).fold(0, |bits, kind| bits | 7 << kind.bits())
 }

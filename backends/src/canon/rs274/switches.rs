@@ -28,7 +28,11 @@ impl Printer<'_> {
             | AdviceKind::WorkingArea
             | AdviceKind::StrokeCheck
             | AdviceKind::PathTolerance
-            | AdviceKind::CompensatedFeed => return Err(cannot("ADVISE")),
+            | AdviceKind::CompensatedFeed
+            | AdviceKind::ReadAhead
+            | AdviceKind::ChipConveyor
+            | AdviceKind::Door
+            | AdviceKind::Screen => return Err(cannot("ADVISE")),
         };
         let able = if advice.value_name() == "on" { "ENABLE" } else { "DISABLE" };
         let _ = writeln!(self.out, "{able}_{what}({spindle})");

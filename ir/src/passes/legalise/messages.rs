@@ -7,6 +7,11 @@ use crate::diag::{Diagnostic, Fault};
 use crate::program::{Op, Output, Piece, Program, Stmt, Text};
 use crate::source::Span;
 
+/// A message that is a comment from here on: where the program stops, the operator is told something to do.
+fn lost(stops: bool) -> Fault {
+    if stops { Fault::MessageDropped } else { Fault::MessageAsComment }
+}
+
 /// Messages become comments; those with which the program stops stay where the target has them, in the block of the
 /// stop or in the one before it, in the characters that it shows. One without a text, which takes another back, is none
 /// where none stays.
@@ -26,7 +31,7 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
             }
         } else {
             let text = std::mem::take(text);
-            diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
+            diags.push(Diagnostic::new(lost(stops), stmt.span));
             stmt.op = Op::Comment(text);
         }
     }
@@ -113,10 +118,14 @@ fn without_values(pieces: &[Piece]) -> Text {
 }
 
 fn values(stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
-    for stmt in stmts {
+    for at in 0..stmts.len() {
+        let (before, behind) = stmts.split_at_mut(at + 1);
+        let Some(stmt) = before.last_mut() else { continue };
         match &mut stmt.op {
             Op::MessageOf(pieces) => {
-                diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
+                let stops =
+                    behind.first().is_some_and(|next| next.op == Op::ProgramStop && next.skip == stmt.skip);
+                diags.push(Diagnostic::new(lost(stops), stmt.span));
                 stmt.op = Op::Comment(without_values(pieces));
             }
             Op::Control(control) => control.bodies_mut().for_each(|stmts| values(stmts, diags)),

@@ -1,0 +1,93 @@
+//! M codes of a machine that its dialect does not have: what becomes of them, as the user says with `--m-code`.
+//!
+//! Not here: those that a machine's profile names (`ncc_machines`).
+
+use ncc_dialects::{Dialect, Meaning, Settings};
+use ncc_machines::reading::Side;
+
+use crate::known::Known;
+use crate::problem::Problem;
+
+/// An M code of the source and what becomes of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MCode {
+    /// Its number.
+    pub number: u16,
+    /// What is written for it; `None` leaves it out.
+    pub written: Option<u16>,
+}
+
+impl MCode {
+    /// What the command line says: `M31=drop`, `M50=carry`, `M50=M88`.
+    ///
+    /// # Errors
+    /// It is none of these forms.
+    pub fn read(text: &str) -> Result<MCode, String> {
+        let number = |code: &str| {
+            let digits = code.strip_prefix(['M', 'm'])?;
+            (digits.len() <= 4).then(|| digits.parse::<u16>().ok()).flatten()
+        };
+        let (code, fate) = text.split_once('=').unwrap_or((text, ""));
+        let own = number(code);
+        let written = match fate {
+            "drop" => Some(None),
+            "carry" => own.map(Some),
+            other => number(other).map(Some),
+        };
+        let form = || "write it as M31=drop, M31=carry or M31=M88".to_owned();
+        Ok(MCode { number: own.ok_or_else(form)?, written: written.ok_or_else(form)? })
+    }
+}
+
+/// Puts what the user has said of M codes into the dictionary of a side.
+///
+/// # Errors
+/// A code that is left out or carried has a meaning in the source's dialect, or the code that is written for it has
+/// one in the target's.
+pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Result<(), Problem> {
+    let own = |code: &MCode| match side {
+        Side::From => Some(code.number),
+        Side::To => code.written,
+    };
+    let numbers: Vec<(MCode, u16)> =
+        known.m_codes().iter().filter_map(|code| Some((*code, own(code)?))).collect();
+    if numbers.is_empty()
+        || side == Side::To && (settings.dialect.can.flat || settings.dialect.can.everything)
+    {
+        return Ok(());
+    }
+    for (code, number) in &numbers {
+        at_odds(code, *number, side, settings.dialect)?;
+    }
+    let source = settings.dialect;
+    settings.dialect = known.derived(source, side, |dialect| {
+        for (code, number) in &numbers {
+            let means = match code.written {
+                // A derived dictionary lives as long as the process.
+                Some(_) => Meaning::MachineFunction(format!("m{}", code.number).leak()),
+                None => Meaning::LeftOut,
+            };
+            dialect.put_m_code(*number, means, "--m-code");
+        }
+    });
+    Ok(())
+}
+
+/// A code that has a meaning cannot have another one; in the target, one that its dialect refuses does something too.
+fn at_odds(code: &MCode, number: u16, side: Side, dialect: &Dialect) -> Result<(), Problem> {
+    let Some(row) = dialect.code_row(b'M', u32::from(number) * 10) else { return Ok(()) };
+    let (id, name) = (&dialect.id, &row.code);
+    let does = match (row.means, &row.refuse) {
+        (Some(Meaning::MachineFunction(function)), _) => function.to_owned(),
+        (Some(meaning), _) => meaning.to_string(),
+        (None, Some(refuse)) if side == Side::To => refuse.clone(),
+        (None, _) => return Ok(()),
+    };
+    let help = match side {
+        Side::From => "it is for codes that the dialect does not have, or refuses".to_owned(),
+        Side::To => {
+            format!("name the code that does it there: --m-code M{}=M…, or leave it out: =drop", code.number)
+        }
+    };
+    Err(Problem::usage(format!("--m-code: {name} of {id} is known: {does}"), help))
+}
