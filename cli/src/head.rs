@@ -87,6 +87,8 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedRow { code, meaning } => format!("{code} = {meaning}"),
         Fault::AssumedOption { option, value } => format!("{option} = {value}"),
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
+        // The head has a line of its own about them.
+        Fault::ToolNumbered { .. } => return None,
         Fault::AssumedHoleOrder { pattern } => format!("order of the holes of {pattern}"),
         Fault::AssumedPath { path } => format!("corners always by {path}"),
         Fault::AssumedMilling { looks_like, line } => {

@@ -14,7 +14,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::beside::Rules;
 use ncc_ir::canon::{AXES, AdviceKind};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
-use ncc_ir::maps::Numbered;
+use ncc_ir::maps::{Maps, Numbered, Renaming};
 use ncc_ir::num::Nanos;
 use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::{Compensating, Pass};
@@ -63,6 +63,8 @@ pub struct Job {
     pub called: Option<Called>,
     /// Assumptions about the source that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,
+    /// Numbers of tools that the source calls by name and no profile numbers, for a target without names.
+    pub numbered_tools: Vec<(Text, u32)>,
     /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
     pub rivals: Vec<&'static Dialect>,
     /// The handling of questions: facts that change the cut and that the program does not state.
@@ -92,6 +94,7 @@ impl Job {
             source_name: source_name.into(),
             called: None,
             assumed: Vec::new(),
+            numbered_tools: Vec::new(),
             rivals: Vec::new(),
             questions: Policy::default(),
             allow: Vec::new(),
@@ -104,6 +107,20 @@ impl Job {
         let mut reader = Reader::new(self.from.clone(), assume);
         reader.named(&self.source_name);
         reader
+    }
+
+    /// The target's numbers of what the source calls by its own.
+    pub fn maps(&self) -> Maps {
+        let mut maps = self.machines.maps(self.to.dialect);
+        maps.tool_names.extend(self.numbered_tools.iter().cloned());
+        maps
+    }
+
+    /// The way back, for a judge of what was written.
+    pub fn renaming(&self) -> Renaming {
+        let mut renaming = self.machines.renaming();
+        renaming.tool_names.extend(self.numbered_tools.iter().map(|(name, number)| (*number, name.clone())));
+        renaming
     }
 
     /// Whether long-hand text is folded. A list of events is, unless the target is one as well.

@@ -39,5 +39,6 @@ pub mod run;
 pub mod setting;
 pub mod sugar;
 pub mod time;
+mod tools_by_name;
 pub mod translate;
 mod verify_run;

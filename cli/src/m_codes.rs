@@ -2,7 +2,7 @@
 //!
 //! Not here: those that a machine's profile names (`ncc_machines`).
 
-use ncc_dialects::{Dialect, Meaning, Settings};
+use ncc_dialects::{CodeRow, Dialect, Meaning, Settings};
 use ncc_machines::reading::Side;
 
 use crate::known::Known;
@@ -73,6 +73,12 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     Ok(())
 }
 
+/// Whether what a code does may be stated by the user: the dialect does not have it, or refuses it, and it does not name
+/// blocks to go on at.
+pub(crate) fn may_be_stated(row: Option<&CodeRow>) -> bool {
+    row.is_none_or(|row| row.means.is_none() && row.blocks.is_empty())
+}
+
 /// A code that has a meaning cannot have another one; in the target, one that its dialect refuses does something too.
 fn at_odds(code: &MCode, number: u16, side: Side, dialect: &Dialect) -> Result<(), Problem> {
     let Some(row) = dialect.code_row(b'M', u32::from(number) * 10) else { return Ok(()) };
@@ -80,7 +86,7 @@ fn at_odds(code: &MCode, number: u16, side: Side, dialect: &Dialect) -> Result<(
     let does = match (row.means, &row.refuse) {
         (Some(Meaning::MachineFunction(function)), _) => function.to_owned(),
         (Some(meaning), _) => meaning.to_string(),
-        (None, Some(refuse)) if side == Side::To => refuse.clone(),
+        (None, Some(refuse)) if side == Side::To || !may_be_stated(Some(row)) => refuse.clone(),
         (None, _) => return Ok(()),
     };
     let help = match side {

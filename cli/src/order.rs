@@ -115,6 +115,7 @@ impl Order {
             source_name: source_name.to_owned(),
             called: None,
             assumed: Vec::new(),
+            numbered_tools: Vec::new(),
             rivals: Vec::new(),
             questions: if self.known.assumes() { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),

@@ -24,6 +24,7 @@ use crate::provenance::{map, why};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, questions, summary};
 use crate::sugar::{Said, rewrite};
+use crate::tools_by_name;
 use crate::{
     arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, listing, machines, plot,
     report, review, time, translate,
@@ -232,6 +233,8 @@ fn translated(
     called::gather(&mut source, &job.from, known.folders())?;
     job.called.clone_from(&source.called);
     job.assumed.clone_from(&source.assumed);
+    tools_by_name::number(&mut job, &mut source.file)
+        .map_err(|e| Problem::file("read", &source.shown, &e))?;
     source.rewind()?;
     if args.style == Style::Rs274 {
         listing::check(args, &job)?;

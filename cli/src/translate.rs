@@ -8,8 +8,8 @@ mod alone;
 mod as_there;
 mod heading;
 
-pub(crate) use as_there::parameter;
 use as_there::target;
+pub(crate) use as_there::{bore_shift, orientation, parameter};
 
 use std::collections::{BTreeSet, HashMap};
 use std::io;
@@ -164,6 +164,7 @@ impl<'j> Line<'j> {
         let mut legaliser =
             Legaliser::new(&job.to.caps(), as_there::decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
+        legaliser.set_fine_boring(bore_shift(job), orientation(job));
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
@@ -174,7 +175,7 @@ impl<'j> Line<'j> {
         }
         legaliser.set_source_behaviours(job.source_behaviours());
         legaliser.stand_at(&job.start);
-        let maps = job.machines.maps(job.to.dialect);
+        let maps = job.maps();
         legaliser.set_edge_entries(maps.edge_entries.clone());
         legaliser.set_program_numbers(maps.program_numbers.clone());
         let start = Tracker { position: job.start, ..Tracker::default() };

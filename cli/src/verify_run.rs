@@ -28,7 +28,7 @@ use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
 use crate::difference;
 use crate::given::Given;
 use crate::job::{Job, Verified};
-use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, bore_shift, orientation, parameter};
 
 /// Generated worlds in which every program is executed.
 pub(crate) const WORLDS: u32 = 2;
@@ -179,7 +179,7 @@ fn own_facts(job: &Job) -> Modes {
 
 impl Verifier {
     pub(crate) fn new(job: &Job) -> Verifier {
-        let renaming = job.machines.renaming();
+        let renaming = job.renaming();
         let mut finest = resolution(&job.to);
         if job.works_compensation_out() {
             // Both sides compute, in coordinates of their own: a millionth is what they have in common.
@@ -302,6 +302,12 @@ impl Verifier {
             }
             if let Some(lift) = lift {
                 exec.set_break_lift(lift);
+            }
+            if let Some(direction) = bore_shift(job) {
+                exec.set_bore_shift(direction);
+            }
+            if let Some(angle) = orientation(job).and_then(|angle| angle.nanos(false)) {
+                exec.set_orientation(angle);
             }
         }
     }

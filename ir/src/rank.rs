@@ -86,6 +86,7 @@ impl Fault {
             | Fault::NotCalled { .. }
             | Fault::ArgumentNeeded { .. }
             | Fault::CodeLeftOut { .. }
+            | Fault::ToolNumbered { .. }
             | Fault::CutStanding => Rank::Check,
 
             Fault::AssumedMode {

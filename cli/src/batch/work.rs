@@ -26,6 +26,7 @@ use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::render::human::told;
 use crate::render::{About, json, questions};
+use crate::tools_by_name;
 use crate::{called, milling, run, translate};
 
 /// Highest number of a program.
@@ -159,6 +160,8 @@ impl Bench<'_> {
         called::gather(&mut source, &job.from, self.known.folders())?;
         job.called.clone_from(&source.called);
         job.assumed.clone_from(&source.assumed);
+        tools_by_name::number(&mut job, &mut source.file)
+            .map_err(|e| Problem::file("read", &source.shown, &e))?;
         source.rewind()?;
         let asked = Asked { map: false, annotate: args.annotate };
         let (mut outcome, _) = translate::translate_recording(&job, asked, &mut source.file)

@@ -7,7 +7,9 @@ use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 use ncc_ir::passes::frame_increments;
 
-use super::words::{Context, millimetres, mode, plain, plain_upto, signed};
+use super::numbers::{millimetres, signed};
+use super::words::{Context, mode, plain, plain_upto};
+use crate::m_codes::may_be_stated;
 use crate::review::words::decimal;
 
 /// What to do. Empty where the message says it already.
@@ -46,8 +48,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
         Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 
-        Fault::UnknownCode { code } if is_m_code(code) => vec![m_code(code)],
-        Fault::NotSupported { code, .. } if is_m_code(code) => vec![m_code(code)],
+        Fault::UnknownCode { code } if is_open(code, at.from) => vec![m_code(code)],
+        Fault::NotSupported { code, .. } if is_open(code, at.from) => vec![m_code(code)],
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
@@ -256,6 +258,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::NameAsComment
         | Fault::MessageAsComment
         | Fault::CodeLeftOut { .. }
+        | Fault::ToolNumbered { .. }
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
@@ -265,6 +268,19 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CannotSay { what } if what.starts_with("a tool called ") => {
             vec![
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
+                    .into(),
+            ]
+        }
+        Fault::CannotSay { what } if what.starts_with("fine boring whose direction") => own(
+            "state the parameter of the source's control: `--from-option bore_shift=+1` (`-1`, `+2`, `-2`: along the \
+             first or second axis of the plane)",
+        ),
+        Fault::CannotSay { what }
+            if what.starts_with("entry ") && what.contains("of the length table with tool") =>
+        {
+            vec![
+                "state in the profile of the source's machine that the entry is this tool's: `[[tool]]` with `number`, \
+                 `name` and `length_entry`, and the same `name` in the target's; `ncc doctor` writes both"
                     .into(),
             ]
         }
@@ -423,10 +439,10 @@ fn mend(at: Context) -> String {
     format!("write the digit 0: `{before}{mended}{after}`")
 }
 
-/// Whether a code is one of the machine's.
-fn is_m_code(code: &str) -> bool {
-    code.strip_prefix('M')
-        .is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+/// Whether a code is an M code that the user may say something of: the dialect does not have it, or refuses it.
+fn is_open(code: &str, dialect: &Dialect) -> bool {
+    let number = code.strip_prefix('M').and_then(|number| number.parse::<u32>().ok());
+    number.is_some_and(|number| may_be_stated(dialect.code_row(b'M', number.saturating_mul(10))))
 }
 
 /// What can be said of a code that is the machine's own.

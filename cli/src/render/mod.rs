@@ -9,6 +9,7 @@ pub mod json;
 mod numbers;
 pub mod questions;
 pub mod source;
+mod spelled;
 pub mod summary;
 pub mod words;
 

@@ -10,9 +10,10 @@ use ncc_ir::rank::Rank;
 
 use super::About;
 use super::human::{Loudness, told};
+use super::numbers::millimetres;
 use super::questions::taken;
 use super::source::Lines;
-use super::words::{Context, millimetres, plain, plural, words, work_offset};
+use super::words::{Context, plain, plural, words, work_offset};
 use crate::called::Called;
 use crate::head::{assumption, by_name};
 use crate::job::{Failure, Outcome};
@@ -352,6 +353,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
             format!("{count} block {} left out", plural(u64::from(*count), "number"))
         }
         Fault::NameChanged { from, to } => format!("the name {}, as {}", plain(from), plain(to)),
+        Fault::ToolNumbered { name, number } => {
+            format!("T{number} is {}, numbered in the order of use", plain(name))
+        }
         Fault::CodeLeftOut { code } => format!("{} left out, as stated", plain(code)),
         Fault::MessageAsComment => "messages, as comments".to_owned(),
         Fault::NameAsComment => "the program's name, as a comment".to_owned(),

@@ -3,7 +3,9 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
-pub(super) use super::numbers::{millimetres, signed};
+use super::numbers::{millimetres, signed};
+pub use super::spelled::return_path;
+use super::spelled::{character, found_words, radii_of};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
@@ -486,6 +488,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CodeLeftOut { code } => {
             (format!("{} left out", quoted(code)), "stated to have no effect on the cut".into())
         }
+        Fault::ToolNumbered { name, number } => {
+            (format!("T{number} is {}", plain(name)), "numbered in the order of use: put it into this place".into())
+        }
         Fault::MessageAsComment => (
             "message kept as a comment".into(),
             format!("{to} shows none while the program runs"),
@@ -645,9 +650,9 @@ pub fn plural(count: u64, noun: &str) -> String {
     if count == 1 { noun.to_owned() } else { format!("{noun}s") }
 }
 
-/// Text from the source, as it may be shown: no control characters, not too long.
+/// Text as it may be shown: no control characters. ncc's own sentences are never cut.
 pub fn plain(text: &str) -> String {
-    plain_upto(text, 60)
+    plain_upto(text, 400)
 }
 
 /// The same, with a length of one's own, in characters.
@@ -659,41 +664,7 @@ pub fn plain_upto(text: &str, longest: usize) -> String {
     shown
 }
 
-/// The same, in the quotes of code.
-fn quoted(text: &str) -> String {
-    format!("`{}`", plain(text))
-}
-
-/// What was found, in quotes if it is text of the source.
-fn found_words(found: &str) -> String {
-    match found {
-        "end of line" | "end of text" => format!("the {found}"),
-        "a line" | "too many words" => found.to_owned(),
-        _ if found.starts_with('`') => plain(found),
-        _ => quoted(found),
-    }
-}
-
-fn character(c: char) -> String {
-    if c.is_control() || c as u32 > 0x7e {
-        format!("`{}` (U+{:04X})", super::source::visible(c), c as u32)
-    } else {
-        format!("`{c}`")
-    }
-}
-
-/// Both radii of an arc.
-fn radii_of([start, end]: [i64; 2]) -> String {
-    format!("radius {} mm at the start, {} mm at the end", millimetres(start), millimetres(end))
-}
-
-/// The path of a return to a reference point: by its words, which are places of the part, or counted from where the
-/// axes stand; `zero`: all of them are nothing.
-pub fn return_path(words: &str, zero: bool, absolute: bool) -> String {
-    let words = plain_upto(words, 24);
-    match (absolute, zero) {
-        (true, _) => format!("by way of {words} of the part"),
-        (false, true) => "from where it stands".to_owned(),
-        (false, false) => format!("by {words} from where it stands"),
-    }
+/// Text from the source, not too long, in the quotes of code.
+pub(super) fn quoted(text: &str) -> String {
+    format!("`{}`", plain_upto(text, 60))
 }

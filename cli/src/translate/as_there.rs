@@ -3,12 +3,12 @@
 
 use std::collections::HashMap;
 
-use ncc_dialects::{CodeRow, PATH_TOLERANCE, Quantity, SystemRow};
+use ncc_dialects::{BORE_SHIFT, CodeRow, PATH_TOLERANCE, Quantity, SPINDLE_ANGLE, SystemRow};
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::Num;
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
@@ -20,6 +20,7 @@ use ncc_ir::passes::{
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::world::Sideways;
 
 use super::{BREAK_LIFT, PECK_CLEARANCE};
 use crate::job::Job;
@@ -128,6 +129,8 @@ pub(super) fn target(job: &Job) -> Target {
         decimals: decimals(job),
         peck_clearance: parameter(job, PECK_CLEARANCE),
         break_lift: parameter(job, BREAK_LIFT),
+        bore_shift: bore_shift(job),
+        orientation: orientation(job),
         compensating: job.compensating(),
         given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
         // What is asked for by name is done in the source's numbers.
@@ -143,6 +146,20 @@ pub(super) fn path_at_start(job: &Job) -> Option<Diagnostic> {
     let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
     let stated = job.from.length(PATH_TOLERANCE).is_some_and(|within| within.mantissa > 0);
     (job.between_controls() && from != to && !stated).then(|| Diagnostic::new(fault, Span::default()))
+}
+
+/// Which way the source's control takes a tool off the wall of a bore, as far as it is stated.
+pub(crate) fn bore_shift(job: &Job) -> Option<Sideways> {
+    let stated = job.from.get(BORE_SHIFT);
+    Sideways::ALL.iter().find(|(name, _)| *name == stated).map(|(_, direction)| *direction)
+}
+
+/// The angle at which the source's control stops the spindle, as far as it is stated.
+pub(crate) fn orientation(job: &Job) -> Option<Num> {
+    job.from
+        .length(SPINDLE_ANGLE)
+        .filter(|_| job.from.is_chosen(SPINDLE_ANGLE))
+        .map(|angle| Num { unit: Unit::Degree, ..angle })
 }
 
 /// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.

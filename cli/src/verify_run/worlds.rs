@@ -12,7 +12,7 @@ use crate::job::Job;
 /// The world of a seed, as the source's control and as the target's has it.
 pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
-    let renaming = job.machines.renaming();
+    let renaming = job.renaming();
     let own_entries = match (&renaming.tools, &job.machines.from) {
         (Some(_), Some(machine)) => machine.tables().edge_entries,
         (None, _) | (_, None) => BTreeMap::new(),

@@ -17,6 +17,7 @@ mod plot;
 mod provenance;
 mod questions;
 mod readme;
+mod sessions;
 mod time;
 mod usage;
 mod verify;

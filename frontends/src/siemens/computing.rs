@@ -542,7 +542,7 @@ impl Lower {
             Quantity::Feed => {
                 // A computed feed counts what lengths count.
                 let feed = self.feed_unit(given.span, out)?;
-                let lengths = self.state.units.fact();
+                let lengths = self.units(given.span, out);
                 if feed != Unit::Entry && (lengths == Fact::Entry || feed != unit_of(lengths)) {
                     let name = "computed feed that may count other units than lengths";
                     self.not_supported(&src.text(given.span), name, given.span, out);

@@ -115,7 +115,7 @@ impl Lower {
             (None, Some(code)) => self.pattern(code, block, words, src, out),
             (None, None) => match &self.state.cycle {
                 InForce::Active(_) => self.in_cycle(dwell, block, words, src, out),
-                InForce::None | InForce::Lost if dwell => {}
+                InForce::None | InForce::Lost if dwell && !self.moves_behind_dwell() => {}
                 InForce::Lost => self.position(block, words, src, out),
                 InForce::None => self.plain_motion(motion.is_some(), block, words, src, out),
             },
@@ -194,6 +194,12 @@ impl Lower {
     /// Whether an axis word is left, or one for a point by radius and angle.
     pub(super) fn has_axis_word(&self, words: &Words) -> bool {
         words.has_any(self.roles.axes) || self.now.polar != [None; 2]
+    }
+
+    /// Whether the block of a dwell can have a straight move, and one is in force.
+    fn moves_behind_dwell(&self) -> bool {
+        let straight = matches!(self.state.motion.value(), Some(Motion::Traverse | Motion::Feed));
+        self.settings.dialect.block.dwell_before_move && straight && self.state.cycle == InForce::None
     }
 
     fn has_arc_word(&self, words: &Words) -> bool {

@@ -240,6 +240,8 @@ pub struct BlockRules {
     /// Whether a feed counts in the units that were in force before the block, also if the block
     /// changes them.
     pub feed_before_units: bool,
+    /// Whether a block can have a dwell and a straight move, which comes behind it.
+    pub dwell_before_move: bool,
     /// Whether the spindle and the coolant are switched off before the block's move; else after it.
     pub off_before_move: bool,
     /// Whether a tool change comes before the move of its block, whatever their order in the text. Elsewhere that is

@@ -75,6 +75,13 @@ pub const ARC_TOLERANCE_PART: &str = "arc_tolerance_part";
 /// Option of a dictionary: how far from the path plain rounding of corners goes on this machine, in mm; 0 is not stated.
 pub const PATH_TOLERANCE: &str = "path_tolerance";
 
+/// Option: which way a fine boring cycle takes the tool off the wall, by the sign and the first or second axis of the
+/// plane.
+pub const BORE_SHIFT: &str = "bore_shift";
+
+/// Option: the angle at which the spindle stops where nothing else is said, in degrees.
+pub const SPINDLE_ANGLE: &str = "spindle_angle";
+
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
 pub struct Settings {

@@ -5,7 +5,7 @@
 //! Such arcs keep their centre.
 
 use super::walk::Walk;
-use super::write::{rounded, unit_of};
+use super::write::{EXACT, rounded, unit_of};
 use super::{Target, each_body};
 use crate::canon::{Axis, Units};
 use crate::diag::{Diagnostic, Fault};
@@ -50,9 +50,11 @@ pub(super) fn may_be_too_fine(op: &Op, decimals: u8) -> bool {
 pub(super) fn too_fine(stmts: &mut [Stmt], walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     for stmt in stmts {
         walk.enter(stmt.skip);
+        // The writer rounds a centre's word together with the start that it is measured from.
+        let exact = Target { decimals: EXACT, ..Target::default() };
         if may_be_too_fine(&stmt.op, target.decimals_in(walk.unit()))
             && let Op::ArcFeed(arc) = &mut stmt.op
-            && centre_of(arc, walk, target).is_ok()
+            && centre_of(arc, walk, &exact).is_ok()
         {
             diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
         }

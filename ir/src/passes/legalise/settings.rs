@@ -6,13 +6,21 @@ use super::super::needs::{ARC, CONTROL, ORIENT, RADIUS, TOOL_AXIS};
 use super::super::{feed_time, feed_unit, frame_increments, length_axis, rotary_turns};
 use super::Legaliser;
 use crate::behaviour::{Behaviour, Behaviours};
+use crate::num::Num;
 use crate::round::ArcRule;
+use crate::world::Sideways;
 
 impl Legaliser {
     /// The entries of the target's length table that have the lengths of its tools, where they are not
     /// the tools' numbers.
     pub fn set_edge_entries(&mut self, entries: BTreeMap<u32, u32>) {
         self.target.edge_entries = entries;
+    }
+
+    /// What the source's control has in parameters of fine boring: which way the tool is taken off the wall, and at
+    /// which angle the spindle stops, in degrees.
+    pub fn set_fine_boring(&mut self, shift: Option<Sideways>, angle: Option<Num>) {
+        (self.target.bore_shift, self.target.orientation) = (shift, angle);
     }
 
     /// Numbers of programs that the target's machine has already, for others than this one's.
