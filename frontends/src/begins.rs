@@ -6,6 +6,8 @@
 //!
 //! Not here: what axis words do where no motion was said.
 
+use std::collections::HashMap;
+
 use ncc_dialects::{Dialect, PowerOn, PowerOnFact};
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Units};
 use ncc_ir::diag::{Fault, ModeName};
@@ -215,29 +217,32 @@ impl Inherited {
     /// The text is over: takes for granted what subprograms find as the program began.
     pub(crate) fn settle(&self, dialect: &Dialect, out: &mut Batch) {
         let begins = &dialect.power_on;
-        let mut found = vec![0; self.subs.len()];
-        let hand_on = |calls: &[(Option<Text>, ModeSet)], has: ModeSet, found: &mut [ModeSet]| {
-            let mut more = false;
+        let mut places: HashMap<&Text, Vec<usize>> = HashMap::new();
+        for (at, (name, _)) in self.subs.iter().enumerate() {
+            places.entry(name).or_default().push(at);
+        }
+        let all: Vec<usize> = (0..self.subs.len()).collect();
+        let mut found: Vec<ModeSet> = vec![0; self.subs.len()];
+        // Subprograms that have been handed something since what they call was looked at.
+        let mut ahead = Vec::new();
+        let hand_on = |calls: &[(Option<Text>, ModeSet)],
+                       has: ModeSet,
+                       found: &mut [ModeSet],
+                       ahead: &mut Vec<usize>| {
             for (name, unsaid) in calls {
-                for ((other, _), found) in self.subs.iter().zip(&mut *found) {
-                    if name.as_ref().is_none_or(|name| name == other) && *found | unsaid & has != *found {
-                        *found |= unsaid & has;
-                        more = true;
+                let to = name.as_ref().map_or(Some(&all), |name| places.get(name));
+                for &at in to.into_iter().flatten() {
+                    if found[at] | unsaid & has != found[at] {
+                        found[at] |= unsaid & has;
+                        ahead.push(at);
                     }
                 }
             }
-            more
         };
-        hand_on(&self.main.calls, !0, &mut found);
-        loop {
-            let before = found.clone();
-            let mut more = false;
-            for ((_, own), has) in self.subs.iter().zip(before) {
-                more |= hand_on(&own.calls, has, &mut found);
-            }
-            if !more {
-                break;
-            }
+        hand_on(&self.main.calls, !0, &mut found, &mut ahead);
+        while let Some(at) = ahead.pop() {
+            let has = found[at];
+            hand_on(&self.subs[at].1.calls, has, &mut found, &mut ahead);
         }
         for mode in MODES {
             let mut relied = self

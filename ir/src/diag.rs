@@ -222,6 +222,8 @@ faults! {
     CallUnknown { name: Box<str> } = 217, Error;
     /// A subprogram calls itself.
     CallRecursive { name: Box<str> } = 218, Error;
+    /// Calls within calls, deeper than any control allows.
+    CallsTooDeep { name: Box<str>, most: u32 } = 236, Error;
     /// Two programs of one name.
     ProgramTwice { name: Box<str> } = 219, Error;
     /// Variables, expressions or control of the program's flow: not translated.

@@ -167,6 +167,7 @@ impl Fault {
             | Fault::CallUnknown { .. }
             | Fault::LabelUnknown { .. }
             | Fault::CallRecursive { .. }
+            | Fault::CallsTooDeep { .. }
             | Fault::ProgramTwice { .. }
             | Fault::MacroLanguage { .. }
             | Fault::NoToolSelected

@@ -2,7 +2,7 @@
 //!
 //! Not here: what only execution can find, such as calls without an end.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use crate::arguments;
 use crate::computes::Computes;
@@ -125,7 +125,7 @@ fn is_move(stmt: &Stmt) -> bool {
 }
 
 /// Calls of procedures and jumps to labels that the program does not have, in the order of its text. A jump finds
-/// labels of its own procedure.
+/// labels of its own procedure. Where there are none, a call that stands too deep within others.
 pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for procedure in &program.procedures {
@@ -133,7 +133,71 @@ pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
         labels_of(&procedure.body, &mut labels);
         within(program, &procedure.body, &labels, &mut found);
     }
+    if found.is_empty() {
+        found.extend(calls_too_deep(program));
+    }
     found
+}
+
+/// Calls within one another that are followed; no control has so many.
+const DEEPEST: usize = 64;
+
+/// A call that stands deeper within others than is followed; calls that come back to their own program are told by what
+/// executes them.
+fn calls_too_deep(program: &Program) -> Option<Diagnostic> {
+    fn calls<'p>(body: &'p [Stmt], found: &mut Vec<(&'p str, Span)>) {
+        for stmt in body {
+            match &stmt.op {
+                Op::Call(call) => found.push((&call.name, stmt.span)),
+                Op::Control(control) => control.bodies().for_each(|body| calls(body, found)),
+                _ => {}
+            }
+        }
+    }
+    let mut places = HashMap::new();
+    for (at, procedure) in program.procedures.iter().enumerate().skip(1) {
+        places.entry(&*procedure.name).or_insert(at);
+    }
+    let calls_of = |at: usize| {
+        let mut found = Vec::new();
+        calls(&program.procedures[at].body, &mut found);
+        let known = found.into_iter().filter_map(|(name, span)| Some((*places.get(name)?, name, span)));
+        let mut known: Vec<(usize, &str, Span)> = known.collect();
+        known.sort_by_key(|(to, ..)| *to);
+        known.dedup_by_key(|(to, ..)| *to);
+        known
+    };
+    // How deep the calls of each go, and by which of them; on the way to one, none is known of it.
+    let mut deep: Vec<Option<(usize, Option<(usize, &str, Span)>)>> = vec![None; program.procedures.len()];
+    let mut entered = vec![false; program.procedures.len()];
+    let mut ahead = if deep.is_empty() { Vec::new() } else { vec![(0, None)] };
+    while let Some((at, own)) = ahead.pop() {
+        let Some(own) = own else {
+            if !std::mem::replace(&mut entered[at], true) {
+                let own = calls_of(at);
+                let further: Vec<_> = own.iter().map(|(to, ..)| (*to, None)).collect();
+                ahead.push((at, Some(own)));
+                ahead.extend(further);
+            }
+            continue;
+        };
+        let below = own.iter().map(|call| (deep[call.0].map_or(0, |(deep, _)| deep) + 1, Some(*call)));
+        deep[at] = Some(below.max_by_key(|(deep, _)| *deep).unwrap_or((0, None)));
+    }
+    let mut at = deep.first().copied().flatten()?;
+    if at.0 <= DEEPEST {
+        return None;
+    }
+    let mut steps = DEEPEST;
+    while let Some((to, name, span)) = at.1 {
+        if steps == 0 {
+            let fault = Fault::CallsTooDeep { name: name.into(), most: DEEPEST as u32 };
+            return Some(Diagnostic::new(fault, span));
+        }
+        steps -= 1;
+        at = deep[to]?;
+    }
+    None
 }
 
 /// Procedures that nothing leads to from where the program begins, by their places: other programs may call them.

@@ -102,6 +102,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CallUnknown { .. } => {
             own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
         }
+        Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
             Vec::new()
         }

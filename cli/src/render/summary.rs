@@ -400,6 +400,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::CallUnknown { .. }
         | Fault::LabelUnknown { .. }
         | Fault::CallRecursive { .. }
+        | Fault::CallsTooDeep { .. }
         | Fault::ProgramTwice { .. }
         | Fault::MacroLanguage { .. }
         | Fault::NoToolSelected

@@ -143,6 +143,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CallUnknown { name } => {
             (format!("program {} is not in this file", quoted(name)), "called here".into())
         }
+        Fault::CallsTooDeep { name, most } => (
+            format!("the call of {} stands within {most} others", quoted(name)),
+            "no control calls that deep: it ends with an alarm".into(),
+        ),
         Fault::CallRecursive { name } => {
             (format!("program {} calls itself", quoted(name)), "this call never comes to an end".into())
         }

@@ -22,6 +22,9 @@ use super::token::FlowWord;
 use super::{Reader, Source};
 use crate::Batch;
 
+/// How many structures can stand in one another.
+const DEEPEST: usize = 100;
+
 /// What is put aside while a subprogram is read.
 #[derive(Debug)]
 pub(super) struct Outer {
@@ -234,6 +237,21 @@ impl Lower {
         self.leave_motion(None, out);
         self.push(span, Op::Call(Box::new(Call { name, times: 1, arguments, shared: false })), out);
         self.lose_within(self.state.centre_before, span, out);
+    }
+
+    /// Whether a structure stands within so many others that no further one is looked at.
+    pub(super) fn within_too_many(&mut self, label: &str, kind: &Kind, block: Span, out: &mut Batch) -> bool {
+        self.o.too_deep = self.o.open.len() >= DEEPEST;
+        if self.o.too_deep {
+            let name = format!("structure within {DEEPEST} others").into();
+            self.fault(
+                Fault::NotSupported { code: format!("O{label} {}", kind.word()).into(), name },
+                block,
+                out,
+            );
+            self.o.open.clear();
+        }
+        self.o.too_deep
     }
 
     /// Whether a subprogram of O words is being read.

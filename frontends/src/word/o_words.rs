@@ -59,6 +59,8 @@ pub(super) struct ODecides {
     /// Where a turn of a `do` is left, and where a `repeat` begins.
     turned: Option<Span>,
     repeats: Option<Span>,
+    /// Structures stand in one another deeper than they are read: none is looked at any more.
+    pub(super) too_deep: bool,
 }
 
 /// What has not been closed.
@@ -91,7 +93,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    fn word(&self) -> &'static str {
+    pub(super) fn word(&self) -> &'static str {
         match self {
             Kind::If { .. } => "if",
             Kind::While(_) => "while",
@@ -357,6 +359,9 @@ impl Lower {
     /// A block that decides. What begins and ends subprograms has been taken before.
     pub(super) fn decide_flow(&mut self, decision: &Decision, block: &Block, out: &mut Batch) {
         out.whole = true;
+        if self.o.too_deep {
+            return;
+        }
         let span = block.span;
         let letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
         self.now.number = block.words.iter().find(|w| w.letter == letter).and_then(|w| match w.value {
@@ -482,6 +487,9 @@ impl Lower {
                 name: "label that stands twice in its program".into(),
             };
             self.fault(fault, block, out);
+        }
+        if self.within_too_many(label, &kind, block, out) {
+            return;
         }
         self.o.labels.push(label.into());
         if let Kind::Do = kind {

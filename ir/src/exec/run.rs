@@ -426,7 +426,10 @@ impl<'p> Runner<'p> {
 
     fn deep(&self, name: &str, span: Span) -> Result<(), Diagnostic> {
         if self.calls.len() + self.blocks.len() + self.turns.len() >= DEEPEST {
-            return Err(Diagnostic::new(Fault::CallRecursive { name: name.into() }, span));
+            return Err(Diagnostic::new(
+                Fault::CallsTooDeep { name: name.into(), most: DEEPEST as u32 },
+                span,
+            ));
         }
         Ok(())
     }
