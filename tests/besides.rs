@@ -1,6 +1,8 @@
 //! What controls do besides the names of codes, where two lists of events are laid side by side: what the one switches by
 //! itself, the other may say in words, as long as nothing is cut.
 
+use ncc::job::Job;
+
 use crate::plain::{Happening, Plain};
 
 /// Whether coolant is switched by a word, where the other control did the same by itself, or this one had.
@@ -24,25 +26,67 @@ pub fn of_cuts(list: &[Plain]) -> Vec<Plain> {
     kept.map(bare).collect()
 }
 
-/// What the second control alone has done by itself is as the first one has it, as long as nothing is cut.
-pub(crate) fn passed_over(a: &Plain, b: &Plain) -> Plain {
-    let mut b = *b;
-    if cuts(b.what) {
-        return b;
-    }
-    if b.by_itself.spindle && !a.by_itself.spindle {
-        (b.speed, b.surface) = (a.speed, a.surface);
-    }
-    if b.by_itself.coolant && !a.by_itself.coolant {
-        b.coolant = a.coolant;
-    }
-    if b.by_itself.z && !a.by_itself.z || a.by_itself.z && !b.by_itself.z_moved {
-        b.at[2] = a.at[2];
-    }
-    b
+/// What the first control had where the second one switched or moved by itself: that alone is passed over.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Unsaid {
+    /// Speed of the spindle, negative counter-clockwise.
+    speed: Option<f64>,
+    z: Option<f64>,
 }
 
-/// The same as if the control stayed where the program has put it: what it does by itself for a tool change is undone.
+impl Unsaid {
+    /// What the second control alone has done by itself is as the first one has it, as long as nothing is cut, and as
+    /// long as the first program neither turns the spindle the other way nor moves Z by more than `near`.
+    pub(crate) fn passed_over(&self, a: &Plain, b: &Plain, near: f64) -> Plain {
+        let mut b = *b;
+        if cuts(b.what) {
+            return b;
+        }
+        let (code, changes) = (is_code(a.what), a.what == Happening::ToolChange);
+        let turned = !code && self.speed.is_some_and(|was| sense(was) != sense(a.speed));
+        if b.by_itself.spindle && !a.by_itself.spindle && !turned {
+            (b.speed, b.surface) = (a.speed, a.surface);
+        }
+        if b.by_itself.coolant && !a.by_itself.coolant {
+            b.coolant = a.coolant;
+        }
+        let moved = !changes && self.z.is_some_and(|was| (was - a.at[2]).abs() > near);
+        if b.by_itself.z && !a.by_itself.z && !moved || a.by_itself.z && !b.by_itself.z_moved {
+            b.at[2] = a.at[2];
+        }
+        b
+    }
+
+    /// Two events were found equal.
+    pub(crate) fn after(&mut self, a: &Plain, b: &Plain) {
+        let keep = |by_itself: bool, code: bool, was: Option<f64>, now: f64| match was {
+            _ if !by_itself => None,
+            Some(was) if !code => Some(was),
+            _ => Some(now),
+        };
+        self.speed = keep(b.by_itself.spindle, is_code(a.what), self.speed, a.speed);
+        self.z = keep(b.by_itself.z, a.what == Happening::ToolChange, self.z, a.at[2]);
+    }
+}
+
+/// Whether controls switch the spindle there by themselves.
+fn is_code(what: Happening) -> bool {
+    matches!(what, Happening::Stop | Happening::OptionalStop | Happening::ToolChange | Happening::End)
+}
+
+/// Sense of a spindle: 0 while it stands.
+fn sense(speed: f64) -> i8 {
+    i8::from(speed > 0.0) - i8::from(speed < 0.0)
+}
+
+/// The source's events as the second interpreter of a target makes them that has no words for the way up to a tool change
+/// ([`Job::takes_way_up`]): it takes nothing of it.
+pub fn for_target(list: Vec<Plain>, job: &Job) -> Vec<Plain> {
+    if job.takes_way_up() { without_way_up(list) } else { list }
+}
+
+/// The same as if the control stayed where the program has put it: what it does by itself for a tool change is undone, as
+/// long as nothing is cut there.
 pub fn without_way_up(list: Vec<Plain>) -> Vec<Plain> {
     let (mut kept, mut z): (Vec<Plain>, Option<f64>) = (Vec::new(), None);
     for mut event in list {
@@ -51,7 +95,7 @@ pub fn without_way_up(list: Vec<Plain>) -> Vec<Plain> {
             continue;
         }
         match z {
-            Some(z) if event.by_itself.z => event.at[2] = z,
+            Some(z) if event.by_itself.z && !cuts(event.what) => event.at[2] = z,
             _ => z = None,
         }
         kept.push(event);

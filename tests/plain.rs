@@ -17,7 +17,7 @@ use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
-use crate::besides::{cuts, passed_over, switched};
+use crate::besides::{Unsaid, cuts, switched};
 use crate::interpreter::setup::Counted;
 use crate::interpreter::{
     self, Beside, ByItself, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What,
@@ -496,25 +496,32 @@ fn push(list: &mut Vec<Plain>, start: [f64; 6], event: Plain) {
 /// The first difference, with what stands around it.
 pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Result<(), String> {
     let (mut index, mut at) = (0, 0);
-    // Words that stop the spindle for an optional stop are passed over until something is cut.
-    let mut optional = false;
+    // Words that stop the spindle for an optional stop are passed over until something is cut: the speed there.
+    let mut optional = None;
+    let mut unsaid = Unsaid::default();
     while index < expected.len() || at < actual.len() {
+        let (mut at_stop, mut still) = (optional, None);
         let fault = match (expected.get(index), actual.get(at)) {
             (Some(a), Some(b)) => {
-                optional = a.what == Happening::OptionalStop || optional && !cuts(a.what);
-                let b = if optional && b.speed == 0.0 {
+                at_stop = if a.what == Happening::OptionalStop { Some(a.speed) } else { optional };
+                still = at_stop.filter(|_| !cuts(a.what));
+                let turns_on = still.is_some_and(|was: f64| (was < 0.0) == (a.speed < 0.0));
+                let b = if turns_on && b.speed == 0.0 {
                     Plain { speed: a.speed, surface: a.surface, ..*b }
                 } else {
                     *b
                 };
-                let off = optional && b.coolant == (false, false);
+                let off = still.is_some() && b.coolant == (false, false);
                 let b = if off { Plain { coolant: a.coolant, ..b } } else { b };
-                difference(a, &b, within)
+                difference(a, &unsaid.passed_over(a, &b, within.place), within)
             }
             _ => Some("one list is shorter"),
         };
         let Some(fault) = fault else {
-            (index, at) = (index + 1, at + 1);
+            if let (Some(a), Some(b)) = (expected.get(index), actual.get(at)) {
+                unsaid.after(a, b);
+            }
+            (index, at, optional) = (index + 1, at + 1, still);
             continue;
         };
         // Coolant that a word switches here, and the control by itself there; and its way up to a tool change.
@@ -523,7 +530,7 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
                 index += 1;
                 continue;
             }
-            let for_stop = b.what == Happening::Coolant && (optional || a.what == Happening::OptionalStop);
+            let for_stop = b.what == Happening::Coolant && at_stop.is_some();
             if switched(b, a) || b.by_itself.moves || for_stop {
                 at += 1;
                 continue;
@@ -541,6 +548,15 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
             Some(returns && event.at.iter().zip(other?.at).all(|(x, y)| near(*x, y)))
         };
         let stood = index.checked_sub(1).and_then(|index| expected.get(index));
+        // Or the first one goes to where the other control has gone up by itself.
+        let up = at.checked_sub(1).and_then(|at| actual.get(at)).filter(|event| event.by_itself.z);
+        if let (Some(a), Some(up)) = (expected.get(index), up)
+            && a.what == Happening::Traverse
+            && a.at.iter().zip(up.at).all(|(x, y)| (x - y).abs() <= within.place)
+        {
+            index += 1;
+            continue;
+        }
         if back(actual, at, stood) == Some(true) {
             at += 1;
             continue;
@@ -592,7 +608,6 @@ fn stands(list: &[Plain], index: usize, within: Tolerance) -> bool {
 }
 
 fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
-    let b = &passed_over(a, b);
     let near = |x: f64, y: f64, by: f64| (x - y).abs() <= by;
     let same_kind = match (a.what, b.what) {
         (

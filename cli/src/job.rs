@@ -156,19 +156,27 @@ impl Job {
                 target.set(*behaviour, self.from.behaviours().get(*behaviour), false);
             }
         }
-        let caps = &self.to.dialect.caps;
-        let says = caps.references.home || caps.machine_coordinates;
-        let (change, source) = (Behaviour::ZAtChange, self.source_behaviours());
-        if source.surely(change) && !target.does(change) && !says {
-            target.set(change, source.get(change), target.is_open(change));
+        let change = Behaviour::ZAtChange;
+        if self.takes_way_up() && !self.to.dialect.can.flat {
+            target.set(change, self.from.behaviours().get(change), target.is_open(change));
         }
         target
+    }
+
+    /// Whether the source's control moves Z to machine zero at a tool change, and the target has no words for that: it
+    /// is assumed to do the same, or, a list of events, leaves it out. Nothing is known there of the target's Z.
+    pub fn takes_way_up(&self) -> bool {
+        let caps = &self.to.dialect.caps;
+        let says = caps.references.home || caps.machine_coordinates;
+        let change = Behaviour::ZAtChange;
+        self.from.behaviours().surely(change) && !self.to.behaviours().does(change) && !says
     }
 
     /// The pass that writes side effects of codes as words.
     pub fn side_effects(&self) -> SideEffects {
         let all =
             SideEffects::new(self.source_behaviours(), self.target_behaviours(), self.from.fine_increments());
+        let all = if self.takes_way_up() { all.with_way_up_taken() } else { all };
         let says = |value| self.to.dialect.caps.advises(AdviceKind::CompensatedFeed, value);
         match (0..AdviceKind::CompensatedFeed.values().len() as u8).all(says) {
             true => all.with_arc_feed(),

@@ -7,9 +7,14 @@
 
 use std::collections::BTreeMap;
 
+mod besides;
 mod plain;
 
 pub use plain::same_plain;
+
+use besides::{
+    Passed, but_for_control, from_start, same_time, switched_by_control, with_z_of, z_passed_over,
+};
 
 use crate::alarms::Alarms;
 use crate::canon::{AXES, Axis, Spindle, Turn, same_point};
@@ -181,6 +186,8 @@ pub struct Comparison {
     optional_stops: bool,
     /// An optional stop came, and nothing was cut since.
     after_optional: bool,
+    /// What the target's control alone has done by itself.
+    passed: Passed,
 }
 
 impl Comparison {
@@ -203,6 +210,7 @@ impl Comparison {
             measured: None,
             optional_stops: false,
             after_optional: false,
+            passed: Passed::default(),
         }
     }
 
@@ -374,6 +382,7 @@ impl Comparison {
     pub fn start_at(&mut self, start: [Nanos; AXES]) {
         self.source_at = start;
         self.target_at = start;
+        self.passed = Passed::default();
     }
 
     /// Notes events that need no comparison, because both sides executed the same in the same state.
@@ -401,16 +410,14 @@ impl Comparison {
                         self.source_at = a.end;
                         self.target_at = b.end;
                         self.events += 1;
+                        let around = if self.optional_stops { self.around_optional_stop(a, b) } else { 0 };
+                        self.passed.after(a, b, around);
                         if self.optional_stops {
                             let stop = a.kind == Kind::OptionalProgramStop;
                             self.after_optional = stop || self.after_optional && !cuts(&a.kind);
                         }
                         if self.measured.is_some() {
-                            let end = if z_passed_over(a, b) {
-                                with_z(&b.end, a.end[Axis::Z as usize])
-                            } else {
-                                b.end
-                            };
+                            let end = if z_passed_over(a, b) { with_z_of(a, b) } else { b.end };
                             self.note(a, b, [&a.end, &end]);
                             self.note_values(a, b);
                         }
@@ -601,8 +608,9 @@ impl Comparison {
         if z_elsewhere && cuts(&b.kind) {
             return Some(Aspect::End(Axis::Z));
         }
-        let end = match z_elsewhere {
-            true => self.end(&a.end, &with_z(&b.end, a.end[Axis::Z as usize]), b.inch),
+        let half = self.half[usize::from(b.inch || self.as_inches)].max(self.within);
+        let end = match z_elsewhere && !self.passed.z_moved(a, half) {
+            true => self.end(&a.end, &with_z_of(a, b), b.inch),
             false => self.end(&a.end, &b.end, b.inch),
         };
         if let Some(axis) = end {
@@ -618,59 +626,11 @@ impl Comparison {
         }
         let switches = by_control::SPINDLE | by_control::COOLANT;
         let around = if self.optional_stops { self.around_optional_stop(a, b) } else { 0 };
-        let same = match by_target & switches | around {
+        let same = match self.passed.unsaid(a, by_target & switches | around) {
             0 => self.same_state(&a.state, &b.state),
             _ if cuts(&b.kind) => self.same_state(&a.state, &b.state),
             bits => self.same_state(&a.state, &but_for_control(&a.state, &b.state, bits)),
         };
         (!same).then_some(Aspect::State)
     }
-}
-
-/// Whether two moves take the same time, where one of their controls counts the feed in a way of its own: to half a per
-/// cent, because F of such a move has few digits.
-fn same_time(source: &Event, target: &Event) -> bool {
-    let timed = (source.state.by_control | target.state.by_control) & by_control::TIMED != 0;
-    let apart = i128::from(source.rate.abs_diff(target.rate));
-    timed && apart * 190 <= i128::from(source.rate)
-}
-
-/// Whether Z is where the control or the operator has left it, on one side alone.
-fn z_passed_over(source: &Event, target: &Event) -> bool {
-    target.state.by_control & !source.state.by_control & by_control::Z != 0 || from_start(source, target)
-}
-
-/// Whether the source's control has taken Z to machine zero, and the target's Z still stands where the operator has
-/// left it.
-fn from_start(source: &Event, target: &Event) -> bool {
-    source.state.by_control & by_control::Z != 0 && target.state.by_control & by_control::Z_AT_START != 0
-}
-
-/// A point with another Z.
-fn with_z(point: &[Nanos; AXES], z: Nanos) -> [Nanos; AXES] {
-    let mut point = *point;
-    point[Axis::Z as usize] = z;
-    point
-}
-
-/// The target's state with what its control alone has switched as it is in the source.
-fn but_for_control(source: &State, target: &State, bits: u8) -> State {
-    let mut state = *target;
-    if bits & by_control::SPINDLE != 0 {
-        (state.spindle, state.speed) = (source.spindle, source.speed);
-        (state.spindle_mode, state.limit, state.centre) = (source.spindle_mode, source.limit, source.centre);
-    }
-    if bits & by_control::COOLANT != 0 {
-        (state.flood, state.mist) = (source.flood, source.mist);
-    }
-    state
-}
-
-/// Whether coolant is switched by a word on one side, where the control of the other side did the same by itself; or
-/// on again, where the own control had switched it off by itself.
-fn switched_by_control(event: &Event, other: &Event) -> bool {
-    let bit = by_control::COOLANT;
-    let same = (event.state.flood, event.state.mist) == (other.state.flood, other.state.mist);
-    matches!(event.kind, Kind::Coolant)
-        && (event.state.by_control & bit != 0 || other.state.by_control & bit != 0 && same)
 }

@@ -37,13 +37,15 @@ pub(crate) fn class(emitted: &Emitted, mutant: &Mutant) -> Result<&'static str, 
     }
     if let Err(why) = the_same_moves(emitted, &mutant.text, &same) {
         // Where the source stands already, the digits of the target may leave less than their last one to go.
-        let about =
-            mutant.change == Change::Swapped && the_same_moves(emitted, &mutant.text, &but_for_short).is_ok();
-        return if about {
-            Ok("order of blocks about a move that is less than the last digit")
-        } else {
-            Err(why)
+        let class = match &mutant.change {
+            Change::Swapped => "order of blocks about a move that is less than the last digit",
+            // After it the control stops the spindle by itself, or the program does.
+            Change::Deleted | Change::Sibling(_) if mutant.is == Is::Letter(b'M') && is_spindle(old) => {
+                "a spindle code about a move that is less than the last digit"
+            }
+            _ => return Err(why),
         };
+        return the_same_moves(emitted, &mutant.text, &but_for_short).map(|()| class).map_err(|_| why);
     }
     Ok(match (&mutant.change, mutant.is) {
         (Change::Sibling(mark), _) if mark == "AC" || mark == "IC" => "a place counted from elsewhere",
@@ -95,7 +97,8 @@ pub(crate) fn class(emitted: &Emitted, mutant: &Mutant) -> Result<&'static str, 
 }
 
 /// A mutant that is as near to the source as the text itself: the last digit of a number that was
-/// rounded, or a word that says the rounded place where an axis stands. Half a unit of the last digit
+/// rounded, or a word that says the rounded place where an axis stands, or spindle or coolant that are started again
+/// before an earlier move, in which the source has them on. Half a unit of the last digit
 /// is what equality allows; the second interpreter runs the source and the mutant.
 pub(crate) fn rounded(
     source: &Program,
@@ -106,6 +109,13 @@ pub(crate) fn rounded(
     let class = match mutant.change {
         Change::Digit => "the last digit of a rounded number, as near to the source",
         Change::Deleted => "an axis that stands there already, but for a rounding",
+        // What the target's control has switched off by itself is on again in time for the next cut.
+        Change::Swapped if switches_on(block_after(emitted.text, mutant.at.start)) => {
+            "a switch that is started again earlier, where the source has it on"
+        }
+        Change::Swapped if starts_spindle(&emitted.text[mutant.at.clone()]) => {
+            "a spindle that is started again later, before the cut, where the source has it on"
+        }
         Change::Sign | Change::Sibling(_) | Change::Swapped => return None,
     };
     let has = |code: &[u8]| emitted.text.windows(code.len()).any(|w| w == code);
@@ -128,6 +138,33 @@ pub(crate) fn rounded(
         }
     }
     Some(class)
+}
+
+/// Whether a word is a code of the spindle: it starts or stops it.
+fn is_spindle(word: &[u8]) -> bool {
+    matches!(word, b"M3" | b"M03" | b"M4" | b"M04" | b"M5" | b"M05")
+}
+
+/// Whether a block starts the spindle or coolant, and does nothing else.
+fn switches_on(block: &[u8]) -> bool {
+    match block.trim_ascii() {
+        b"M3" | b"M03" | b"M4" | b"M04" | b"M7" | b"M07" | b"M8" | b"M08" => true,
+        b"START_SPINDLE_CLOCKWISE()" | b"START_SPINDLE_COUNTERCLOCKWISE()" => true,
+        block => matches!(block, b"FLOOD_ON()" | b"MIST_ON()"),
+    }
+}
+
+/// Whether the first of these blocks starts the spindle and moves nothing.
+fn starts_spindle(blocks: &[u8]) -> bool {
+    let first = blocks.split(|b| *b == b'\n').next().unwrap_or_default().trim_ascii();
+    let mut words = first.split(|b| *b == b' ').filter(|word| !word.is_empty());
+    let starts = words.clone().any(|word| matches!(word, b"M3" | b"M03" | b"M4" | b"M04"));
+    starts && words.all(|word| matches!(word[0], b'N' | b'G' | b'S' | b'M'))
+}
+
+/// The block after the one that begins at a place.
+fn block_after(text: &[u8], place: usize) -> &[u8] {
+    text[place..].split(|b| *b == b'\n').nth(1).unwrap_or_default()
 }
 
 /// Whether a word stands in the block of a canned cycle.

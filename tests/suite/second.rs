@@ -1,6 +1,5 @@
 //! The second interpreter: it runs the corpus, and its events are the compiler's.
 
-use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
@@ -64,12 +63,6 @@ fn emitted_programs_make_the_same_moves() {
             if outcome.release.is_err() {
                 continue;
             }
-            // The way up to a tool change that a target without words for it is taken to make, as the head says: the second
-            // interpreter takes nothing of a Mach-9.
-            let up = Behaviour::ZAtChange;
-            if outcome.diagnostics.iter().any(|d| matches!(&d.fault, Fault::OpenBehaviour { behaviour, source: false, .. } if *behaviour == up)) {
-                continue;
-            }
             pairs += 1;
             // The one work offset of a control without words for it is the one that is named.
             let only = outcome.diagnostics.iter().find_map(|d| match d.fault {
@@ -92,13 +85,8 @@ fn emitted_programs_make_the_same_moves() {
                     Ok::<_, String>(plain::of_machine(&machine, start))
                 };
                 for skip in [0, 0x7fe] {
-                    // A list of events leaves out where the control goes by itself for a tool change.
-                    let without = |list: Vec<plain::Plain>| match job.to.dialect.can.flat {
-                        true => besides::without_way_up(list),
-                        false => list,
-                    };
                     let result = list(program.dialect, &program.text, skip, None)
-                        .map(without)
+                        .map(|list| besides::for_target(list, &job))
                         .and_then(|source| plain::compare(&source, &list(to, &text, skip, only)?, within));
                     let result = result.and_then(|()| {
                         if (world.seed, skip) == (1, 0) {

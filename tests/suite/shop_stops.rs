@@ -130,6 +130,41 @@ const CHANGES: &[Case] = &[
     ),
 ];
 
+/// A Haas goes up at M06. A Mach-9 and a list of events have no words for that: only what needs no Z is the same.
+const WAYS_UP: &[Case] = &[
+    case("haas", "mach9", "G01 Z-1. F100. / G00 Z9. / T2 M06 / S900 M03 / G01 X20.", "", &[501]),
+    case("haas", "canon", "G01 Z-1. F100. / G00 Z9. / T2 M06 / S900 M03 / G00 X5. / G01 X20.", "", &[501]),
+    case("haas", "canon", "G01 Z-1. F100. / T2 M06 / S900 M03 / G91 X5. / G90 G00 Z9.", "", &[501]),
+    case("haas", "canon", "G00 Z9. / T2 M06 / S900 M03 / /G43 H2 Z10. / G01 X20. F100.", "", &[501]),
+    // A change with its own way up.
+    stated(
+        case(
+            "haas",
+            "mach9",
+            "G00 Z9. / T2 M06 / S900 M03 / G01 X20. F100.",
+            "T2M6 / S900M3 / G1X20.F100",
+            &[426],
+        ),
+        &[],
+        &[("z_at_change", "machine-zero")],
+    ),
+    // Rapid moves in the plane, and Z by an absolute word.
+    case(
+        "haas",
+        "mach9",
+        "G00 Z9. / T2 M06 / S900 M03 / G00 X5. / G43 H2 Z8. / G01 X20. F100.",
+        "T2M6 / S900M3 / G0X5. / O2Z8. / G1X20.F100",
+        &[323, 426],
+    ),
+    case(
+        "haas",
+        "canon",
+        "G00 Z9. / T2 M06 / S900 M03 / G00 X5. / G43 H2 Z8. / G01 X20. F100.",
+        "STRAIGHT_TRAVERSE(5.0, 0.0, 8.0) / SET_FEED_RATE(100.0) / STRAIGHT_FEED(20.0, 0.0, 8.0)",
+        &[426],
+    ),
+];
+
 /// The end of a program stops spindle and coolant on LinuxCNC and on a Haas, and is the builder's elsewhere.
 const ENDS: &[Case] = &[
     case("linuxcnc", "fanuc", "M08 / G01 Z-1. F100.", "M05 / M09 / M30", &[426]),
@@ -478,6 +513,7 @@ fn stops() {
 #[test]
 fn tool_changes() {
     run(CHANGES);
+    run(WAYS_UP);
 }
 
 #[test]

@@ -7,8 +7,9 @@
 //! `NCC_SPLICED=2000` makes so many of each dialect, and prints those that are held back. `NCC_TEXTS=DIR` keeps the
 //! texts for LinuxCNC there, of which its own interpreter is a judge (`.ci/rs274`).
 
-use ncc::job::Failure;
+use ncc::job::{Failure, Job};
 use ncc_ir::diag::Fault;
+use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::plain::{self, Corners, Happening, Tolerance};
@@ -49,7 +50,7 @@ fn blocks_in_other_programs() {
                         }
                         _ => None,
                     });
-                    match second_opinion((dialect, &text), (to, &written), only) {
+                    match second_opinion(&job, (dialect, &text), (to, &written), only) {
                         None => {}
                         Some(Ok(())) => judged += 1,
                         Some(Err(fault)) => failures.add(
@@ -109,7 +110,7 @@ fn what_was_wrong_once() {
         let told = rendered(&job, "once", text.as_bytes(), &outcome.diagnostics);
         assert!(outcome.release.is_ok(), "{from} to {to}: {told}");
         assert_eq!(
-            second_opinion((from, text.as_bytes()), (to, &written), None),
+            second_opinion(&job, (from, text.as_bytes()), (to, &written), None),
             Some(Ok(())),
             "{from} to {to}"
         );
@@ -151,6 +152,7 @@ fn goes_back(text: &[u8]) -> bool {
 
 /// What the second interpreter says, if it runs both: the same moves or not, in two worlds.
 fn second_opinion(
+    job: &Job,
     (from, source): (&str, &[u8]),
     (to, written): (&str, &[u8]),
     only: Option<u16>,
@@ -195,7 +197,8 @@ fn second_opinion(
             });
             Some(list)
         };
-        if let Err(fault) = plain::compare(&list(from, source, None)?, &list(to, written, only)?, within) {
+        let expected = besides::for_target(list(from, source, None)?, job);
+        if let Err(fault) = plain::compare(&expected, &list(to, written, only)?, within) {
             return Some(Err(fault));
         }
     }

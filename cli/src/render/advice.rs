@@ -6,6 +6,7 @@ use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 use ncc_ir::passes::frame_increments;
+use ncc_ir::passes::side_effects::NEEDS_Z;
 
 use super::numbers::{millimetres, signed};
 use super::words::{Context, mode, plain, plain_upto};
@@ -325,6 +326,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                     included.values()[0]
                 );
                 all.push(other);
+            }
+            all
+        }
+        Fault::CannotSay { what } if &**what == NEEDS_Z => {
+            let mut all = own("after the tool change, move Z in G90 with a rapid move, before this block");
+            let change = Behaviour::ZAtChange;
+            if at.to.behaviour_row(change).is_some_and(|row| row.open) {
+                let up = change.values()[1];
+                let option = change.option();
+                all.push(format!("if the target's control goes up there: `--to-option {option}={up}`"));
             }
             all
         }

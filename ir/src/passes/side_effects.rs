@@ -19,6 +19,7 @@
 
 mod arc_feed;
 mod joins;
+mod way_up;
 
 use super::fine_digits;
 use super::tool_words::ToolWords;
@@ -37,6 +38,9 @@ use crate::source::Span;
 
 use arc_feed::{compensated, states};
 use joins::{LeftAtPlace, Length, either};
+use way_up::WayUp;
+
+pub use way_up::REFUSED as NEEDS_Z;
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -86,6 +90,7 @@ pub struct SideEffects {
     arc_feed_at_head: bool,
     /// Procedures that end at a place of the machine along Z.
     left_at_place: LeftAtPlace,
+    way_up: WayUp,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -126,6 +131,7 @@ impl SideEffects {
             arc_feed_said: false,
             arc_feed_at_head: false,
             left_at_place: LeftAtPlace::new(),
+            way_up: WayUp::default(),
         }
     }
 
@@ -134,6 +140,7 @@ impl SideEffects {
         let busy = self.fine.is_used()
             || self.machine
             || self.length_next.is_some()
+            || self.way_up.is_up()
             || self.again.iter().any(Option::is_some);
         if !busy {
             self.z_home &= !lines.names(Axis::Z);
@@ -144,6 +151,7 @@ impl SideEffects {
     /// Whether further statements would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
         self.fine.touches(stmts)
+            || self.way_up.concerns(stmts)
             || self.source != self.target
                 && (self.again.iter().any(Option::is_some)
                     || self.length_next.is_some()
@@ -153,6 +161,11 @@ impl SideEffects {
 
     /// Rewrites further statements of the main procedure.
     pub fn over(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        self.way_up.check(stmts, &[], diags);
+        self.rewrite(stmts, diags);
+    }
+
+    fn rewrite(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.fine.over(stmts, diags);
         if !self.touches(stmts) {
             return stmts.iter().for_each(|stmt| self.note(stmt));
@@ -173,7 +186,7 @@ impl SideEffects {
                 for body in control.bodies_mut() {
                     self.enter(keeps);
                     self.take_length(&length);
-                    self.over(body, diags);
+                    self.rewrite(body, diags);
                     // What a stop in a body has switched off may be off after it.
                     for (left, own) in left.iter_mut().zip(&mut self.again) {
                         *left = left.take().or(own.take());
@@ -202,13 +215,16 @@ impl SideEffects {
         self.tools.survey(procedures);
         self.arc_feed_at_head(procedures, diags);
         self.left_at_place = joins::left_at_place(procedures);
+        if let Some((main, _)) = procedures.split_first() {
+            self.way_up.check(&main.body, procedures, diags);
+        }
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
             }
             // What the length needs at its end, it needs at the caller's next move of Z.
             let end = procedure.body.pop_if(|stmt| at > 0 && matches!(stmt.op, Op::Return) && !stmt.joined);
-            self.over(&mut procedure.body, diags);
+            self.rewrite(&mut procedure.body, diags);
             if at > 0 {
                 let span = procedure.body.last().map_or(Span::default(), |stmt| stmt.span);
                 self.again_before(&mut procedure.body, &mut false, diags, span);
