@@ -148,6 +148,7 @@ pub(crate) fn resolution(settings: &Settings) -> Resolution {
         feed: feed.decimals,
         feed_inch: feed.decimals_inch.unwrap_or(feed.decimals),
         second: numbers(Quantity::Seconds).decimals.max(3),
+        speed: numbers(Quantity::Speed).decimals,
     }
 }
 

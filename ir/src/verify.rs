@@ -42,6 +42,8 @@ pub struct Resolution {
     pub feed_inch: u8,
     /// Digits after the point of a dwell in seconds.
     pub second: u8,
+    /// Digits after the point of a spindle speed.
+    pub speed: u8,
 }
 
 impl Resolution {
@@ -345,6 +347,11 @@ impl Comparison {
     /// Whether tool, spindle, coolant and modes are the same.
     #[inline]
     fn same_state(&self, a: &State, b: &State) -> bool {
+        let apart = a.speed.abs_diff(b.speed);
+        if apart != 0 && apart <= Resolution::half(self.resolution.speed, false) as u64 {
+            // As lengths, a speed is what the target's digits say of it.
+            return self.same_state(a, &State { speed: a.speed, ..*b });
+        }
         match &self.seen {
             None => self.same_tooled(a, b),
             Some(seen) => self.same_tooled(&seen.of(a), &seen.of(b)),

@@ -57,6 +57,7 @@ pub(super) fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -
         feed: DIGITS,
         feed_inch: DIGITS,
         second: DIGITS,
+        speed: DIGITS,
     };
     let mut comparison = Comparison::new(resolution, [0; AXES]);
     comparison.see(Seen { modes: 0, in_rapids: false, merges: false, path: false, advice: 0 });

@@ -112,7 +112,8 @@ mod tests {
     use crate::source::Span;
     use crate::verify::{Aspect, Comparison, Resolution};
 
-    const RESOLUTION: Resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, feed_inch: 4, second: 3 };
+    const RESOLUTION: Resolution =
+        Resolution { mm: 3, inch: 4, degree: 3, feed: 3, feed_inch: 4, second: 3, speed: 0 };
 
     fn event(kind: Kind, [x, z]: [Nanos; 2], spindle: Spindle, by_control: u8) -> Event {
         let state = State { spindle, by_control, ..State::default() };

@@ -252,6 +252,7 @@ fn coarser(a: &Resolution, b: &Resolution) -> Resolution {
         feed: a.feed.min(b.feed),
         feed_inch: a.feed_inch.min(b.feed_inch),
         second: a.second.min(b.second),
+        speed: a.speed.min(b.speed),
     }
 }
 
