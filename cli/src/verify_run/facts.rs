@@ -7,6 +7,7 @@
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
+use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
@@ -274,7 +275,13 @@ pub(super) fn done_by_target(difference: &Difference) -> Option<Behaviour> {
     match difference.aspect {
         Aspect::State if bits & by_control::SPINDLE != 0 => Some(Behaviour::SpindleAtStop),
         Aspect::State if bits & by_control::COOLANT != 0 => Some(Behaviour::CoolantAtStop),
+        Aspect::State
+            if bits & by_control::SPINDLE_AT_CHANGE != 0 && source.state.spindle != target.state.spindle =>
+        {
+            Some(Behaviour::SpindleAtChange)
+        }
         Aspect::End(_) if bits & by_control::Z != 0 => Some(Behaviour::ZAtChange),
+        Aspect::End(Axis::Z) if bits & by_control::Z_COUNTED != 0 => Some(Behaviour::ZAtChange),
         _ => None,
     }
 }

@@ -18,9 +18,12 @@
 //! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
 
 mod arc_feed;
+mod beside;
+mod insert;
 mod joins;
 
 use super::fine_digits;
+use super::known_facts::Known;
 use super::tool_words::ToolWords;
 use crate::arc_feed::ArcFeed;
 use crate::behaviour::{Behaviour, Behaviours};
@@ -36,6 +39,8 @@ use crate::program::{
 use crate::source::Span;
 
 use arc_feed::{compensated, states};
+use beside::{STOP_BESIDE, stands_alone};
+use insert::{insert, insertion};
 use joins::{LeftAtPlace, Length, either};
 
 /// What is known of a switch.
@@ -86,6 +91,12 @@ pub struct SideEffects {
     arc_feed_at_head: bool,
     /// Procedures that end at a place of the machine along Z.
     left_at_place: LeftAtPlace,
+    /// Whether cutter radius compensation may be on.
+    beside: bool,
+    /// What holds after each call and label of a program with compensation that is kept whole.
+    entries: Option<Known>,
+    /// Control has come from elsewhere to the next statement.
+    entered: bool,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -126,6 +137,9 @@ impl SideEffects {
             arc_feed_said: false,
             arc_feed_at_head: false,
             left_at_place: LeftAtPlace::new(),
+            beside: false,
+            entries: None,
+            entered: false,
         }
     }
 
@@ -202,6 +216,7 @@ impl SideEffects {
         self.tools.survey(procedures);
         self.arc_feed_at_head(procedures, diags);
         self.left_at_place = joins::left_at_place(procedures);
+        self.entries = self.entries_of(procedures);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
@@ -219,6 +234,7 @@ impl SideEffects {
 
     /// A body begins, or ends, that may be executed several times or not at all; `keeps`: it switches nothing.
     fn enter(&mut self, keeps: bool) {
+        self.entered = true;
         if keeps {
             (self.z_home, self.machine) = (false, false);
         } else {
@@ -228,6 +244,7 @@ impl SideEffects {
 
     /// Control comes from elsewhere.
     fn elsewhere(&mut self) {
+        self.entered = true;
         (self.spindle, self.coolant) = (Switch::Unknown, Switch::Unknown);
         self.again = [None, None];
         self.tools.elsewhere();
@@ -236,6 +253,11 @@ impl SideEffects {
     }
 
     fn statement(&mut self, mut stmt: Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        if std::mem::take(&mut self.entered)
+            && let Some(at) = self.entries.as_ref().and_then(|known| known.before(&stmt))
+        {
+            self.beside = at.compensated;
+        }
         self.length_before(&mut stmt, made, diags);
         match &stmt.op {
             Op::ProgramStop => self.switch(STOP, false, &mut stmt, made, diags),
@@ -309,6 +331,13 @@ impl SideEffects {
             if let (true, true, Some(ops)) = (other, restarts, ops) {
                 self.again[at] = Some((behaviour, ops));
             }
+        }
+        let again = self.again.iter().any(Option::is_some);
+        if self.beside && (!off.is_empty() || again && stands_alone(made, stmt)) {
+            // With the block that switches, two still blocks stand in a row: the corner is each control's own.
+            self.again = [None, None];
+            let fault = Fault::CannotSay { what: STOP_BESIDE.into() };
+            return diags.push(Diagnostic::new(fault, stmt.span));
         }
         let at = insertion(made, stmt);
         let found = off.iter().map(|(behaviour, _)| {
@@ -482,6 +511,8 @@ impl SideEffects {
                 self.spindle = if sure { Switch::On(vec![op.clone()]) } else { Switch::Unknown };
                 *spindle = spindle.take().filter(|_| !sure);
             }
+            Op::StartCutterRadiusCompensation { .. } => self.beside = true,
+            Op::StopCutterRadiusCompensation => self.beside &= !sure,
             Op::StopSpindleTurning | Op::OrientSpindle(_) => {
                 self.spindle = if sure { Switch::Off } else { Switch::Unknown };
                 *spindle = spindle.take().filter(|_| !sure);
@@ -643,39 +674,4 @@ fn commands_z(op: &Op) -> bool {
         Op::GoToReference(to) => to.axes[Axis::Z as usize] || to.via.get(Axis::Z).is_some(),
         op => cuts(op),
     }
-}
-
-/// Where statements before a code go: before its block, where nothing of that happens before it but the selection of a
-/// tool; else right before it.
-fn insertion(made: &[Stmt], stmt: &Stmt) -> usize {
-    if !stmt.joined {
-        return made.len();
-    }
-    let first = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
-    let selects = |op: &Op| {
-        matches!(
-            op,
-            Op::SelectTool(_)
-                | Op::SelectToolByName(_)
-                | Op::Comment(_)
-                | Op::Blank
-                | Op::Message(_)
-                | Op::MessageOf(_)
-        )
-    };
-    match made[first..].iter().all(|stmt| selects(&stmt.op)) {
-        true => first,
-        false => made.len(),
-    }
-}
-
-/// Puts new blocks in. A block that is cut there goes on in one of its own.
-fn insert(made: &mut Vec<Stmt>, stmt: &mut Stmt, at: usize, new: Vec<Stmt>) {
-    if new.is_empty() {
-        return;
-    }
-    if at == made.len() {
-        stmt.joined = false;
-    }
-    made.splice(at..at, new);
 }
