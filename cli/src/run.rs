@@ -467,7 +467,7 @@ pub(crate) fn settings(mut settings: Settings, chosen: &[(String, String)]) -> R
             SettingError::NoValue { option, values } => Problem::usage(
                 format!("`{value}` is no value of {option}"),
                 match values.is_empty() {
-                    true => "it takes a number".to_owned(),
+                    true => "it takes a number from 0, such as 0.02".to_owned(),
                     false => format!("it takes: {}", values.join(", ")),
                 },
             ),

@@ -198,6 +198,16 @@ impl Writer {
         Ok(())
     }
 
+    /// Before control goes another way, the distance mode of the program is active again: the text may have put in
+    /// another one, as in `G91 G28 Z0`.
+    pub(crate) fn restore_distance(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        let own = self.tracker.modes.distance.or(self.computing.entry);
+        match own.filter(|_| self.force.our_distance && self.force.distance != own) {
+            Some(own) => self.write_setting(Setting::Distance(own), sink),
+            None => Ok(()),
+        }
+    }
+
     /// Notes a setting that the text states, or need not state.
     pub(crate) fn now_in_force(&mut self, setting: Setting) {
         match setting {

@@ -33,6 +33,9 @@ impl Writer {
         }
         self.leave_polar(stmt, sink)?;
         self.stop_has_text(stmt)?;
+        if goes_elsewhere(&stmt.op) {
+            self.restore_distance(sink)?;
+        }
         let span = stmt.span;
         let codes = &self.codes;
         if matches!(
@@ -649,4 +652,19 @@ pub(crate) fn rounded(letter: u8, n: ncc_ir::num::Num, to: Shaped, span: Span, s
     number::append(&mut written, to);
     let written = String::from_utf8_lossy(&written).into_owned().into();
     sink.report(Fault::Rounded { word: number::spell(letter, n), written }, span);
+}
+
+/// Whether control goes another way there, or comes from another.
+fn goes_elsewhere(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::Call(_)
+            | Op::Return
+            | Op::RepeatBlocks(_)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+            | Op::Leave
+            | Op::NextTurn
+    )
 }

@@ -122,8 +122,7 @@ pub(super) fn again(
             && let Some(at) = entries.and_then(|known| known.before(&stmt))
         {
             *state = State { ended: state.ended, ..State::entered(at) };
-            (walk.at.modes.units, walk.at.modes.feed_mode) = (at.modes.units, at.modes.feed_mode);
-            walk.at.fed = at.fed;
+            entries.into_iter().for_each(|known| known.feeds(&stmt, &mut walk.at));
         }
         let cuts = match stmt.op.unwrapped() {
             Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,

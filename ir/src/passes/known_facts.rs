@@ -49,6 +49,13 @@ impl Known {
         self.starts.get(&stmt.span.start)
     }
 
+    /// Puts units and feed into a walk that comes to a statement from elsewhere.
+    pub(super) fn feeds(&self, stmt: &Stmt, walk: &mut Tracker) {
+        let Some(at) = self.before(stmt) else { return };
+        (walk.modes.units, walk.modes.feed_mode) = (at.modes.units, at.modes.feed_mode);
+        (walk.fed, walk.feed) = (at.fed, at.feed);
+    }
+
     /// How corners are taken where a stretch begins with a statement, if it is known.
     pub(super) fn path_before(&self, stmt: &Stmt) -> Option<&PathControl> {
         self.paths.get(&stmt.span.start)?.as_deref()

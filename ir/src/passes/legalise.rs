@@ -277,10 +277,17 @@ impl Legaliser {
             }
         }
         if self.times_differ && lines.is_none() {
-            match self.times.concerns(stmts, &self.walk) {
+            match self.entries.is_some() || self.times.concerns(stmts, &self.walk) {
                 true => {
-                    let mut walk = self.walk.clone();
-                    feed_time::over(stmts, &mut walk, &mut self.times, &self.target, diags);
+                    let (mut walk, entries) = (self.walk.clone(), self.entries.clone());
+                    feed_time::over(
+                        stmts,
+                        &mut walk,
+                        &mut self.times,
+                        &self.target,
+                        entries.as_deref(),
+                        diags,
+                    );
                 }
                 false => self.times.note(stmts),
             }

@@ -27,7 +27,7 @@ use super::known_facts::Known;
 use super::tool_words::ToolWords;
 use crate::arc_feed::ArcFeed;
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, Axis};
+use crate::canon::{AXES, Axis, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Increments;
 use crate::expr::Expr;
@@ -39,7 +39,7 @@ use crate::program::{
 use crate::source::Span;
 
 use arc_feed::{compensated, states};
-use beside::{STOP_BESIDE, stands_alone};
+use beside::{OPTIONAL_STOP, STOP_BESIDE, stands_alone};
 use insert::{insert, insertion};
 use joins::{LeftAtPlace, Length, either};
 
@@ -257,6 +257,9 @@ impl SideEffects {
             && let Some(at) = self.entries.as_ref().and_then(|known| known.before(&stmt))
         {
             self.beside = at.compensated;
+            if at.spindle == Some(Spindle::Stopped) && self.spindle == Switch::Unknown {
+                self.spindle = Switch::Off;
+            }
         }
         self.length_before(&mut stmt, made, diags);
         match &stmt.op {
@@ -305,6 +308,11 @@ impl SideEffects {
             let target_stops = self.target.surely(behaviour) && !(both == CHANGE && self.goes_home());
             let state = if at == 0 { &mut self.spindle } else { &mut self.coolant };
             if source_stops && !target_stops {
+                if optional && at == 0 && *state == Switch::Unknown {
+                    // With the switch off it goes on as it was, which nobody knows here.
+                    let fault = Fault::CannotSay { what: OPTIONAL_STOP.into() };
+                    diags.push(Diagnostic::new(fault, stmt.span));
+                }
                 off.push((behaviour, if at == 0 { Op::StopSpindleTurning } else { Op::CoolantOff }));
                 // An optional stop that is not made leaves it on in the source.
                 if let (true, Switch::On(ops)) = (optional, &*state) {

@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use super::super::known_facts::has_bare_holes;
 use super::*;
+use crate::canon::FeedMode;
 use crate::kinds::flow;
 use crate::program::Text;
 use crate::source::Span;
@@ -173,7 +174,8 @@ impl Legaliser {
         let units = self.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
         let starts = || has(|op| matches!(op, Op::StartCutterRadiusCompensation { .. }));
         let beside = self.compensated.refused.any() && (self.compensated.on || starts());
-        if !(units || beside) || !has(|op| matches!(op, flow!())) {
+        let by_time = self.times_differ && has(|op| *op == Op::SetFeedMode(FeedMode::InverseTime));
+        if !(units || beside || by_time) || !has(|op| matches!(op, flow!())) {
             return None;
         }
         let mut entry = match self.follow {
@@ -192,6 +194,7 @@ impl Legaliser {
         let unknown = Tracker { compensated: self.walk.at.compensated, ..Tracker::unknown() };
         self.compensated.enter(at.unwrap_or(&unknown), path);
         self.feed.enter();
+        self.times.enter();
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what

@@ -14,12 +14,16 @@ use crate::track::Tracker;
 pub(super) const STOP_BESIDE: &str =
     "spindle or coolant switched in words at a stop in a compensated contour";
 
+/// What is said of an optional stop that switches off what may be on.
+pub(super) const OPTIONAL_STOP: &str =
+    "an optional stop that stops a spindle of which it is not known whether it turns";
+
 impl SideEffects {
     /// What holds after each call and label, if compensation may be on somewhere.
     pub(super) fn entries_of(&self, procedures: &[Procedure]) -> Option<Known> {
         fn starts(body: &[Stmt]) -> bool {
             body.iter().any(|stmt| match &stmt.op {
-                Op::StartCutterRadiusCompensation { .. } => true,
+                Op::StartCutterRadiusCompensation { .. } | Op::OptionalProgramStop => true,
                 Op::Control(control) => control.bodies().any(|body| starts(body)),
                 _ => false,
             })
