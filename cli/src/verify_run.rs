@@ -559,7 +559,7 @@ impl Verifier {
         if let Some(d) = error {
             return Err(unreadable(d, self.last));
         }
-        self.batch.diagnostics.clear();
+        self.note_assumed();
         Ok(())
     }
 }

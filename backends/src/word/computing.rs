@@ -46,6 +46,8 @@ pub(crate) struct Computing {
     stands: HashMap<u32, Modes>,
     /// The distance mode of the program where the stretch at hand begins, if it is known.
     pub(super) entry: Option<Distance>,
+    /// The distance mode that the text had before this writer put in another one.
+    pub(super) replaced: Option<Distance>,
     /// Whether the distance mode is known of the program as a whole, and not of the text where it is read.
     pub(super) unsaid: bool,
     /// Values of the control's own, by their numbers.

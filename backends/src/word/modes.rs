@@ -201,7 +201,7 @@ impl Writer {
     /// Before control goes another way, the distance mode of the program is active again: the text may have put in
     /// another one, as in `G91 G28 Z0`.
     pub(crate) fn restore_distance(&mut self, sink: &mut Sink) -> Result<(), Fault> {
-        let own = self.tracker.modes.distance.or(self.computing.entry);
+        let own = self.tracker.modes.distance.or(self.computing.entry).or(self.computing.replaced);
         match own.filter(|_| self.force.our_distance && self.force.distance != own) {
             Some(own) => self.write_setting(Setting::Distance(own), sink),
             None => Ok(()),
@@ -294,6 +294,9 @@ impl Writer {
         }
         if let Some(d) = wanted.filter(|d| self.force.distance != Some(*d)) {
             inserted.distance = self.setting(Setting::Distance(d))?;
+            if !self.force.our_distance {
+                self.computing.replaced = self.force.distance;
+            }
             self.force.distance = Some(d);
             self.force.our_distance = true;
         }

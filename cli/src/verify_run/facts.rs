@@ -88,8 +88,21 @@ impl Verifier {
         self.runs.iter().any(|run| run.level)
     }
 
-    /// What the verification has to say of its own reach, and of facts that would make another cut.
-    pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
+    /// What the reading of the output takes for granted of the target's control: it counts as much as what the source's
+    /// reading does.
+    pub(super) fn note_assumed(&mut self) {
+        for Diagnostic { fault, .. } in self.batch.diagnostics.drain(..) {
+            let is_new = matches!(fault, Fault::AssumedParameter { .. })
+                && self.notes.iter().all(|note| note.fault != fault);
+            if is_new {
+                self.notes.push(Diagnostic::new(fault, self.last));
+            }
+        }
+    }
+
+    /// What the verification has to say of its own reach, of facts that would make another cut, and of what the output
+    /// takes for granted, if that is not `reported` yet.
+    pub(crate) fn take_notes(&mut self, reported: &[Diagnostic]) -> Vec<Diagnostic> {
         let fed = self.runs.first().and_then(|run| run.source.arc_fed_otherwise(&run.target));
         let mut matters = std::mem::take(&mut self.matters);
         // That the usual values differ is reported.
@@ -109,6 +122,8 @@ impl Verifier {
         });
         let told: Vec<Diagnostic> = told.collect();
         let mut notes = std::mem::take(&mut self.notes);
+        let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedParameter { .. });
+        notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
         notes.extend(told);
         notes.extend(fed.map(|(at, [contour_in_source, inner])| {
             Diagnostic::new(Fault::FeedOnArcs { contour_in_source, inner }, at)

@@ -11,12 +11,10 @@ use crate::program::{Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
 
 /// What is said of a stop in a compensated contour.
-pub(super) const STOP_BESIDE: &str =
-    "spindle or coolant switched in words at a stop in a compensated contour";
+pub(super) const STOP_BESIDE: &str = "a stop in a compensated contour, with M05 or M03 beside it";
 
 /// What is said of an optional stop that switches off what may be on.
-pub(super) const OPTIONAL_STOP: &str =
-    "an optional stop that stops a spindle of which it is not known whether it turns";
+pub(super) const OPTIONAL_STOP: &str = "an optional stop that may stop a turning spindle";
 
 impl SideEffects {
     /// What holds after each call and label, if compensation may be on somewhere.
