@@ -200,10 +200,20 @@ impl Writer {
 
     /// Before control goes another way, the distance mode of the program is active again: the text may have put in
     /// another one, as in `G91 G28 Z0`.
-    pub(crate) fn restore_distance(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+    /// `apart`: in a block of its own, which is not the one that is jumped to.
+    pub(crate) fn restore_distance(&mut self, apart: bool, sink: &mut Sink) -> Result<(), Fault> {
         let own = self.tracker.modes.distance.or(self.computing.entry).or(self.computing.replaced);
         match own.filter(|_| self.force.our_distance && self.force.distance != own) {
-            Some(own) => self.write_setting(Setting::Distance(own), sink),
+            Some(own) => {
+                let number = self.block.number.take_if(|_| apart);
+                self.write_setting(Setting::Distance(own), sink)?;
+                if apart {
+                    self.flush(false, sink);
+                    self.split = true;
+                    self.block.number = number;
+                }
+                Ok(())
+            }
             None => Ok(()),
         }
     }

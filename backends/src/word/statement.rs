@@ -34,7 +34,7 @@ impl Writer {
         self.leave_polar(stmt, sink)?;
         self.stop_has_text(stmt)?;
         if goes_elsewhere(&stmt.op) {
-            self.restore_distance(sink)?;
+            self.restore_distance(matches!(stmt.op, Op::Label(_)), sink)?;
         }
         let span = stmt.span;
         let codes = &self.codes;

@@ -6,6 +6,7 @@
 //!
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
+use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -79,6 +80,13 @@ impl Run {
             }
         }
     }
+}
+
+/// A reader of the output, which reports what the output takes for granted of the target's control.
+pub(super) fn reader_of_output(job: &Job) -> Reader {
+    let mut reader = Reader::new(job.to.clone(), false);
+    reader.report_parameters();
+    reader
 }
 
 impl Verifier {

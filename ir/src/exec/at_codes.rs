@@ -7,11 +7,11 @@
 
 use super::{Event, Exec, Kind, Length, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, FeedMode, Spindle};
+use crate::canon::{AXES, Distance, FeedMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
-use crate::program::{Op, ReferencePoint, Stmt};
+use crate::program::{Op, Point, ReferencePoint, Stmt};
 use crate::source::Span;
 
 impl Exec {
@@ -245,6 +245,14 @@ impl Exec {
             self.said_by_program(both);
         }
         self.emit(Kind::Traverse, span, out)
+    }
+
+    /// The words of a move, where the control has taken Z to machine zero.
+    #[cold]
+    pub(super) fn counts_z_of(&mut self, to: &Point) {
+        if let Some(word) = &to.axes[Z] {
+            self.counts_z(word.distance.or(self.modes.distance) == Distance::Incremental);
+        }
     }
 
     /// A word of Z, where the control has taken Z to machine zero: it counts from there, or says where Z is.

@@ -449,10 +449,8 @@ impl Exec {
             self.take_up_length();
             self.at_place = false;
         }
-        if self.state.by_control & (by_control::Z | by_control::Z_COUNTED) != 0
-            && let Some(word) = &to.axes[Z]
-        {
-            self.counts_z(word.distance.or(self.modes.distance) == Distance::Incremental);
+        if self.state.by_control & (by_control::Z | by_control::Z_COUNTED) != 0 {
+            self.counts_z_of(to);
         }
         self.position = next;
         Ok(())

@@ -138,7 +138,7 @@ pub(super) fn again(
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
         let by_feed = cuts && !matches!(stmt.op.unwrapped(), Op::SynchronisedFeed(_));
-        if (by_feed || may_cut) && std::mem::take(&mut state.lost) {
+        if (by_feed || may_cut) && std::mem::take(&mut state.lost) || may_cut && state.stale {
             let what = "a feed that is not known here and holds after a change of units";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }

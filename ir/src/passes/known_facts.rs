@@ -49,11 +49,11 @@ impl Known {
         self.starts.get(&stmt.span.start)
     }
 
-    /// Puts units and feed into a walk that comes to a statement from elsewhere.
+    /// Puts units, feed and motion into a walk that comes to a statement from elsewhere.
     pub(super) fn feeds(&self, stmt: &Stmt, walk: &mut Tracker) {
         let Some(at) = self.before(stmt) else { return };
         (walk.modes.units, walk.modes.feed_mode) = (at.modes.units, at.modes.feed_mode);
-        (walk.fed, walk.feed) = (at.fed, at.feed);
+        (walk.fed, walk.feed, walk.modes.motion) = (at.fed, at.feed, at.modes.motion);
     }
 
     /// How corners are taken where a stretch begins with a statement, if it is known.
