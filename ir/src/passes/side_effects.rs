@@ -97,6 +97,8 @@ pub struct SideEffects {
     entries: Option<Known>,
     /// Control has come from elsewhere to the next statement.
     entered: bool,
+    /// An optional stop that stops a spindle of which it is not known whether it turns, and no spindle code since.
+    lost_stop: Option<Span>,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -140,6 +142,7 @@ impl SideEffects {
             beside: false,
             entries: None,
             entered: false,
+            lost_stop: None,
         }
     }
 
@@ -148,6 +151,7 @@ impl SideEffects {
         let busy = self.fine.is_used()
             || self.machine
             || self.length_next.is_some()
+            || self.lost_stop.is_some()
             || self.again.iter().any(Option::is_some);
         if !busy {
             self.z_home &= !lines.names(Axis::Z);
@@ -160,6 +164,7 @@ impl SideEffects {
         self.fine.touches(stmts)
             || self.source != self.target
                 && (self.again.iter().any(Option::is_some)
+                    || self.lost_stop.is_some()
                     || self.length_next.is_some()
                     || self.states_arc_feed(stmts)
                     || stmts.iter().any(|stmt| is_code(&stmt.op)))
@@ -175,7 +180,7 @@ impl SideEffects {
         for mut stmt in std::mem::take(stmts) {
             self.tools.before(&stmt, &mut made);
             if let Op::Control(control) = &mut stmt.op {
-                self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
+                self.again_before(&mut made, &mut stmt.joined, diags, (stmt.span, false));
                 if let Some(at) = control.bodies().find_map(|body| compensated(body)) {
                     self.state_arc_feed(&mut stmt.joined, at, &mut made, diags);
                 }
@@ -226,7 +231,7 @@ impl SideEffects {
             self.over(&mut procedure.body, diags);
             if at > 0 {
                 let span = procedure.body.last().map_or(Span::default(), |stmt| stmt.span);
-                self.again_before(&mut procedure.body, &mut false, diags, span);
+                self.again_before(&mut procedure.body, &mut false, diags, (span, false));
             }
             procedure.body.extend(end);
         }
@@ -277,7 +282,10 @@ impl SideEffects {
             Op::StartCutterRadiusCompensation { .. } => {
                 self.state_arc_feed(&mut stmt.joined, stmt.span, made, diags);
             }
-            op if cuts(op) => self.again_before(made, &mut stmt.joined, diags, stmt.span),
+            op if cuts(op) => {
+                let label = matches!(op, Op::Label(_));
+                self.again_before(made, &mut stmt.joined, diags, (stmt.span, label));
+            }
             _ => {}
         }
         let length = (self.length.clone(), self.length_known);
@@ -310,8 +318,7 @@ impl SideEffects {
             if source_stops && !target_stops {
                 if optional && at == 0 && *state == Switch::Unknown {
                     // With the switch off it goes on as it was, which nobody knows here.
-                    let fault = Fault::CannotSay { what: OPTIONAL_STOP.into() };
-                    diags.push(Diagnostic::new(fault, stmt.span));
+                    self.lost_stop = Some(stmt.span);
                 }
                 off.push((behaviour, if at == 0 { Op::StopSpindleTurning } else { Op::CoolantOff }));
                 // An optional stop that is not made leaves it on in the source.
@@ -411,8 +418,12 @@ impl SideEffects {
         made: &mut Vec<Stmt>,
         joined: &mut bool,
         diags: &mut Vec<Diagnostic>,
-        span: Span,
+        (span, label): (Span, bool),
     ) {
+        // A label alone cuts nothing.
+        if let Some(at) = self.lost_stop.take_if(|_| !label) {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: OPTIONAL_STOP.into() }, at));
+        }
         if self.again.iter().all(Option::is_none) {
             return;
         }
@@ -518,12 +529,14 @@ impl SideEffects {
             op @ (Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise) => {
                 self.spindle = if sure { Switch::On(vec![op.clone()]) } else { Switch::Unknown };
                 *spindle = spindle.take().filter(|_| !sure);
+                self.lost_stop.take_if(|_| sure);
             }
             Op::StartCutterRadiusCompensation { .. } => self.beside = true,
             Op::StopCutterRadiusCompensation => self.beside &= !sure,
             Op::StopSpindleTurning | Op::OrientSpindle(_) => {
                 self.spindle = if sure { Switch::Off } else { Switch::Unknown };
                 *spindle = spindle.take().filter(|_| !sure);
+                self.lost_stop.take_if(|_| sure);
             }
             Op::StartCycle(cycle) if cycle.kind.drives_spindle() => self.spindle = Switch::Unknown,
             op @ (Op::FloodOn | Op::MistOn) => {
