@@ -22,6 +22,7 @@ use crate::known::Known;
 use crate::problem::{Exit, Problem, as_write};
 use crate::render::human::boxed;
 use crate::render::json::{self, Entry};
+use crate::render::questions::{Asked, AskedAnswer};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
 
@@ -57,25 +58,35 @@ pub(crate) fn open(
     err: &mut dyn WriteColor,
 ) -> Result<Source, Problem> {
     let mut source = files::open(path)?;
-    admit(&mut source, voice, known, err)?;
-    Ok(source)
+    let Some(refusal) = admit(&mut source, voice, known, err)? else { return Ok(source) };
+    if voice == Voice::Json {
+        refusal.line(err)?;
+    }
+    Err(Problem { exit: Exit::Refused, message: String::new(), help: Vec::new() })
 }
 
-/// The same with a program that is open.
-fn admit(source: &mut Source, voice: Voice, known: &Known, err: &mut dyn WriteColor) -> Result<(), Problem> {
+/// The same with a program that is open. A refusal comes back; for people it has been printed.
+pub(crate) fn admit(
+    source: &mut Source,
+    voice: Voice,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Option<Refusal>, Problem> {
     let Some(refusal) = refusal(source, known)? else {
         if let Some(note) = note(source).filter(|_| voice == Voice::Human) {
             // A note that cannot be written changes nothing about what is done.
             let _ = writeln!(err, "{note}");
         }
-        return Ok(());
+        return Ok(None);
     };
-    let told = match voice {
-        Voice::Human | Voice::Quiet => refusal.print(err),
-        Voice::Json => json::line(&mut as_write(err), &refusal.entry()),
-    };
-    told.map_err(|e| Problem::file("write", "messages", &e))?;
-    Err(Problem { exit: Exit::Refused, message: String::new(), help: Vec::new() })
+    if voice != Voice::Json {
+        refusal.print(err).map_err(|e| unwritten(&e))?;
+    }
+    Ok(Some(refusal))
+}
+
+fn unwritten(error: &io::Error) -> Problem {
+    Problem::file("write", "messages", error)
 }
 
 /// The line that is printed of a program which is read as a milling program although it looks otherwise.
@@ -183,8 +194,29 @@ impl Refusal {
     }
 
     /// It as a message for programs.
-    pub(crate) fn entry(self) -> Entry {
-        Entry::from(self.told)
+    pub(crate) fn entry(&self) -> Entry {
+        Entry::of(&self.told)
+    }
+
+    /// The same as a line.
+    pub(crate) fn line(&self, err: &mut dyn WriteColor) -> Result<(), Problem> {
+        json::line(&mut as_write(err), &self.entry()).map_err(|e| unwritten(&e))
+    }
+
+    /// The question that it leaves to the user: what it looks like, or a milling program.
+    pub(crate) fn asked(&self) -> Asked {
+        let answer = |option: Option<&str>, result: String, taken| AskedAnswer {
+            option: option.map(str::to_owned),
+            result: Some(result),
+            taken,
+        };
+        Asked::of_refusal(
+            &self.told,
+            [
+                answer(None, format!("{}, not translated", self.kind), true),
+                answer(Some("--assume milling"), "a milling program, translated".to_owned(), false),
+            ],
+        )
     }
 
     /// It in one line, with its place.

@@ -14,7 +14,11 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, SerializeSeq, Serializer};
 
 use crate::called;
+use crate::chunks::{Chunk, Chunks};
+use crate::files;
 use crate::job::{Failure, Job, Outcome};
+use crate::milling::Refusal;
+use crate::questions::of_translation;
 use crate::render::json::Entry;
 use crate::render::words::Context;
 use crate::render::{About, questions, summary};
@@ -189,7 +193,7 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     map.serialize_entry("verification", &summary.verification)?;
     let names = |verdicts: &[Verdict]| verdicts.iter().map(|v| v.name()).collect::<Vec<_>>();
     // The most dangerous first; they stop the translation but under `--assume`.
-    let questions = questions::ask(about, &outcome.questions)?;
+    let questions = questions::ask(about, &of_translation(job, outcome))?;
     map.serialize_entry("questions", &questions)?;
     map.serialize_entry("allow", &names(&job.allow))?;
     map.serialize_entry("deny", &names(&job.deny))?;
@@ -199,6 +203,47 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     map.serialize_entry("assumptions", &assumptions(job, &outcome.diagnostics))?;
     let entries = Entries { about: RefCell::new(about), diagnostics: &outcome.diagnostics };
     map.serialize_entry("diagnostics", &entries)?;
+    SerializeMap::end(map)?;
+    out.write_all(b"\n")?;
+    out.flush()
+}
+
+/// Writes the report of a program that no dialect reads, because it is not for a mill.
+///
+/// # Errors
+/// Reading the source again, or writing.
+pub(crate) fn refused(
+    out: &mut dyn Write,
+    (dialect, target): (Option<&str>, &Settings),
+    source: &mut files::Source,
+    refusal: &Refusal,
+) -> io::Result<()> {
+    #[derive(Serialize)]
+    struct Unread<'a> {
+        name: &'a str,
+        /// That which was named.
+        dialect: Option<&'a str>,
+        bytes: u64,
+        sha256: String,
+    }
+    source.rewind().map_err(|problem| io::Error::other(problem.message))?;
+    let mut chunks = Chunks::new(&mut source.file);
+    while !matches!(chunks.next()?, Chunk::End) {}
+    let (hash, bytes) = chunks.finish();
+    let mut out = io::BufWriter::new(out);
+    let mut json = serde_json::Serializer::pretty(&mut out);
+    let mut map = json.serialize_map(None)?;
+    map.serialize_entry("ncc_report", &1)?;
+    map.serialize_entry("ncc_version", env!("CARGO_PKG_VERSION"))?;
+    let unread = Unread { name: &source.name, dialect, bytes, sha256: hex(&hash) };
+    map.serialize_entry("source", &unread)?;
+    map.serialize_entry(
+        "target",
+        &Target { dialect: &target.dialect.id, options: Options(target), bytes: 0 },
+    )?;
+    map.serialize_entry("result", "refused")?;
+    map.serialize_entry("questions", &[refusal.asked()])?;
+    map.serialize_entry("diagnostics", &[refusal.entry()])?;
     SerializeMap::end(map)?;
     out.write_all(b"\n")?;
     out.flush()

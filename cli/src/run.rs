@@ -21,6 +21,7 @@ use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::provenance::{map, why};
+use crate::questions::of_translation;
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, questions, summary};
 use crate::sugar::{Said, rewrite};
@@ -200,7 +201,20 @@ fn translated(
         // The head and the report state it.
         (Format::Human, false) => Voice::Human,
     };
-    let mut source = milling::open(path, voice, known, err)?;
+    let mut source = files::open(path)?;
+    if let Some(refusal) = milling::admit(&mut source, voice, known, err)? {
+        if let Some(name) = &args.report {
+            source.guard(Some(name))?;
+            let named = order.named.map(|dialect| dialect.id.as_str());
+            files::to_file(name, &mut |out| report::refused(out, (named, &order.to), &mut source, &refusal))?;
+        }
+        if voice == Voice::Json {
+            json::line(&mut crate::problem::as_write(err), &refusal.asked())
+                .map_err(|e| Problem::file("write", "messages", &e))?;
+            refusal.line(err)?;
+        }
+        return Ok(Exit::Refused);
+    }
     match &destination {
         Destination::File(name) => source.guard(Some(name))?,
         Destination::Stdout => source.guard(None)?,
@@ -300,7 +314,7 @@ pub(crate) fn tell(
     match args.format {
         Format::Json => {
             let mut out = crate::problem::as_write(err);
-            for asked in questions::ask(about, &outcome.questions)? {
+            for asked in questions::ask(about, &of_translation(about.job, outcome))? {
                 json::line(&mut out, &asked)?;
             }
             json::print(&mut out, about, &outcome.diagnostics, loudness)?;
@@ -457,7 +471,7 @@ pub(crate) fn settings(mut settings: Settings, chosen: &[(String, String)]) -> R
             SettingError::NoValue { option, values } => Problem::usage(
                 format!("`{value}` is no value of {option}"),
                 match values.is_empty() {
-                    true => "it takes a number".to_owned(),
+                    true => "it takes a number from 0, such as 0.02".to_owned(),
                     false => format!("it takes: {}", values.join(", ")),
                 },
             ),

@@ -631,7 +631,7 @@ impl<'j> Line<'j> {
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
         let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
-                let notes = verifier.take_notes();
+                let notes = verifier.take_notes(&self.diagnostics);
                 if let Some(levels) = verifier.sampled() {
                     let warning = Fault::SkipSettingsSampled { levels };
                     self.diagnostics.push(Diagnostic::new(warning, Span::default()));

@@ -236,7 +236,7 @@ impl Verifier {
             runs.iter_mut().for_each(|run| run.source.values_in_full(digits));
         }
         Verifier {
-            reader: Reader::new(job.to.clone(), false),
+            reader: facts::reader_of_output(job),
             as_called: false,
             answered: Vec::new(),
             batch: Batch::default(),
@@ -566,7 +566,7 @@ impl Verifier {
         if let Some(d) = error {
             return Err(unreadable(d, self.last));
         }
-        self.batch.diagnostics.clear();
+        self.note_assumed();
         Ok(())
     }
 }

@@ -222,6 +222,15 @@ impl Reader {
         }
     }
 
+    /// For a text of which modes are known from elsewhere: what it takes for granted of its control besides them is
+    /// reported all the same. Of the Sinumerik's language; the writers of the others report it.
+    pub fn report_parameters(&mut self) {
+        match &mut self.family {
+            OfFamily::Siemens(reader) => reader.report_parameters(),
+            OfFamily::Word(_) | OfFamily::Canon(_) | OfFamily::Ir(_) => {}
+        }
+    }
+
     /// For somebody who looks at a program without executing all of it: a refused block leaves a
     /// statement without effect ([`REFUSED`]) at its place, a missing feed is left to the execution, and
     /// numbers without a point are noted in [`Batch::bare`]. Of the families of words alone; texts of

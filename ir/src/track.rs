@@ -55,6 +55,8 @@ pub struct Tracker {
     pub feed: Option<Num>,
     /// Whether any feed may have been said.
     pub fed: bool,
+    /// Whether the units may have changed since it was said.
+    pub stale_feed: bool,
     /// Whether a slot may turn, scale or mirror.
     pub turned: bool,
     /// Which slots may: rotation, scale, mirror.
@@ -280,6 +282,7 @@ impl Tracker {
         both(&mut self.feed, &other.feed);
         both(&mut self.speed, &other.speed);
         self.fed |= other.fed;
+        self.stale_feed |= other.stale_feed;
         self.framed |= other.framed;
         self.chained |= other.chained;
         self.turned |= other.turned;
@@ -354,12 +357,15 @@ impl Tracker {
                 }
             }
             Op::UseLengthUnits(u) => {
+                self.stale_feed |= self.fed && self.modes.units != Some(*u);
                 self.modes.units = Some(*u);
                 self.feed = None;
             }
             Op::SetDistanceMode(d) => self.modes.distance = Some(*d),
             Op::SelectPlane(p) => self.modes.plane = Some(*p),
             Op::SetFeedMode(f) => {
+                // Another mode ends the feed on every control.
+                self.stale_feed &= self.modes.feed_mode == Some(*f);
                 self.modes.feed_mode = Some(*f);
                 self.feed = None;
             }
@@ -601,7 +607,7 @@ impl Tracker {
     }
 
     fn feed_is(&mut self, feed: &Expr) {
-        (self.feed, self.fed) = (feed.literal(), true);
+        (self.feed, self.fed, self.stale_feed) = (feed.literal(), true, false);
     }
 
     fn start_cycle(&mut self, cycle: &Cycle) {

@@ -104,7 +104,7 @@ fn pairs(job: &Job, source: &[u8], output: &[u8]) -> Result<Vec<Pair>, String> {
         a.retain(|event| !matches!(event.kind, Kind::Message(_)));
     }
     // The verification has judged them already; here they are only paired.
-    let rough = Resolution { mm: 2, inch: 3, degree: 2, feed: 1, feed_inch: 2, second: 2 };
+    let rough = Resolution { mm: 2, inch: 3, degree: 2, feed: 1, feed_inch: 2, second: 2, speed: 0 };
     let mut comparison = Comparison::new(rough, world.start);
     comparison.keep_pairs(true);
     comparison.see(job.to.dialect.caps.seen());

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::call_of::call_of;
-use ncc_ir::canon::{Modes, Units};
+use ncc_ir::canon::{Distance, Modes, Units};
 use ncc_ir::code_of::code_of;
 use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
@@ -44,6 +44,10 @@ pub(crate) struct Computing {
     open: u8,
     /// Modes in force where stretches of blocks begin, by the places of their first statements.
     stands: HashMap<u32, Modes>,
+    /// The distance mode of the program where the stretch at hand begins, if it is known.
+    pub(super) entry: Option<Distance>,
+    /// The distance mode that the text had before this writer put in another one.
+    pub(super) replaced: Option<Distance>,
     /// Whether the distance mode is known of the program as a whole, and not of the text where it is read.
     pub(super) unsaid: bool,
     /// Values of the control's own, by their numbers.
@@ -84,7 +88,9 @@ impl Writer {
     /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
     /// source: the text states each that the source does, and no other.
     pub(crate) fn stand(&mut self, stmt: &Stmt) {
-        let Some(known) = self.computing.stands.get(&stmt.span.start) else { return };
+        let known = self.computing.stands.get(&stmt.span.start);
+        self.computing.entry = known.and_then(|known| known.distance);
+        let Some(known) = known else { return };
         if self.preamble.is_some() {
             return;
         }

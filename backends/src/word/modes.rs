@@ -198,6 +198,26 @@ impl Writer {
         Ok(())
     }
 
+    /// Before control goes another way, the distance mode of the program is active again: the text may have put in
+    /// another one, as in `G91 G28 Z0`.
+    /// `apart`: in a block of its own, which is not the one that is jumped to.
+    pub(crate) fn restore_distance(&mut self, apart: bool, sink: &mut Sink) -> Result<(), Fault> {
+        let own = self.tracker.modes.distance.or(self.computing.entry).or(self.computing.replaced);
+        match own.filter(|_| self.force.our_distance && self.force.distance != own) {
+            Some(own) => {
+                let number = self.block.number.take_if(|_| apart);
+                self.write_setting(Setting::Distance(own), sink)?;
+                if apart {
+                    self.flush(false, sink);
+                    self.split = true;
+                    self.block.number = number;
+                }
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Notes a setting that the text states, or need not state.
     pub(crate) fn now_in_force(&mut self, setting: Setting) {
         match setting {
@@ -284,6 +304,9 @@ impl Writer {
         }
         if let Some(d) = wanted.filter(|d| self.force.distance != Some(*d)) {
             inserted.distance = self.setting(Setting::Distance(d))?;
+            if !self.force.our_distance {
+                self.computing.replaced = self.force.distance;
+            }
             self.force.distance = Some(d);
             self.force.our_distance = true;
         }

@@ -1,6 +1,6 @@
 //! One statement: which words say it, and where they stand in the block.
 
-use ncc_dialects::{COMPUTED_DWELL, Meaning, Quantity};
+use ncc_dialects::{COMPUTED_DWELL, Meaning};
 use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
@@ -33,6 +33,9 @@ impl Writer {
         }
         self.leave_polar(stmt, sink)?;
         self.stop_has_text(stmt)?;
+        if goes_elsewhere(&stmt.op) {
+            self.restore_distance(matches!(stmt.op, Op::Label(_)), sink)?;
+        }
         let span = stmt.span;
         let codes = &self.codes;
         if matches!(
@@ -131,12 +134,7 @@ impl Writer {
             Op::Polar(polar) => self.polar(polar, stmt, sink),
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::SetSpindleSpeed(speed) => {
-                let letter = codes.speed;
-                let whole = self.dialect.numbers(Quantity::Speed).decimals == 0;
-                if whole && speed.literal().is_some_and(|speed| speed.whole().is_none()) {
-                    return Err(cannot("a spindle speed that is not whole"));
-                }
-                self.number_word(Rank::Speed, letter, speed, "a spindle speed", span, sink)
+                self.number_word(Rank::Speed, codes.speed, speed, "a spindle speed", span, sink)
             }
             Op::SelectTool(tool) => {
                 let letter = codes.tool;
@@ -658,4 +656,19 @@ pub(crate) fn rounded(letter: u8, n: ncc_ir::num::Num, to: Shaped, span: Span, s
     number::append(&mut written, to);
     let written = String::from_utf8_lossy(&written).into_owned().into();
     sink.report(Fault::Rounded { word: number::spell(letter, n), written }, span);
+}
+
+/// Whether control goes another way there, or comes from another.
+fn goes_elsewhere(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::Call(_)
+            | Op::Return
+            | Op::RepeatBlocks(_)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+            | Op::Leave
+            | Op::NextTurn
+    )
 }

@@ -24,6 +24,7 @@ use crate::known::Known;
 use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
+use crate::questions::of_translation;
 use crate::render::human::told;
 use crate::render::{About, json, questions};
 use crate::tools_by_name;
@@ -134,6 +135,7 @@ impl Bench<'_> {
             done.row.result = Came::Refused;
             done.row.exit = Exit::Refused;
             done.row.reason = Some(refusal.reason());
+            done.row.questions.extend(serde_json::to_value(refusal.asked()).ok());
             match args.format {
                 // The summary and the exit code say so too.
                 Format::Human => drop(refusal.print(&mut done.told)),
@@ -207,7 +209,7 @@ impl Bench<'_> {
         let shown = source.shown.clone();
         let unread = |e: io::Error| Problem::file("read", &shown, &e);
         let mut about = About { job, name: &shown, source: &mut source.file };
-        let asked = questions::ask(&mut about, &outcome.questions).map_err(unread)?;
+        let asked = questions::ask(&mut about, &of_translation(job, outcome)).map_err(unread)?;
         row.questions = asked.iter().filter_map(|asked| serde_json::to_value(asked).ok()).collect();
         let warns = |gravity: Gravity| match gravity {
             Gravity::Error => false,

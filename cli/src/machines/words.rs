@@ -46,7 +46,7 @@ pub(super) fn words(wrong: &Wrong) -> Words {
         }
         Wrong::UnknownOption { has, .. } if has.is_empty() => ("it has no options at all".into(), None),
         Wrong::UnknownOption { has, .. } => ("no such option".into(), Some(format!("it has: {}", list(has)))),
-        Wrong::OptionValue { takes, .. } if takes.is_empty() => ("it takes a number".into(), None),
+        Wrong::OptionValue { takes, .. } if takes.is_empty() => ("it takes a number from 0".into(), None),
         Wrong::OptionValue { takes, .. } => (format!("it takes: {}", list(takes)), None),
         Wrong::UnknownRow { .. } => (
             "nothing to confirm".into(),

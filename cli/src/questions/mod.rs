@@ -21,7 +21,7 @@ use ncc_dialects::{
 };
 use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::behaviour::Behaviour;
-use ncc_ir::canon::Units;
+use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::num::{Nanos, Num};
 use ncc_ir::source::Span;
@@ -31,13 +31,16 @@ pub use self::race::Made;
 use self::race::{Difference, Finish, GENERATED, MICROMETRE, Measure, PLAIN, TENTH, race};
 use crate::chunks::{Chunk, Chunks};
 use crate::files;
-use crate::job::Job;
+use crate::job::{Job, Outcome};
 use crate::problem::Problem;
 use crate::render::questions as words;
 use crate::render::source::Source;
 
 /// Option of the behaviour [`Behaviour::ToolWithChange`].
 const TOOL_WITH_CHANGE: &str = "tool_with_change";
+
+/// Option of the behaviour [`Behaviour::RotaryTurn`].
+const ROTARY_TURN: &str = "rotary_turn";
 
 /// Value of the option `decimal_point`: least increments.
 const INCREMENT: &str = "increment";
@@ -63,6 +66,8 @@ pub enum Fact {
     Units,
     /// What a number without a decimal point counts.
     DecimalPoint,
+    /// How far an absolute word turns a rotary axis. An error of the translation, which asks it too.
+    RotaryTurn,
     /// By which of two codes of distance the words of a return to a reference point are read.
     ReturnPath,
     /// The tool that M06 puts in, where its block has a T and another tool waits.
@@ -78,6 +83,7 @@ impl Fact {
             Fact::DecimalPoint => 303,
             Fact::ToolChange => 336,
             Fact::ReturnPath => 337,
+            Fact::RotaryTurn => 522,
         }
     }
 }
@@ -93,6 +99,17 @@ pub enum Answer {
     Option(&'static str, &'static str),
     /// No option: decimal points in the program.
     WritePoints,
+    /// `--from-option rotary_turn=shortest --to-option rotary_turn=shortest`, of those machines that are not stated.
+    OfMachines {
+        /// The option.
+        option: &'static str,
+        /// Its value.
+        value: &'static str,
+        /// Whether the source's machine is asked.
+        from: bool,
+        /// Whether the target's machine is asked.
+        to: bool,
+    },
 }
 
 /// One of the two readings of a fact.
@@ -129,6 +146,8 @@ pub enum Shown {
         /// Whether they are places of the part.
         absolute: bool,
     },
+    /// A rotary axis turns by so much, nanos of a degree.
+    Turn(Axis, Nanos),
     /// Nothing but that the two readings differ.
     Nothing,
 }
@@ -211,6 +230,32 @@ pub fn of_text(job: &Job, text: &[u8]) -> io::Result<Vec<Question>> {
     reader.finish(&mut batch);
     let sound = batch.diagnostics.iter().all(|d| d.fault.gravity() != Gravity::Error);
     find(job, &mut io::Cursor::new(text), &batch.diagnostics, sound)
+}
+
+/// All that a translation asks, from the most dangerous question: those with two readings of the source, and the turns
+/// of rotary axes that it refuses because nobody states how the machines turn them.
+pub fn of_translation(job: &Job, outcome: &Outcome) -> Vec<Question> {
+    let mut all = outcome.questions.clone();
+    all.extend(outcome.diagnostics.iter().filter_map(|diagnostic| turn(job, diagnostic)));
+    all.sort_by_key(|question| question.fact);
+    all
+}
+
+/// The question of a rotary turn that was refused, if an option can answer it.
+fn turn(job: &Job, diagnostic: &Diagnostic) -> Option<Question> {
+    let Fault::RotaryTurnOpen { axis, by, or } = diagnostic.fault else { return None };
+    let way = Behaviour::RotaryTurn;
+    let (source, target) = (job.source_behaviours(), job.target_behaviours());
+    let (from, to) = (source.is_open(way), target.is_open(way));
+    let [number, shortest, ..] = way.values() else { return None };
+    let own = way.values().get(usize::from(source.get(way)));
+    let reading = |value: &'static str, by: Nanos| Reading {
+        answer: Answer::OfMachines { option: ROTARY_TURN, value, from, to },
+        taken: own == Some(&value),
+        result: Shown::Turn(axis, by),
+    };
+    let readings = [reading(number, by), reading(shortest, or)];
+    (from || to).then_some(Question { fact: Fact::RotaryTurn, span: diagnostic.span, readings })
 }
 
 /// Tells in one line of the questions of a source that a verb answers with ncc's readings.
@@ -355,14 +400,16 @@ fn decide(
     sound: bool,
 ) -> io::Result<Option<Question>> {
     let length = match candidate.fact {
-        Fact::Control | Fact::Units | Fact::ReturnPath | Fact::ToolChange => MICROMETRE,
+        Fact::Control | Fact::Units | Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => MICROMETRE,
         Fact::DecimalPoint => TENTH,
     };
     let cuts = matches!(candidate.fact, Fact::Control | Fact::ToolChange);
     let watch = candidate.fact == Fact::DecimalPoint;
     let measure = Measure { length, cuts };
     let finish = match candidate.fact {
-        Fact::Units | Fact::DecimalPoint | Fact::ToolChange => race(jobs, source, measure, PLAIN, watch)?,
+        Fact::Units | Fact::DecimalPoint | Fact::ToolChange | Fact::RotaryTurn => {
+            race(jobs, source, measure, PLAIN, watch)?
+        }
         // In the plain world the zero of the part is that of the machine.
         Fact::ReturnPath => race(jobs, source, measure, GENERATED, watch)?,
         // Lengths and offsets are nothing in the plain world, in which numbers can be shown.
@@ -382,16 +429,23 @@ fn decide(
         Finish::Apart(difference) => match candidate.fact {
             Fact::DecimalPoint => in_words(candidate, &difference),
             Fact::Control | Fact::Units => (difference.at, difference.made.map(made)),
-            Fact::ReturnPath | Fact::ToolChange => (candidate.span, candidate.shown()),
+            Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => (candidate.span, candidate.shown()),
         },
         Finish::Unknown(bare) => match candidate.fact {
             // What cannot be executed here may be by a caller.
-            Fact::Units | Fact::ReturnPath | Fact::ToolChange if sound => (candidate.span, candidate.shown()),
+            Fact::Units | Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn if sound => {
+                (candidate.span, candidate.shown())
+            }
             Fact::DecimalPoint if sound => match bare.iter().find(|bare| matters(bare)) {
                 Some(bare) => (bare.span, values(bare)),
                 None => return Ok(None),
             },
-            Fact::Control | Fact::Units | Fact::DecimalPoint | Fact::ReturnPath | Fact::ToolChange => {
+            Fact::Control
+            | Fact::Units
+            | Fact::DecimalPoint
+            | Fact::ReturnPath
+            | Fact::ToolChange
+            | Fact::RotaryTurn => {
                 return Ok(None);
             }
         },

@@ -56,8 +56,15 @@ pub struct JsonPlace {
 
 impl From<Told> for Entry {
     fn from(told: Told) -> Entry {
+        Entry::of(&told)
+    }
+}
+
+impl Entry {
+    /// Of a diagnostic in words.
+    pub(crate) fn of(told: &Told) -> Entry {
         Entry {
-            code: told.code,
+            code: told.code.clone(),
             severity: match told.severity {
                 Severity::Bug | Severity::Error => "error",
                 Severity::Warning => "warning",
@@ -65,11 +72,11 @@ impl From<Told> for Entry {
             },
             verdict: told.verdict.map(|v| v.name()),
             rank: told.rank.map(Rank::name),
-            message: told.message,
-            place: told.place.into(),
-            related: told.related.into_iter().map(JsonPlace::from).collect(),
-            details: told.details,
-            advice: told.advice,
+            message: told.message.clone(),
+            place: told.place.clone().into(),
+            related: told.related.iter().cloned().map(JsonPlace::from).collect(),
+            details: told.details.clone(),
+            advice: told.advice.clone(),
         }
     }
 }

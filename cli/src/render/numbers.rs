@@ -1,10 +1,17 @@
 //! Lengths and angles in messages.
 
+use ncc_ir::canon::Axis;
 use ncc_ir::num::ONE;
 
 /// Nanos in millimetres, to four digits after the point.
 pub(super) fn millimetres(nanos: i64) -> String {
     signed(nanos.abs())
+}
+
+/// The headline of a rotary turn that controls do not make alike, by so many nanos of a degree.
+pub(super) fn rotary_turn(axis: Axis, by: i64, or: i64) -> String {
+    let axis = char::from(axis.letter());
+    format!("{axis} turns by {} degrees here, or by {}?", signed(by), signed(or))
 }
 
 /// A length or an angle with its sign, as [`millimetres`].

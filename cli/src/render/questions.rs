@@ -13,10 +13,11 @@ use ncc_ir::canon::{FeedMode, Units};
 use ncc_ir::num::{Nanos, Num, ONE, Unit};
 use serde::Serialize;
 
-use super::About;
 use super::json::JsonPlace;
+use super::numbers::{rotary_turn, signed};
 use super::source::Excerpt;
 use super::words::{plain, plain_upto, return_path};
+use super::{About, Told};
 use crate::questions::{Answer, Fact, Made, Question, Reading, Shown};
 
 /// So much of a line is shown before its answer, in characters.
@@ -55,6 +56,21 @@ pub struct AskedAnswer {
     pub result: Option<String>,
     /// Whether it is ncc's own reading.
     pub taken: bool,
+}
+
+impl Asked {
+    /// The question of a refusal that an option takes back, in the words of the refusal.
+    pub(crate) fn of_refusal(told: &Told, answers: [AskedAnswer; 2]) -> Asked {
+        Asked {
+            code: told.code.clone(),
+            severity: "question",
+            question: told.message.clone(),
+            place: told.place.clone().into(),
+            answers,
+            line: String::new(),
+            file: None,
+        }
+    }
 }
 
 /// Questions in words, in their order.
@@ -139,6 +155,7 @@ pub fn taken(question: &Question) -> String {
         (Answer::From(dialect), _) => format!("control = {dialect}"),
         (Answer::Units(units), _) => format!("units = {}", name(*units)),
         (Answer::Option(option, value), _) => format!("{option} = {value}"),
+        (Answer::OfMachines { option, value, .. }, _) => format!("{option} = {value}"),
         (Answer::WritePoints, _) => format!("{DECIMAL_POINT} = calculator"),
     }
 }
@@ -166,6 +183,10 @@ fn headline(question: &Question, text: &str) -> String {
                 format!("does M06 put in T{named} or T{waiting}? The next H is H{waiting}")
             }
             _ => "does M06 put in the tool of its block, or the one that waits?".to_owned(),
+        },
+        (Fact::RotaryTurn, ..) => match [&first.result, &second.result] {
+            [Shown::Turn(axis, by), Shown::Turn(_, or)] => rotary_turn(*axis, *by, *or),
+            _ => "how far does a rotary axis turn here?".to_owned(),
         },
         (Fact::Units | Fact::Control, ..) => "mm or inch? The program never states its unit".to_owned(),
     }
@@ -209,6 +230,12 @@ fn option(answer: &Answer) -> Option<String> {
         Answer::Units(units) => Some(format!("--units {}", name(*units))),
         Answer::Option(option, value) => Some(format!("--from-option {option}={value}")),
         Answer::WritePoints => None,
+        Answer::OfMachines { option, value, from, to } => {
+            let sides = [("from", *from), ("to", *to)].into_iter().filter(|(_, asked)| *asked);
+            let all: Vec<String> =
+                sides.map(|(side, _)| format!("--{side}-option {option}={value}")).collect();
+            Some(all.join(" "))
+        }
     }
 }
 
@@ -224,6 +251,9 @@ fn result(shown: &Shown) -> Option<String> {
     Some(match shown {
         Shown::Nothing => return None,
         Shown::Word { value, feed } => word(*value, *feed),
+        Shown::Turn(axis, by) => {
+            format!("{} turns by {} degrees", char::from(axis.letter()), signed(*by))
+        }
         Shown::Path { words, zero, absolute, .. } => return_path(words, *zero, *absolute),
         Shown::Made(made) => match *made {
             Made::End(axis, at) => {

@@ -3,7 +3,7 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
-use super::numbers::{millimetres, signed};
+use super::numbers::{millimetres, rotary_turn, signed};
 pub use super::spelled::return_path;
 use super::spelled::{character, found_words, radii_of};
 use ncc_dialects::{Dialect, Meaning};
@@ -277,11 +277,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{from} does it by itself here"),
         ),
         Fault::RotaryTurnOpen { axis, by, or } => {
-            let axis = char::from(axis.letter());
-            (
-                format!("{axis} turns by {} degrees here, or by {}?", signed(*by), signed(*or)),
-                format!("a setting of each machine decides, on {from} and on {to}"),
-            )
+            (rotary_turn(*axis, *by, *or), format!("a setting of each machine decides, on {from} and on {to}"))
         }
         Fault::MustBeStated { behaviour } => (
             format!("{}: what does {from} do here?", behaviour.about()),

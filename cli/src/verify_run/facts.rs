@@ -6,7 +6,9 @@
 //!
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
+use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
+use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
@@ -80,6 +82,13 @@ impl Run {
     }
 }
 
+/// A reader of the output, which reports what the output takes for granted of the target's control.
+pub(super) fn reader_of_output(job: &Job) -> Reader {
+    let mut reader = Reader::new(job.to.clone(), false);
+    reader.report_parameters();
+    reader
+}
+
 impl Verifier {
     /// Whether plain moves may pass for both sides by being executed once.
     #[cfg(test)]
@@ -87,8 +96,21 @@ impl Verifier {
         self.runs.iter().any(|run| run.level)
     }
 
-    /// What the verification has to say of its own reach, and of facts that would make another cut.
-    pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
+    /// What the reading of the output takes for granted of the target's control: it counts as much as what the source's
+    /// reading does.
+    pub(super) fn note_assumed(&mut self) {
+        for Diagnostic { fault, .. } in self.batch.diagnostics.drain(..) {
+            let is_new = matches!(fault, Fault::AssumedParameter { .. })
+                && self.notes.iter().all(|note| note.fault != fault);
+            if is_new {
+                self.notes.push(Diagnostic::new(fault, self.last));
+            }
+        }
+    }
+
+    /// What the verification has to say of its own reach, of facts that would make another cut, and of what the output
+    /// takes for granted, if that is not `reported` yet.
+    pub(crate) fn take_notes(&mut self, reported: &[Diagnostic]) -> Vec<Diagnostic> {
         let fed = self.runs.first().and_then(|run| run.source.arc_fed_otherwise(&run.target));
         let mut matters = std::mem::take(&mut self.matters);
         // That the usual values differ is reported.
@@ -108,6 +130,8 @@ impl Verifier {
         });
         let told: Vec<Diagnostic> = told.collect();
         let mut notes = std::mem::take(&mut self.notes);
+        let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedParameter { .. });
+        notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
         notes.extend(told);
         notes.extend(fed.map(|(at, [contour_in_source, inner])| {
             Diagnostic::new(Fault::FeedOnArcs { contour_in_source, inner }, at)
@@ -274,7 +298,13 @@ pub(super) fn done_by_target(difference: &Difference) -> Option<Behaviour> {
     match difference.aspect {
         Aspect::State if bits & by_control::SPINDLE != 0 => Some(Behaviour::SpindleAtStop),
         Aspect::State if bits & by_control::COOLANT != 0 => Some(Behaviour::CoolantAtStop),
+        Aspect::State
+            if bits & by_control::SPINDLE_AT_CHANGE != 0 && source.state.spindle != target.state.spindle =>
+        {
+            Some(Behaviour::SpindleAtChange)
+        }
         Aspect::End(_) if bits & by_control::Z != 0 => Some(Behaviour::ZAtChange),
+        Aspect::End(Axis::Z) if bits & by_control::Z_COUNTED != 0 => Some(Behaviour::ZAtChange),
         _ => None,
     }
 }

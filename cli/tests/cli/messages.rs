@@ -232,3 +232,15 @@ fn text_for_a_device() {
     let told = run(&["haas", "to", "fanuc", "unopened.nc", "-o", "no.nc"]).exits(1).err;
     assert!(told.contains("text for a device that the program does not open"), "{told}");
 }
+
+/// What the output takes for granted of the target's control is told as what the source does.
+#[test]
+fn the_output_tells_what_it_takes_for_granted() {
+    let folder = folder();
+    let program =
+        "%\nO1\nG21 G17 G90 G94 G54\nG00 X0. Y0. Z5.\n#1 = ROUND[#500 * 1.5]\nG01 X#1 F100.\nM30\n%\n";
+    std::fs::write(folder.path().join("half.nc"), program).unwrap();
+    let done = ncc(folder.path(), &["fanuc", "to", "siemens", "half.nc", "-v"]).exits(0);
+    let told = "half of a negative number, rounded assumed to be away from zero";
+    assert_eq!(done.err.matches(told).count(), 1, "{}", done.err);
+}

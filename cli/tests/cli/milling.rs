@@ -49,8 +49,36 @@ fn a_refusal_reads_as_written_down() {
     assert_eq!(done.out, "");
     expect("lathe.txt", &done.err);
     let done = ncc(folder.path(), &["fanuc", "to", "siemens", "thread.nc", "--format", "json"]).exits(1);
-    let line: serde_json::Value = serde_json::from_str(&done.err).unwrap();
-    assert_eq!((line["code"].as_str(), line["place"]["line"].as_u64()), (Some("NC0120"), Some(5)));
+    let lines: Vec<serde_json::Value> =
+        done.err.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 2, "{}", done.err);
+    for (line, severity) in lines.iter().zip(["question", "error"]) {
+        assert_eq!((line["code"].as_str(), line["place"]["line"].as_u64()), (Some("NC0120"), Some(5)));
+        assert_eq!(line["severity"], severity);
+    }
+}
+
+/// The report of one program and the row of a batch ask whether the program is for a mill.
+#[test]
+fn a_lathe_or_a_mill_is_a_question_for_programs() {
+    let folder = thread();
+    let at = folder.path();
+    ncc(at, &["fanuc", "to", "siemens", "thread.nc", "--report", "r.json"]).exits(1);
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(at.join("r.json")).unwrap()).unwrap();
+    assert_eq!((&report["result"], &report["source"]["dialect"]), (&"refused".into(), &"fanuc".into()));
+    assert_eq!(report["diagnostics"][0]["code"], "NC0120");
+    let done = ncc(at, &["auto", "to", "siemens", "thread.nc", "mill.nc", "-o", "out", "--format", "json"]);
+    let batch: serde_json::Value = serde_json::from_str(&done.exits(1).out).unwrap();
+    for questions in [&report["questions"], &batch["files"][0]["questions"]] {
+        assert_eq!(questions.as_array().map(Vec::len), Some(1), "{questions}");
+        let asked = &questions[0];
+        assert_eq!(asked["question"], "this looks like a lathe program");
+        assert_eq!(asked["answers"][0]["result"], "a lathe program, not translated");
+        assert_eq!(asked["answers"][1]["option"], "--assume milling");
+    }
+    assert_eq!(batch["files"][1]["questions"], serde_json::json!([]));
+    ncc(at, &["fanuc", "to", "siemens", "thread.nc", "--report", "thread.nc"]).exits(2);
 }
 
 #[test]

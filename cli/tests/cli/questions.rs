@@ -101,6 +101,44 @@ fn assuming_goes_on_and_says_so_first() {
     assert_eq!(first["answers"][0]["result"], "100 mm");
 }
 
+/// People read an error with both turns; programs find it among the questions too.
+#[test]
+fn a_rotary_turn_is_a_question_for_programs() {
+    let folder = folder();
+    let at = folder.path();
+    let turn = "G21 G17 G90 G94 G54\nG0 X0 Y0 Z5 A0\nS500 M3\nG1 X20 A270 F500\nM2\n";
+    fs::write(at.join("turn.ngc"), turn).unwrap();
+    fs::write(at.join("units.ngc"), turn.replace("G21 ", "").replace("F500", "F50")).unwrap();
+    let report = |arguments: &str, code: i32| -> serde_json::Value {
+        let done = say(at, &format!("{arguments} --report r.json")).exits(code);
+        assert_eq!(done.err.contains("error[NC0522]: A turns by 270 degrees here, or by -90?"), code == 1);
+        serde_json::from_slice(&fs::read(at.join("r.json")).unwrap()).unwrap()
+    };
+    let asked = report("linuxcnc to fanuc turn.ngc", 1);
+    let answers = &asked["questions"][0]["answers"];
+    assert_eq!(asked["questions"][0]["code"], "NC0522");
+    assert_eq!(answers[0]["result"], "A turns by 270 degrees");
+    assert_eq!(answers[1]["result"], "A turns by -90 degrees");
+    // Each answer leaves nothing to ask.
+    for answer in [&answers[0], &answers[1]] {
+        let option = answer["option"].as_str().unwrap();
+        let answered = report(&format!("linuxcnc to fanuc turn.ngc {option}"), 0);
+        assert_eq!(answered["questions"], serde_json::json!([]));
+    }
+    // Where one machine is stated, the other alone is asked.
+    let one = report("linuxcnc to fanuc turn.ngc --from-option rotary_turn=shortest", 1);
+    assert_eq!(one["questions"][0]["answers"][1]["option"], "--to-option rotary_turn=shortest");
+    // With another question, the more dangerous one comes first.
+    let both = report("linuxcnc to fanuc units.ngc", 1);
+    let codes: Vec<&str> =
+        both["questions"].as_array().unwrap().iter().map(|one| one["code"].as_str().unwrap()).collect();
+    assert_eq!(codes, ["NC0301", "NC0522"]);
+    let done = say(at, "linuxcnc to fanuc turn.ngc units.ngc -o out --format json").exits(1);
+    let batch: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+    assert_eq!(batch["files"][0]["questions"][0]["code"], "NC0522");
+    assert_eq!(batch["files"][1]["questions"][1]["code"], "NC0522");
+}
+
 #[test]
 fn a_batch_stops_for_each_program_by_itself() {
     let folder = programs();

@@ -32,6 +32,8 @@ fn wrong_usage_is_exit_2_and_writes_nothing() {
         (&["translate", "good.cn", "--machine-from", "fanuc-vmc"], "--machine-to MACHINE"),
         (&["translate", "good.cn", "--from", "mach9"], "--to fanuc"),
         (&["translate", "good.cn", "--to", "fanuc"], "--machine-from MACHINE"),
+        (&["fanuc", "to", "siemens", "good.cn", "--from-option", "path_tolerance=-0.02"], "path_tolerance"),
+        (&["fanuc", "to", "siemens", "good.cn", "--from-option", "path_tolerance=1e-3"], "path_tolerance"),
         (&["doctor", "good.cn"], "--machine-to MACHINE"),
         (&["mach9", "to", "fanuk", "good.cn"], "did you mean fanuc?"),
         (&["Mach9", "to", "fanuc", "good.cn"], "did you mean mach9?"),

@@ -51,6 +51,8 @@ pub(super) struct Lower {
     pub(super) called: bool,
     /// Whether refused blocks are noted.
     pub(super) watch: bool,
+    /// Whether what is taken for granted of the control is told: its modes are by `assume` alone.
+    pub(super) reports: bool,
     pub(super) state: State,
     pub(super) only_units: Only<Units>,
     pub(super) only_scaled: Only<bool>,
@@ -170,6 +172,7 @@ impl Lower {
             called: false,
             inherited: Inherited::default(),
             watch: false,
+            reports: assume,
             state: State::default(),
             only_units: Only::default(),
             only_scaled: Only::default(),
@@ -589,7 +592,7 @@ impl Lower {
 
     /// Whether something is met for the first time by the reports.
     pub(super) fn first_time(&mut self, name: &str) -> bool {
-        self.assume && self.reported.insert(name.into())
+        self.reports && self.reported.insert(name.into())
     }
 
     /// Ends the block: its comment, or what stands for an empty one.

@@ -98,6 +98,11 @@ impl Reader {
         self.lower.watch = true;
     }
 
+    /// As of [`crate::Reader::report_parameters`].
+    pub(crate) fn report_parameters(&mut self) {
+        self.lower.reports = true;
+    }
+
     /// As of [`crate::Reader::named`].
     pub(crate) fn named(&mut self, file: &str) {
         let Some((_, extension)) = file.rsplit_once('.') else { return };

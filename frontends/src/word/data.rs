@@ -67,13 +67,8 @@ impl Lower {
 
     fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
         let row_name = || Box::<str>::from(row.name.as_str());
-        // Where the program computes, execution looks at what is not known here.
-        let computes = self.computes_anything();
-        let in_force = match self.state.cycle {
-            InForce::None => false,
-            InForce::Active(_) => true,
-            InForce::Lost => !computes,
-        };
+        // Execution looks at what is not known here: where a caller, or a block that may be skipped, has a cycle in force.
+        let in_force = matches!(self.state.cycle, InForce::Active(_));
         if in_force {
             let name = "data input while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);

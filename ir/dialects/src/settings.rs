@@ -99,9 +99,22 @@ pub enum SettingError {
     NoValue {
         /// The option.
         option: String,
-        /// What it takes; empty if any number.
+        /// What it takes; empty if any number from 0.
         values: Vec<String>,
     },
+}
+
+/// Most digits after the point of a number that an option takes.
+const MOST_DIGITS: usize = 9;
+
+/// Whether a text is a number from 0, in digits with or without a point: what options in numbers are.
+fn is_amount(text: &str) -> bool {
+    let (whole, part) = text.split_once('.').unwrap_or((text, ""));
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    digits(whole)
+        && digits(part)
+        && part.len() <= MOST_DIGITS
+        && text.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
 impl Settings {
@@ -118,7 +131,7 @@ impl Settings {
         let row = self.dialect.option.iter().find(|o| o.name == option);
         let row = row.ok_or_else(|| SettingError::NoOption(option.to_owned()))?;
         let fits = match row.values.is_empty() {
-            true => value.parse::<f64>().is_ok_and(f64::is_finite),
+            true => is_amount(value),
             false => row.values.iter().any(|v| v == value),
         };
         if !fits {

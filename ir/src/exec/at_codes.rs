@@ -7,11 +7,11 @@
 
 use super::{Event, Exec, Kind, Length, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, FeedMode, Spindle};
+use crate::canon::{AXES, Distance, FeedMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
-use crate::program::{Op, ReferencePoint, Stmt};
+use crate::program::{Op, Point, ReferencePoint, Stmt};
 use crate::source::Span;
 
 impl Exec {
@@ -190,6 +190,9 @@ impl Exec {
         self.changed_to = self.state.tool;
         let emitted = self.emit(Kind::ToolChange, span, out);
         if self.state.by_control & by_control::Z == 0 {
+            if self.state.by_control & by_control::SPINDLE != 0 {
+                self.state.by_control |= by_control::SPINDLE_AT_CHANGE;
+            }
             // With Z where the program has put it, every move may need the spindle.
             self.said_by_program(by_control::SPINDLE);
         }
@@ -214,6 +217,7 @@ impl Exec {
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;
         self.goes_to_place();
+        self.said_by_program(by_control::Z_COUNTED);
         self.state.by_control |= by_control::Z | by_control::MOVE;
         let moved = self.emit_move(false, span, out);
         self.state.by_control &= !by_control::MOVE;
@@ -241,6 +245,26 @@ impl Exec {
             self.said_by_program(both);
         }
         self.emit(Kind::Traverse, span, out)
+    }
+
+    /// The words of a move, where the control has taken Z to machine zero.
+    #[cold]
+    pub(super) fn counts_z_of(&mut self, to: &Point) {
+        if let Some(word) = &to.axes[Z] {
+            self.counts_z(word.distance.or(self.modes.distance) == Distance::Incremental);
+        }
+    }
+
+    /// A word of Z, where the control has taken Z to machine zero: it counts from there, or says where Z is.
+    #[cold]
+    pub(super) fn counts_z(&mut self, relative: bool) {
+        match relative {
+            true if self.state.by_control & by_control::Z != 0 => {
+                self.state.by_control |= by_control::Z_COUNTED;
+            }
+            true => {}
+            false => self.said_by_program(by_control::Z_COUNTED),
+        }
     }
 
     /// The program has said where Z is, or what spindle and coolant do.

@@ -160,7 +160,7 @@ impl Exec {
         if to != Spindle::Stopped {
             self.spindle_turns();
         }
-        self.said_by_program(by_control::SPINDLE);
+        self.said_by_program(by_control::SPINDLE | by_control::SPINDLE_AT_CHANGE);
         self.within_limit(span)?;
         let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };
         self.tell(what, span, out)

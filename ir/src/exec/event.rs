@@ -246,6 +246,11 @@ pub mod by_control {
     pub const Z_AT_START: u8 = 16;
     /// The event's feed is a time, because its control counts F in a way of its own there.
     pub const TIMED: u8 = 32;
+    /// Z has moved since the control took it to machine zero, by words that count from there: incremental ones, or those of
+    /// a cycle. A comparison passes over nothing for it.
+    pub const Z_COUNTED: u8 = 64;
+    /// The spindle was stopped at the last tool change, and every move may need it. Nothing is passed over either.
+    pub const SPINDLE_AT_CHANGE: u8 = 128;
 }
 
 /// What is on while an event happens.

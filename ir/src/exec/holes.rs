@@ -3,7 +3,7 @@
 //! The moves are defined in `passes::expand_cycles` as statements and here as events; a law in the
 //! tests holds the two together.
 
-use super::{Attribute, Event, Exec, Kind};
+use super::{Attribute, Event, Exec, Kind, Z};
 use crate::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift, next_peck};
 use crate::diag::{Diagnostic, Fault};
@@ -211,6 +211,9 @@ impl Exec {
         let feed = cycle.feed.as_ref().map(|f| self.value(f, span)).transpose()?;
         if let Some(feed) = feed {
             (self.feed, self.feed_inch) = (feed, Some(self.modes.inch));
+        }
+        if normal == Z {
+            self.counts_z(true);
         }
         self.modes.motion = Motion::Cycle;
         self.cycle = Some(InForce {

@@ -13,7 +13,7 @@
 //!
 //! Not here: which control has which form ([`Behaviour::ToolWithChange`], [`Behaviour::LengthWithoutAxis`]).
 
-use super::{Event, Exec, Length};
+use super::{Event, Exec, Length, by_control};
 use crate::behaviour::Behaviour;
 use crate::canon::Motion;
 use crate::diag::Diagnostic;
@@ -169,6 +169,7 @@ impl Exec {
     /// The axis of the length goes to a place of the machine.
     pub(super) fn goes_to_place(&mut self) {
         self.at_place = true;
+        self.said_by_program(by_control::Z_COUNTED);
     }
 
     /// Behaviours that these statements come to by all the words of a block, a bit each.

@@ -13,7 +13,7 @@ impl Exec {
         self.quiet
             && !(self.ended || self.narrating || self.every_move || self.speed_watched)
             && !(state.tip || state.tilted || self.contour.watched)
-            && state.by_control & (by_control::Z | by_control::Z_AT_START) == 0
+            && state.by_control & (by_control::Z | by_control::Z_AT_START | by_control::Z_COUNTED) == 0
             && state.spindle != Spindle::Stopped
             && state.feed_mode != FeedMode::InverseTime
             && self.modes.distance == Distance::Absolute

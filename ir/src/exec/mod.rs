@@ -449,6 +449,9 @@ impl Exec {
             self.take_up_length();
             self.at_place = false;
         }
+        if self.state.by_control & (by_control::Z | by_control::Z_COUNTED) != 0 {
+            self.counts_z_of(to);
+        }
         self.position = next;
         Ok(())
     }

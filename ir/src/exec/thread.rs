@@ -2,7 +2,7 @@
 //!
 //! Not here: how a hole is reached and left (`holes`).
 
-use super::{Event, Exec, Kind};
+use super::{Event, Exec, Kind, by_control};
 use crate::canon::{FeedMode, Motion, Spindle, SpindleMode, Turn, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -120,7 +120,7 @@ impl Exec {
             None => self.world.orientation,
         };
         self.state.spindle = Spindle::Stopped;
-        self.said_by_program(super::by_control::SPINDLE);
+        self.said_by_program(by_control::SPINDLE | by_control::SPINDLE_AT_CHANGE);
         self.emit(Kind::Orient(angle), span, out)
     }
 }

@@ -6,12 +6,14 @@
 //!
 //! Not here: what every control refuses there, and what the source's does, which are execution's.
 
+use super::known_facts::Known;
 use super::write::{Rebuild, rebuild};
 use crate::canon::ReturnLevel;
 use crate::compensated::Refused;
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::flow;
 use crate::program::{Op, PathControl, Stmt};
+use crate::track::Tracker;
 
 /// What the pass remembers from piece to piece.
 #[derive(Clone, Debug, Default)]
@@ -30,6 +32,18 @@ pub(super) struct State {
 }
 
 impl State {
+    /// Where control comes from elsewhere, and this holds.
+    pub(super) fn enter(&mut self, at: &Tracker, path: Option<&PathControl>) {
+        self.on = at.compensated;
+        self.path = path.cloned();
+        (self.level, self.work) = (at.modes.return_level, at.modes.work_offset);
+    }
+
+    /// A path mode that is known to be active.
+    pub(super) fn path(&self) -> Option<&PathControl> {
+        self.path.as_ref()
+    }
+
     /// Whether a statement states what is active already; notes what it states.
     fn states_again(&mut self, stmt: &Stmt) -> bool {
         let sure = stmt.skip.is_none();
@@ -68,11 +82,23 @@ impl State {
 }
 
 /// Brings statements into a form that the target takes.
-pub(super) fn over(stmts: &mut Vec<Stmt>, state: &mut State, diags: &mut Vec<Diagnostic>) {
-    let refused = state.refused;
+///
+/// `entries` is what holds after each call and label.
+pub(super) fn over(
+    stmts: &mut Vec<Stmt>,
+    state: &mut State,
+    entries: Option<&Known>,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let (refused, mut after_flow) = (state.refused, false);
     rebuild(stmts, |mut stmt, made: &mut Rebuild| {
         if !stmt.joined {
             (state.acts_behind, state.stopped) = (false, false);
+        }
+        if std::mem::replace(&mut after_flow, matches!(stmt.op, flow!()))
+            && let Some((known, at)) = entries.and_then(|known| Some((known, known.before(&stmt)?)))
+        {
+            state.enter(at, known.path_before(&stmt));
         }
         match &stmt.op {
             Op::StartCutterRadiusCompensation { .. } => {

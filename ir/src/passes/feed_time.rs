@@ -15,6 +15,7 @@
 //!
 //! Not here: how long they take, which is execution's.
 
+use super::known_facts::Known;
 use super::walk::Walk;
 use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
@@ -37,6 +38,8 @@ pub(super) struct State {
     tip: bool,
     /// Whether it was told that moves are written by time.
     told: bool,
+    /// Control comes from elsewhere before the next statement.
+    enters: bool,
 }
 
 /// Whether anything may have to be done.
@@ -73,6 +76,11 @@ impl State {
             })
     }
 
+    /// A subprogram begins.
+    pub(super) fn enter(&mut self) {
+        (self.enters, self.by_time) = (true, None);
+    }
+
     /// Follows statements that do not concern it.
     pub(super) fn note(&mut self, stmts: &[Stmt]) {
         for stmt in stmts {
@@ -85,7 +93,7 @@ impl State {
 
 /// Runs it alone.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, None, diags));
 }
 
 /// Writes such moves so that the target takes the same time.
@@ -94,10 +102,15 @@ pub(super) fn over(
     walk: &mut Walk,
     state: &mut State,
     target: &Target,
+    entries: Option<&Known>,
     diags: &mut Vec<Diagnostic>,
 ) {
+    let mut after_flow = std::mem::take(&mut state.enters);
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
+        if std::mem::replace(&mut after_flow, matches!(stmt.op, flow!())) {
+            entries.into_iter().for_each(|known| known.feeds(&stmt, &mut walk.at));
+        }
         let before = walk.at.clone();
         if let Op::UseToolCentrePoint(on) = stmt.op {
             state.tip = on;

@@ -8,6 +8,7 @@
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
 
+use super::known_facts::Known;
 use super::walk::Walk;
 use super::write::{exact, rebuild, rounded};
 use super::{Target, each_body};
@@ -16,6 +17,7 @@ use crate::canon::{FeedMode, Motion, Units};
 use crate::cycle::CycleKind;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
+use crate::kinds::flow;
 use crate::num::{Num, Unit};
 use crate::program::{Op, Program, Stmt};
 use crate::track::Tracker;
@@ -42,9 +44,22 @@ pub(super) struct State {
     ended: bool,
     /// The units have changed, and which feed is in force is not known: the caller or the iteration before has set it.
     lost: bool,
+    /// Control comes from elsewhere before the next statement.
+    enters: bool,
 }
 
 impl State {
+    /// A subprogram begins.
+    pub(super) fn enter(&mut self) {
+        self.enters = true;
+    }
+
+    /// Where control comes from elsewhere, and this holds.
+    pub(super) fn entered(at: &Tracker) -> State {
+        let by_time = at.modes.feed_mode == Some(FeedMode::InverseTime);
+        State { feed: at.feed, by_time, lost: at.stale_feed, ..State::default() }
+    }
+
     /// Whether a feed waits to be said again.
     pub(super) fn is_busy(&self) -> bool {
         self.stale || self.ended || self.lost
@@ -93,14 +108,22 @@ pub(super) fn again(
     walk: &mut Walk,
     state: &mut State,
     target: &Target,
+    entries: Option<&Known>,
     diags: &mut Vec<Diagnostic>,
 ) {
-    let mut split = false;
+    let (mut split, mut after_flow) = (false, std::mem::take(&mut state.enters));
     let has = |units| body.iter().any(|stmt| stmt.op == Op::UseLengthUnits(units));
     let mixed = says_again(target) && has(Units::Mm) && has(Units::Inch);
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         stmt.joined &= !std::mem::take(&mut split);
+        // After a call the feed is what the subprogram has left.
+        if std::mem::replace(&mut after_flow, matches!(stmt.op, flow!()))
+            && let Some(at) = entries.and_then(|known| known.before(&stmt))
+        {
+            *state = State { ended: state.ended, ..State::entered(at) };
+            entries.into_iter().for_each(|known| known.feeds(&stmt, &mut walk.at));
+        }
         let cuts = match stmt.op.unwrapped() {
             Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
             Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
@@ -115,7 +138,7 @@ pub(super) fn again(
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
         let by_feed = cuts && !matches!(stmt.op.unwrapped(), Op::SynchronisedFeed(_));
-        if (by_feed || may_cut) && std::mem::take(&mut state.lost) {
+        if (by_feed || may_cut) && std::mem::take(&mut state.lost) || may_cut && state.stale {
             let what = "a feed that is not known here and holds after a change of units";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
@@ -135,7 +158,8 @@ pub(super) fn again(
             made.push(said);
         }
         if let Op::UseLengthUnits(units) = &stmt.op {
-            state.units(*units, walk.at.modes.units, mixed && walk.at.fed, target);
+            let known = walk.at.modes.units;
+            state.units(*units, known, (mixed || known.is_some()) && walk.at.fed, target);
             if target.caps.units_alone && walk.at.modes.units.is_some_and(|now| now != *units) {
                 (stmt.joined, split) = (false, true);
             }
@@ -161,7 +185,7 @@ pub(super) fn again(
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         over(body, &mut walk.clone(), target);
-        again(body, walk, &mut State::default(), target, diags);
+        again(body, walk, &mut State::default(), target, None, diags);
     });
 }
 

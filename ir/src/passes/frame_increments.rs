@@ -414,6 +414,11 @@ pub(super) fn words_of_mut(op: &mut Op) -> Option<&mut Point> {
     }
 }
 
+/// Whether a statement may change the coordinate of Z without moving it.
+pub(super) fn changes_place(op: &Op) -> bool {
+    changes(op, None, &LINEAR).is_some_and(|axes| axes[Axis::Z as usize])
+}
+
 /// Axes whose coordinates a statement may change without moving them.
 fn changes(op: &Op, plane: Option<Plane>, rotated: &[bool; AXES]) -> Option<[bool; AXES]> {
     let all = [true; AXES];

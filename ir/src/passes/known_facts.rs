@@ -29,6 +29,8 @@ const MOST_ROUNDS: u32 = 24;
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     starts: HashMap<u32, Tracker>,
+    /// How corners are taken there, if that is known.
+    paths: HashMap<u32, Option<Box<PathControl>>>,
     /// Cycles in force at holes, by their places, that are as they were called up on every way there.
     cycles: HashMap<u32, Option<Called>>,
 }
@@ -45,6 +47,18 @@ impl Known {
     /// What holds where a stretch begins with a statement.
     pub(super) fn before(&self, stmt: &Stmt) -> Option<&Tracker> {
         self.starts.get(&stmt.span.start)
+    }
+
+    /// Puts units, feed and motion into a walk that comes to a statement from elsewhere.
+    pub(super) fn feeds(&self, stmt: &Stmt, walk: &mut Tracker) {
+        let Some(at) = self.before(stmt) else { return };
+        (walk.modes.units, walk.modes.feed_mode) = (at.modes.units, at.modes.feed_mode);
+        (walk.fed, walk.feed, walk.modes.motion) = (at.fed, at.feed, at.modes.motion);
+    }
+
+    /// How corners are taken where a stretch begins with a statement, if it is known.
+    pub(super) fn path_before(&self, stmt: &Stmt) -> Option<&PathControl> {
+        self.paths.get(&stmt.span.start)?.as_deref()
     }
 
     /// The modes in force where stretches begin, by the places of their first statements.
@@ -129,7 +143,7 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
             flow.settles = true;
             flow.over(program);
             call_up_all(program, &flow.cycles, true);
-            return Known { starts: flow.starts, cycles: flow.cycles };
+            return Known { starts: flow.starts, paths: flow.paths, cycles: flow.cycles };
         }
     }
     Known::default()
@@ -152,6 +166,29 @@ pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
             return flow.over(program);
         }
     }
+}
+
+/// What holds where stretches begin; the program stays as it is. `entry` is what holds where the program begins, and
+/// `path` how corners are taken there.
+pub(crate) fn starts(program: &Program, entry: &Tracker, path: Option<&PathControl>) -> Option<Known> {
+    let mut program = program.clone();
+    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let mut flow = Flow { names, ..Flow::default() };
+    flow.ways = vec![Ways::default(); program.procedures.len()];
+    if let Some(main) = flow.ways.first_mut() {
+        let path = path.cloned().map(Box::new);
+        main.entry = Some(Held { at: entry.clone(), path, ..Held::default() });
+    }
+    for _ in 0..MOST_ROUNDS {
+        flow.changed = false;
+        flow.over(&mut program);
+        if !flow.changed {
+            flow.settles = true;
+            flow.over(&mut program);
+            return Some(Known { starts: flow.starts, paths: flow.paths, cycles: flow.cycles });
+        }
+    }
+    None
 }
 
 /// What holds at a call.
@@ -403,6 +440,7 @@ struct Flow<'t> {
     holes: bool,
     called: bool,
     starts: HashMap<u32, Tracker>,
+    paths: HashMap<u32, Option<Box<PathControl>>>,
     cycles: HashMap<u32, Option<Called>>,
     /// What holds at calls, by their places.
     calls: HashMap<u32, At>,
@@ -449,6 +487,10 @@ impl Flow<'_> {
                     .entry(stmt.span.start)
                     .and_modify(|at| at.join(&known.at))
                     .or_insert_with(|| known.at.clone());
+                let path = self.paths.entry(stmt.span.start).or_insert_with(|| known.path.clone());
+                if *path != known.path {
+                    *path = None;
+                }
             }
             begins = flow;
             state = self.stmt(stmt, state);

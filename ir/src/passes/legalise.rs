@@ -10,6 +10,8 @@ mod settings;
 mod subprograms;
 mod tool_data;
 
+use std::rc::Rc;
+
 use super::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE,
     PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
@@ -19,11 +21,11 @@ use super::write::EXACT;
 use super::{
     Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
     cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
-    expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, frame_increments, length_axis,
-    machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
-    polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways, skip_levels, specialise_procedures,
-    spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
-    work_offset,
+    expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, frame_increments, known_facts,
+    length_axis, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
+    path_control, polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways, skip_levels,
+    specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
+    tool_change, tool_edge, work_offset, z_after_change,
 };
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Distance, Modes};
@@ -65,6 +67,8 @@ pub struct Legaliser {
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
+    /// What holds after each call and label of a program that is kept whole.
+    entries: Option<Rc<known_facts::Known>>,
     times: feed_time::State,
     edge: tool_edge::State,
     radius: cutter_radius::State,
@@ -79,6 +83,7 @@ pub struct Legaliser {
     increments: frame_increments::State,
     length_axis: length_axis::State,
     rotary: rotary_turns::State,
+    z_left: z_after_change::State,
 }
 
 impl Legaliser {
@@ -131,6 +136,7 @@ impl Legaliser {
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
+            entries: None,
             times: feed_time::State::default(),
             edge: tool_edge::State::default(),
             radius: cutter_radius::State::default(),
@@ -145,6 +151,7 @@ impl Legaliser {
             increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
             length_axis: length_axis::State::default(),
             rotary: rotary_turns::State::default(),
+            z_left: z_after_change::State::default(),
         }
     }
 
@@ -232,6 +239,9 @@ impl Legaliser {
         if self.length_axis.is_used() {
             self.length_axis.check(stmts, &self.walk, diags);
         }
+        if self.z_left.concerns(stmts) {
+            self.z_left.over(stmts, &self.walk);
+        }
         match lines {
             Some(lines) => self.increments.note_lines(lines),
             None if self.increments.concerns(stmts, self.walk.at.modes.distance) => {
@@ -245,23 +255,39 @@ impl Legaliser {
         }
         let ends = self.target.caps.feed_ends_with_mode;
         if ends || self.feed_again {
-            let changes = stmts.iter().any(|stmt| match stmt.op {
-                Op::SetFeedMode(_) => true,
-                Op::UseLengthUnits(_) => self.feed_again,
-                _ => false,
-            });
+            let changes = self.entries.is_some()
+                || stmts.iter().any(|stmt| match stmt.op {
+                    Op::SetFeedMode(_) => true,
+                    Op::UseLengthUnits(_) => self.feed_again,
+                    _ => false,
+                });
             match changes || self.feed.is_busy() {
                 true => {
-                    feed_unit::again(stmts, &mut self.walk.clone(), &mut self.feed, &self.target, diags);
+                    let (mut walk, entries) = (self.walk.clone(), self.entries.clone());
+                    feed_unit::again(
+                        stmts,
+                        &mut walk,
+                        &mut self.feed,
+                        &self.target,
+                        entries.as_deref(),
+                        diags,
+                    );
                 }
                 false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
             }
         }
         if self.times_differ && lines.is_none() {
-            match self.times.concerns(stmts, &self.walk) {
+            match self.entries.is_some() || self.times.concerns(stmts, &self.walk) {
                 true => {
-                    let mut walk = self.walk.clone();
-                    feed_time::over(stmts, &mut walk, &mut self.times, &self.target, diags);
+                    let (mut walk, entries) = (self.walk.clone(), self.entries.clone());
+                    feed_time::over(
+                        stmts,
+                        &mut walk,
+                        &mut self.times,
+                        &self.target,
+                        entries.as_deref(),
+                        diags,
+                    );
                 }
                 false => self.times.note(stmts),
             }
@@ -291,8 +317,9 @@ impl Legaliser {
             self.mend(stmts, needs, &start, assumed, diags);
         }
         if self.compensated.refused.any() {
-            match self.compensated.concerns(stmts) {
-                true => compensated_modes::over(stmts, &mut self.compensated, diags),
+            let entries = self.entries.clone();
+            match entries.is_some() || self.compensated.concerns(stmts) {
+                true => compensated_modes::over(stmts, &mut self.compensated, entries.as_deref(), diags),
                 false => self.compensated.note(stmts),
             }
         }
@@ -309,6 +336,7 @@ impl Legaliser {
             || self.times_differ && lines.is_none() && self.times.concerns(stmts, &self.walk)
             || self.absolute(lines).is_none() && self.increments.concerns(stmts, self.walk.at.modes.distance)
             || self.length_axis.concerns(stmts)
+            || self.z_left.concerns(stmts)
     }
 
     /// What further statements need that the target lacks.

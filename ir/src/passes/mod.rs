@@ -87,6 +87,7 @@ pub mod variables;
 mod walk;
 pub mod work_offset;
 mod write;
+mod z_after_change;
 
 pub use expand_compensation::Compensating;
 pub use legalise::Legaliser;

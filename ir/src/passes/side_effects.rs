@@ -18,14 +18,17 @@
 //! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
 
 mod arc_feed;
+mod beside;
+mod insert;
 mod joins;
 mod way_up;
 
 use super::fine_digits;
+use super::known_facts::Known;
 use super::tool_words::ToolWords;
 use crate::arc_feed::ArcFeed;
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, Axis};
+use crate::canon::{AXES, Axis, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Increments;
 use crate::expr::Expr;
@@ -37,7 +40,9 @@ use crate::program::{
 use crate::source::Span;
 
 use arc_feed::{compensated, states};
-use joins::{LeftAtPlace, Length, either};
+use beside::{OPTIONAL_STOP, STOP_BESIDE, stands_alone};
+use insert::{insert, insertion};
+use joins::{LeftAtPlace, Length, either, only_sense};
 use way_up::WayUp;
 
 pub use way_up::REFUSED as NEEDS_Z;
@@ -91,6 +96,14 @@ pub struct SideEffects {
     /// Procedures that end at a place of the machine along Z.
     left_at_place: LeftAtPlace,
     way_up: WayUp,
+    /// Whether cutter radius compensation may be on.
+    beside: bool,
+    /// What holds after each call and label of a program with compensation that is kept whole.
+    entries: Option<Known>,
+    /// Control has come from elsewhere to the next statement.
+    entered: bool,
+    /// An optional stop that stops a spindle of which it is not known whether it turns, and no spindle code since.
+    lost_stop: Option<Span>,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -132,6 +145,10 @@ impl SideEffects {
             arc_feed_at_head: false,
             left_at_place: LeftAtPlace::new(),
             way_up: WayUp::default(),
+            beside: false,
+            entries: None,
+            entered: false,
+            lost_stop: None,
         }
     }
 
@@ -141,6 +158,7 @@ impl SideEffects {
             || self.machine
             || self.length_next.is_some()
             || self.way_up.is_up()
+            || self.lost_stop.is_some()
             || self.again.iter().any(Option::is_some);
         if !busy {
             self.z_home &= !lines.names(Axis::Z);
@@ -154,6 +172,7 @@ impl SideEffects {
             || self.way_up.concerns(stmts)
             || self.source != self.target
                 && (self.again.iter().any(Option::is_some)
+                    || self.lost_stop.is_some()
                     || self.length_next.is_some()
                     || self.states_arc_feed(stmts)
                     || stmts.iter().any(|stmt| is_code(&stmt.op)))
@@ -174,7 +193,7 @@ impl SideEffects {
         for mut stmt in std::mem::take(stmts) {
             self.tools.before(&stmt, &mut made);
             if let Op::Control(control) = &mut stmt.op {
-                self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
+                self.again_before(&mut made, &mut stmt.joined, diags, (stmt.span, false));
                 if let Some(at) = control.bodies().find_map(|body| compensated(body)) {
                     self.state_arc_feed(&mut stmt.joined, at, &mut made, diags);
                 }
@@ -218,6 +237,7 @@ impl SideEffects {
         if let Some((main, _)) = procedures.split_first() {
             self.way_up.check(&main.body, procedures, diags);
         }
+        self.entries = self.entries_of(procedures);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
@@ -227,7 +247,7 @@ impl SideEffects {
             self.rewrite(&mut procedure.body, diags);
             if at > 0 {
                 let span = procedure.body.last().map_or(Span::default(), |stmt| stmt.span);
-                self.again_before(&mut procedure.body, &mut false, diags, span);
+                self.again_before(&mut procedure.body, &mut false, diags, (span, false));
             }
             procedure.body.extend(end);
         }
@@ -235,6 +255,7 @@ impl SideEffects {
 
     /// A body begins, or ends, that may be executed several times or not at all; `keeps`: it switches nothing.
     fn enter(&mut self, keeps: bool) {
+        self.entered = true;
         if keeps {
             (self.z_home, self.machine) = (false, false);
         } else {
@@ -244,6 +265,7 @@ impl SideEffects {
 
     /// Control comes from elsewhere.
     fn elsewhere(&mut self) {
+        self.entered = true;
         (self.spindle, self.coolant) = (Switch::Unknown, Switch::Unknown);
         self.again = [None, None];
         self.tools.elsewhere();
@@ -252,6 +274,14 @@ impl SideEffects {
     }
 
     fn statement(&mut self, mut stmt: Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        if std::mem::take(&mut self.entered)
+            && let Some(at) = self.entries.as_ref().and_then(|known| known.before(&stmt))
+        {
+            self.beside = at.compensated;
+            if at.spindle == Some(Spindle::Stopped) && self.spindle == Switch::Unknown {
+                self.spindle = Switch::Off;
+            }
+        }
         self.length_before(&mut stmt, made, diags);
         match &stmt.op {
             Op::ProgramStop => self.switch(STOP, false, &mut stmt, made, diags),
@@ -268,7 +298,10 @@ impl SideEffects {
             Op::StartCutterRadiusCompensation { .. } => {
                 self.state_arc_feed(&mut stmt.joined, stmt.span, made, diags);
             }
-            op if cuts(op) => self.again_before(made, &mut stmt.joined, diags, stmt.span),
+            op if cuts(op) => {
+                let label = matches!(op, Op::Label(_));
+                self.again_before(made, &mut stmt.joined, diags, (stmt.span, label));
+            }
             _ => {}
         }
         let length = (self.length.clone(), self.length_known);
@@ -299,6 +332,10 @@ impl SideEffects {
             let target_stops = self.target.surely(behaviour) && !(both == CHANGE && self.goes_home());
             let state = if at == 0 { &mut self.spindle } else { &mut self.coolant };
             if source_stops && !target_stops {
+                if optional && at == 0 && *state == Switch::Unknown {
+                    // With the switch off it goes on as it was, which nobody knows here.
+                    self.lost_stop = Some(stmt.span);
+                }
                 off.push((behaviour, if at == 0 { Op::StopSpindleTurning } else { Op::CoolantOff }));
                 // An optional stop that is not made leaves it on in the source.
                 if let (true, Switch::On(ops)) = (optional, &*state) {
@@ -325,6 +362,13 @@ impl SideEffects {
             if let (true, true, Some(ops)) = (other, restarts, ops) {
                 self.again[at] = Some((behaviour, ops));
             }
+        }
+        let again = self.again.iter().any(Option::is_some);
+        if self.beside && (!off.is_empty() || again && stands_alone(made, stmt)) {
+            // With the block that switches, two still blocks stand in a row: the corner is each control's own.
+            self.again = [None, None];
+            let fault = Fault::CannotSay { what: STOP_BESIDE.into() };
+            return diags.push(Diagnostic::new(fault, stmt.span));
         }
         let at = insertion(made, stmt);
         let found = off.iter().map(|(behaviour, _)| {
@@ -390,8 +434,12 @@ impl SideEffects {
         made: &mut Vec<Stmt>,
         joined: &mut bool,
         diags: &mut Vec<Diagnostic>,
-        span: Span,
+        (span, label): (Span, bool),
     ) {
+        // A label alone cuts nothing.
+        if let Some(at) = self.lost_stop.take_if(|_| !label) {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: OPTIONAL_STOP.into() }, at));
+        }
         if self.again.iter().all(Option::is_none) {
             return;
         }
@@ -497,10 +545,14 @@ impl SideEffects {
             op @ (Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise) => {
                 self.spindle = if sure { Switch::On(vec![op.clone()]) } else { Switch::Unknown };
                 *spindle = spindle.take().filter(|_| !sure);
+                self.lost_stop.take_if(|_| sure);
             }
+            Op::StartCutterRadiusCompensation { .. } => self.beside = true,
+            Op::StopCutterRadiusCompensation => self.beside &= !sure,
             Op::StopSpindleTurning | Op::OrientSpindle(_) => {
                 self.spindle = if sure { Switch::Off } else { Switch::Unknown };
                 *spindle = spindle.take().filter(|_| !sure);
+                self.lost_stop.take_if(|_| sure);
             }
             Op::StartCycle(cycle) if cycle.kind.drives_spindle() => self.spindle = Switch::Unknown,
             op @ (Op::FloodOn | Op::MistOn) => {
@@ -610,24 +662,6 @@ fn switches(op: &Op) -> bool {
     }
 }
 
-/// The operation that starts the spindle of a program, if there is but one.
-fn only_sense(procedures: &[Procedure]) -> Option<Op> {
-    fn find(body: &[Stmt], found: &mut Vec<Op>) {
-        for stmt in body {
-            let starts = matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise);
-            if starts && !found.contains(&stmt.op) {
-                found.push(stmt.op.clone());
-            }
-            if let Op::Control(control) = &stmt.op {
-                control.bodies().for_each(|body| find(body, found));
-            }
-        }
-    }
-    let mut found = Vec::new();
-    procedures.iter().for_each(|procedure| find(&procedure.body, &mut found));
-    found.pop().filter(|_| found.is_empty())
-}
-
 /// Whether a code does something besides its name on some control.
 fn is_code(op: &Op) -> bool {
     match op {
@@ -659,39 +693,4 @@ fn commands_z(op: &Op) -> bool {
         Op::GoToReference(to) => to.axes[Axis::Z as usize] || to.via.get(Axis::Z).is_some(),
         op => cuts(op),
     }
-}
-
-/// Where statements before a code go: before its block, where nothing of that happens before it but the selection of a
-/// tool; else right before it.
-fn insertion(made: &[Stmt], stmt: &Stmt) -> usize {
-    if !stmt.joined {
-        return made.len();
-    }
-    let first = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
-    let selects = |op: &Op| {
-        matches!(
-            op,
-            Op::SelectTool(_)
-                | Op::SelectToolByName(_)
-                | Op::Comment(_)
-                | Op::Blank
-                | Op::Message(_)
-                | Op::MessageOf(_)
-        )
-    };
-    match made[first..].iter().all(|stmt| selects(&stmt.op)) {
-        true => first,
-        false => made.len(),
-    }
-}
-
-/// Puts new blocks in. A block that is cut there goes on in one of its own.
-fn insert(made: &mut Vec<Stmt>, stmt: &mut Stmt, at: usize, new: Vec<Stmt>) {
-    if new.is_empty() {
-        return;
-    }
-    if at == made.len() {
-        stmt.joined = false;
-    }
-    made.splice(at..at, new);
 }

@@ -93,8 +93,15 @@ pub(super) fn same(a: &Program, b: &Program, digits: u8) -> Result<(), String> {
         };
         let (mut source, start) = run(a)?;
         let (mut target, _) = run(b)?;
-        let resolution =
-            Resolution { mm: digits, inch: digits + 1, degree: digits, feed: 6, feed_inch: 6, second: 6 };
+        let resolution = Resolution {
+            mm: digits,
+            inch: digits + 1,
+            degree: digits,
+            feed: 6,
+            feed_inch: 6,
+            second: 6,
+            speed: 6,
+        };
         let mut comparison = Comparison::new(resolution, start);
         comparison.advance(&mut source, &mut target, true).map_err(|d| format!("world {seed}: {d:?}"))?;
     }

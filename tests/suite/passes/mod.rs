@@ -375,7 +375,8 @@ fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), Str
                 there.renaming.entries = Some(entries);
             }
             let mut b = Machine::new(after, &there, on_after, told);
-            let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, feed_inch: 4, second: 3 };
+            let resolution =
+                Resolution { mm: 3, inch: 4, degree: 3, feed: 3, feed_inch: 4, second: 3, speed: 0 };
             let mut comparison = Comparison::new(resolution, a.exec.machine());
             comparison.rename_tools(there.renaming.tools.clone(), &there.renaming.tool_names);
             let (mut source, mut target) = (a.run()?, b.run()?);

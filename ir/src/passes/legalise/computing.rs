@@ -4,6 +4,8 @@
 //! target's capabilities by the same passes; behind each nothing is known. What a pass would have to change that is
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
+use std::rc::Rc;
+
 use super::super::computed_frames;
 use super::super::known_facts::{self, Known};
 use super::super::{machine_cuts, number_names, origin_shift, taps};
@@ -58,7 +60,8 @@ impl Legaliser {
             }
             Err(refusal) => return diags.push(refusal),
         }
-        let first = fresh.clone();
+        fresh.entries = fresh.entries_of(program).map(Rc::new);
+        let first = Legaliser { entries: None, ..fresh.clone() };
         let bare = program.procedures.iter().any(|procedure| known_facts::has_bare_holes(&procedure.body));
         let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body, bare));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
@@ -74,7 +77,7 @@ impl Legaliser {
     }
 
     /// The same legaliser where nothing is known of what was before but this.
-    fn anew(&self, known: Option<Tracker>) -> Legaliser {
+    fn anew(&self, known: Option<Tracker>, first: Option<&Stmt>) -> Legaliser {
         let Target { caps, decimals, peck_clearance, .. } = &self.target;
         let mut own = Legaliser::new(caps, *decimals, *peck_clearance);
         own.target.clone_from(&self.target);
@@ -83,10 +86,14 @@ impl Legaliser {
             (self.source_arcs, self.feed_again, self.times_differ);
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.walk.at.z_lost_at_change = self.walk.at.z_lost_at_change;
-        (own.compensated.on, own.compensated.refused) = (own.walk.at.compensated, self.compensated.refused);
+        own.compensated.refused = self.compensated.refused;
+        own.entries.clone_from(&self.entries);
+        own.enter(first);
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
         own.increments = self.increments.clone();
+        own.z_left = self.z_left;
+        own.z_left.start_over();
         own
     }
 }
@@ -243,7 +250,8 @@ impl Region<'_> {
             return;
         }
         let known = stmts.first().and_then(|first| self.known.before(first));
-        let (mut own, assumed) = start.unwrap_or_else(|| (self.fresh.anew(known.cloned()), Modes::default()));
+        let (mut own, assumed) =
+            start.unwrap_or_else(|| (self.fresh.anew(known.cloned(), stmts.first()), Modes::default()));
         let before = stmts.clone();
         let mut found = Vec::new();
         own.shift = self.shift;

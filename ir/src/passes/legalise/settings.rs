@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::needs::{ARC, CONTROL, ORIENT, RADIUS, TOOL_AXIS};
-use super::super::{feed_time, feed_unit, frame_increments, length_axis, rotary_turns};
+use super::super::{feed_time, feed_unit, frame_increments, length_axis, rotary_turns, z_after_change};
 use super::Legaliser;
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::num::Num;
@@ -61,6 +61,7 @@ impl Legaliser {
         let own = &self.target.caps.behaviours;
         self.increments = frame_increments::State::new(&source, own);
         self.length_axis = length_axis::State::new(&source, own);
+        self.z_left = z_after_change::State::new(&source, own);
         self.rotary = rotary_turns::State::new(&source, own, self.target.other_control);
         self.follow |= self.feed_again || self.times_differ;
         self.follow |= self.increments.is_used() || self.length_axis.is_used() || self.rotary.is_used();

@@ -5,9 +5,12 @@
 //! says in another way, or that cannot be said by themselves.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use super::super::known_facts::has_bare_holes;
 use super::*;
+use crate::canon::FeedMode;
+use crate::kinds::flow;
 use crate::program::Text;
 use crate::source::Span;
 
@@ -133,6 +136,7 @@ impl Legaliser {
             }
         }
         number_names::over(rest, &self.target, false, diags);
+        self.entries = self.entries_of(rest).map(Rc::new);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
             self.run(&mut main.body, &assumed, None, diags);
@@ -155,11 +159,42 @@ impl Legaliser {
             self.machine = machine_moves::State::default();
             self.change.start_over();
             self.at_once = at_once::State::default();
+            self.z_left.start_over();
+            self.enter(procedure.body.first());
             self.run(&mut procedure.body, &Modes::default(), None, diags);
             self.change.start_over();
             self.finish(&mut procedure.body, diags);
             self.at_once.end_of_sub(&procedure.body, diags);
         }
+    }
+
+    /// What holds after each call and label, where a pass asks for it.
+    pub(super) fn entries_of(&self, program: &Program) -> Option<known_facts::Known> {
+        let has = |wanted| program.procedures.iter().any(|procedure| has(&procedure.body, wanted));
+        let units = self.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
+        let starts = || has(|op| matches!(op, Op::StartCutterRadiusCompensation { .. }));
+        let beside = self.compensated.refused.any() && (self.compensated.on || starts());
+        let by_time = self.times_differ && has(|op| *op == Op::SetFeedMode(FeedMode::InverseTime));
+        if !(units || beside || by_time) || !has(|op| matches!(op, flow!())) {
+            return None;
+        }
+        let mut entry = match self.follow {
+            true => self.walk.at.clone(),
+            false => Tracker::unknown(),
+        };
+        entry.compensated = self.compensated.on;
+        known_facts::starts(program, &entry, self.compensated.path())
+    }
+
+    /// Control comes from elsewhere to a body, or to what follows control.
+    pub(super) fn enter(&mut self, first: Option<&Stmt>) {
+        let entries = self.entries.clone();
+        let at = first.and_then(|first| entries.as_ref()?.before(first));
+        let path = first.and_then(|first| entries.as_ref()?.path_before(first));
+        let unknown = Tracker { compensated: self.walk.at.compensated, ..Tracker::unknown() };
+        self.compensated.enter(at.unwrap_or(&unknown), path);
+        self.feed.enter();
+        self.times.enter();
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
@@ -221,4 +256,12 @@ fn takes_cycle(body: &[Stmt]) -> bool {
     });
     let mut calls = calls.peekable();
     has_bare_holes(body) || calls.peek() == Some(&false) || calls.last() == Some(true)
+}
+
+/// Whether an operation stands in a body, or in one of a structure in it.
+fn has(body: &[Stmt], wanted: fn(&Op) -> bool) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Control(control) => control.bodies().any(|body| has(body, wanted)) || wanted(&stmt.op),
+        op => wanted(op),
+    })
 }

@@ -169,3 +169,21 @@ fn tail_of(body: &[Stmt]) -> Tail {
     }
     left
 }
+
+/// The operation that starts the spindle of a program, if there is but one.
+pub(super) fn only_sense(procedures: &[Procedure]) -> Option<Op> {
+    fn find(body: &[Stmt], found: &mut Vec<Op>) {
+        for stmt in body {
+            let starts = matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise);
+            if starts && !found.contains(&stmt.op) {
+                found.push(stmt.op.clone());
+            }
+            if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| find(body, found));
+            }
+        }
+    }
+    let mut found = Vec::new();
+    procedures.iter().for_each(|procedure| find(&procedure.body, &mut found));
+    found.pop().filter(|_| found.is_empty())
+}
