@@ -5,10 +5,12 @@ mod facts;
 mod forks;
 mod twice;
 mod whole;
+mod with_facts;
 mod worlds;
 
 pub(crate) use facts::stops_differ;
-use facts::{Other, done_by_target, looked_at};
+use facts::{Other, done_by_target, looked_at, tries_facts};
+use with_facts::MOST_WITH_FACT;
 pub(crate) use worlds::worlds_of;
 
 use ncc_dialects::{Dialect, Quantity, Settings};
@@ -83,6 +85,10 @@ pub(crate) struct Verifier {
     optional_stop: bool,
     /// Facts that were found to make another cut, each where it does.
     matters: Vec<(Other, Span)>,
+    /// Facts that were not tried to the program's end, each where the program came to it.
+    untried: Vec<(Other, Span)>,
+    /// Events and steps for which a fact is tried.
+    reach: [u64; 2],
     /// Events of the sets of values, where the program cannot be executed without them.
     events_of_sets: u64,
     levels: u16,
@@ -244,6 +250,8 @@ impl Verifier {
             open: looked_at(job),
             optional_stop: stops_differ(job),
             matters: Vec::new(),
+            untried: Vec::new(),
+            reach: MOST_WITH_FACT,
             events_of_sets: 0,
             levels: 0,
             renamed: !renaming.is_empty(),
@@ -363,7 +371,8 @@ impl Verifier {
             return self.target_read(inherited);
         }
         let absolute = |run: &Run| run.source.counts_absolute() && run.target.counts_absolute();
-        let absolute = self.stood && self.runs.iter().all(absolute);
+        let absolute =
+            self.stood && self.runs.iter().all(absolute) && !stmts.iter().any(verify::counts_from_there);
         match absolute {
             true => self.assume(assumed),
             false => self.prepare(stmts, assumed),
@@ -478,6 +487,11 @@ impl Verifier {
     fn prepare(&mut self, stmts: &[Stmt], assumed: &Modes) {
         self.fork(levels(stmts));
         self.fork_for_source(stmts);
+        self.begin(assumed);
+    }
+
+    /// Takes for granted what the source does; at the beginning all controls stand where it begins.
+    fn begin(&mut self, assumed: &Modes) {
         for run in self.runs.iter_mut().chain(&mut self.others) {
             run.source.assume(assumed);
             if !self.stood {
@@ -498,7 +512,8 @@ impl Verifier {
             let all = self.levels;
             self.levels |= bit;
             if self.one_level && !first {
-                for run in self.runs.iter_mut().filter(|r| r.skip != 0) {
+                let all = self.runs.iter_mut().chain(&mut self.others);
+                for run in all.filter(|run| run.skip != 0) {
                     run.skip |= bit;
                     run.source.set_skip(run.skip);
                 }
@@ -510,7 +525,8 @@ impl Verifier {
             let further = |runs: &[Run]| -> Vec<Run> {
                 runs.iter().filter(|run| keeps(run.skip)).map(|run| run.skipping(bit, target)).collect()
             };
-            let (further, others) = (further(&self.runs), further(&self.others));
+            let (further, mut others) = (further(&self.runs), further(&self.others));
+            others.retain(|run| tries_facts(run.skip, self.levels));
             self.others.extend(others);
             self.runs.extend(further);
         }

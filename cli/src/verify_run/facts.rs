@@ -8,7 +8,7 @@
 
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, by_control, touched};
+use ncc_ir::exec::{Event, Exec, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Aspect, Difference};
@@ -51,6 +51,14 @@ impl Run {
     pub(super) fn fed_otherwise(&self) -> Option<Span> {
         let arcs = matches!(self.other, Some(Other::Behaviour { behaviour: Behaviour::FeedOnArcs, .. }));
         arcs.then(|| self.source.arc_fed_otherwise(&self.target)).flatten().map(|(at, _)| at)
+    }
+
+    /// One side: its control and its events.
+    pub(super) fn side(&mut self, side: usize) -> (&mut Exec, &mut Vec<Event>) {
+        match side {
+            0 => (&mut self.source, &mut self.source_events),
+            _ => (&mut self.target, &mut self.target_events),
+        }
     }
 
     /// The run with one more block-skip switch on; `target` gives the switches of the target's control.
@@ -109,6 +117,7 @@ impl Verifier {
         let told: Vec<Diagnostic> = told.collect();
         let mut notes = std::mem::take(&mut self.notes);
         notes.extend(told);
+        notes.extend(self.take_untried());
         notes.extend(fed.map(|(at, [contour_in_source, inner])| {
             Diagnostic::new(Fault::FeedOnArcs { contour_in_source, inner }, at)
         }));
@@ -117,23 +126,54 @@ impl Verifier {
         notes
     }
 
+    /// Facts that were not tried to the end, each control's once. That they matter is told before.
+    fn take_untried(&mut self) -> Vec<Diagnostic> {
+        let mut told: Vec<Diagnostic> = Vec::new();
+        for (other, at) in std::mem::take(&mut self.untried) {
+            let fault = match other {
+                Other::Behaviour { behaviour, source, .. } => {
+                    Fault::FactNotTried { behaviour: Some(behaviour), source }
+                }
+                Other::OptionalStop => Fault::FactNotTried { behaviour: None, source: true },
+            };
+            if told.iter().all(|told| told.fault != fault) {
+                told.push(Diagnostic::new(fault, at));
+            }
+        }
+        told
+    }
+
     /// Adds runs for the open facts of the source's control that statements come to.
     pub(super) fn fork_for_source(&mut self, stmts: &[Stmt]) {
         if self.open[0] == 0 && !self.optional_stop {
             return;
         }
-        let (bits, optional) = come_to(stmts);
-        for at in Verifier::of_first_world(&self.runs) {
-            let own = bits | self.runs[at].source.comes_to(stmts);
-            if optional && self.optional_stop {
+        let optional = if self.optional_stop { OPTIONAL_STOP } else { 0 };
+        let looked_at = self.open[0] | optional;
+        for (at, bits) in self.met_by(|run| looked_at & come_to(&run.source, stmts)) {
+            if bits & OPTIONAL_STOP != 0 {
                 self.fork_with(at, Other::OptionalStop);
             }
-            self.fork_with_each(at, own & self.open[0], true);
+            self.fork_with_each(at, bits & self.open[0], true);
         }
     }
 
+    /// Runs of the first world in which facts are to be tried that they come to, with these facts: a fact that is met
+    /// under the settings in which facts are tried is tried under no other.
+    fn met_by(&self, comes: impl Fn(&Run) -> u64) -> Vec<(usize, u64)> {
+        let met = Verifier::of_first_world(&self.runs).map(|at| (at, comes(&self.runs[at])));
+        let mut met: Vec<(usize, u64)> = met.filter(|(_, bits)| *bits != 0).collect();
+        let tries = |at: usize| tries_facts(self.runs[at].skip, self.levels);
+        let mut tried = met.iter().filter(|(at, _)| tries(*at)).fold(0, |tried, (_, bits)| tried | bits);
+        for (_, bits) in met.iter_mut().filter(|(at, _)| !tries(*at)) {
+            let new = *bits & !tried;
+            (*bits, tried) = (new, tried | new);
+        }
+        met
+    }
+
     /// The runs of the first world: one for each setting of the block-skip switches.
-    pub(super) fn of_first_world(runs: &[Run]) -> impl Iterator<Item = usize> + use<> {
+    fn of_first_world(runs: &[Run]) -> impl Iterator<Item = usize> + use<> {
         let first = runs.first().map(|run| run.seed);
         let own: Vec<usize> = (0..runs.len()).filter(|at| Some(runs[*at].seed) == first).collect();
         own.into_iter()
@@ -142,10 +182,9 @@ impl Verifier {
     /// Adds runs for those of the target's control that the text read back comes to.
     pub(super) fn fork_for_facts(&mut self) {
         if self.open[1] != 0 {
-            let (bits, _) = come_to(&self.batch.stmts);
-            for at in Verifier::of_first_world(&self.runs) {
-                let own = bits | self.runs[at].target.comes_to(&self.batch.stmts);
-                self.fork_with_each(at, own & self.open[1], false);
+            let stmts = &self.batch.stmts;
+            for (at, bits) in self.met_by(|run| self.open[1] & come_to(&run.target, stmts)) {
+                self.fork_with_each(at, bits, false);
             }
         }
     }
@@ -241,6 +280,12 @@ impl Verifier {
     }
 }
 
+/// Whether facts are tried wherever they are met under a setting of the block-skip switches, `all` of them being
+/// those that occur: all off, all on, or one alone on. Under others a fact is tried where it is met under none of these.
+pub(super) fn tries_facts(skip: u16, all: u16) -> bool {
+    skip.count_ones() <= 1 || skip == all
+}
+
 /// Open facts of both controls that are looked at: those that matter at the machine, between two controls.
 pub(super) fn looked_at(job: &Job) -> [u64; 2] {
     let matter = Behaviour::ALL.iter().filter(|behaviour| behaviour.concern() != Concern::Nothing);
@@ -258,11 +303,18 @@ pub(crate) fn stops_differ(job: &Job) -> bool {
     from != to || job.between_controls() && from
 }
 
-/// Behaviours that statements come to, a bit each, and whether an optional stop is among them.
-fn come_to(stmts: &[Stmt]) -> (u64, bool) {
-    stmts.iter().fold((0, false), |(bits, optional), stmt| {
-        (bits | touched(&stmt.op), optional || matches!(stmt.op, Op::OptionalProgramStop))
-    })
+/// The switch for optional stops, among the bits of behaviours.
+pub(super) const OPTIONAL_STOP: u64 = 1 << 63;
+
+const _: () = assert!(Behaviour::ALL.len() < 63);
+
+/// Facts that statements come to from the state that a control is in, a bit each.
+#[inline]
+pub(super) fn come_to(exec: &Exec, stmts: &[Stmt]) -> u64 {
+    let stop = |stmt: &Stmt| matches!(stmt.op, Op::OptionalProgramStop);
+    let of = |stmt: &Stmt| touched(&stmt.op) | if stop(stmt) { OPTIONAL_STOP } else { 0 };
+    let executed = stmts.iter().filter(|stmt| !exec.skips(stmt));
+    executed.fold(exec.comes_to(stmts), |bits, stmt| bits | of(stmt))
 }
 
 /// What the target's control alone has done by itself, if two events differ by that.

@@ -19,6 +19,7 @@ mod entry;
 mod event;
 mod fine;
 mod frame;
+mod go;
 mod holes;
 mod in_block;
 mod left;
@@ -47,11 +48,12 @@ pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub use fine::Increments;
 pub(crate) use frame::Chain;
+pub use go::{Halt, Progress};
 pub use left::Again;
 pub(crate) use pace::{DEGREES, LINEAR};
 pub(crate) use rotary::end as rotary_end;
+pub use run::Runner;
 pub(crate) use run::again;
-pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
 pub use tilt::TiltedPlane;
 
@@ -324,7 +326,7 @@ impl Exec {
 
     /// Whether a block-skip switch leaves a statement out.
     #[inline]
-    fn skips(&self, stmt: &Stmt) -> bool {
+    pub fn skips(&self, stmt: &Stmt) -> bool {
         stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1)
     }
 
