@@ -66,6 +66,8 @@ pub(crate) struct Run {
     level: bool,
     /// The one fact that is another one than usual, of a run that shows whether it matters.
     other: Option<Other>,
+    /// How many events of the usual run's source, and target, it has taken of those that are not compared yet.
+    taken: [usize; 2],
 }
 
 /// A verification in progress.
@@ -211,6 +213,7 @@ impl Verifier {
                     target_events: Vec::new(),
                     level: false,
                     other: None,
+                    taken: [0; 2],
                 }
             })
             .collect();
@@ -345,9 +348,7 @@ impl Verifier {
                 run.source.step(stmt, &mut run.source_events).map_err(Stop::Source)?;
             }
         }
-        // A program that cannot be executed with a fact is not compared under it.
-        self.others
-            .retain_mut(|run| stmts.iter().all(|stmt| run.source.step(stmt, &mut run.source_events).is_ok()));
+        self.others_source(stmts);
         if let Some(stmt) = stmts.last() {
             self.last = stmt.span;
         }
@@ -415,11 +416,9 @@ impl Verifier {
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
         self.fork_for_facts();
+        self.usual_target()?;
         self.others_step(false)?;
         for run in &mut self.runs {
-            for stmt in &self.batch.stmts {
-                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
-            }
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
@@ -428,6 +427,16 @@ impl Verifier {
         }
         self.drop_same();
         self.batch.stmts.clear();
+        Ok(())
+    }
+
+    /// Executes what was read back with the usual facts.
+    fn usual_target(&mut self) -> Result<(), Stop> {
+        for run in &mut self.runs {
+            for stmt in &self.batch.stmts {
+                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
+            }
+        }
         Ok(())
     }
 
@@ -448,14 +457,14 @@ impl Verifier {
         self.batch.diagnostics.append(&mut rest.diagnostics);
         self.read_back(&Modes::default())?;
         self.fork_for_facts();
-        self.others_step(true)?;
+        self.usual_target()?;
         for run in &mut self.runs {
-            for stmt in &self.batch.stmts {
-                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
-            }
             run.source.no_open_corner().map_err(Stop::Source)?;
             run.source.end_of_text(&mut run.source_events);
             run.target.end_of_text(&mut run.target_events);
+        }
+        self.others_step(true)?;
+        for run in &mut self.runs {
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, true)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;

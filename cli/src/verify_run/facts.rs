@@ -49,8 +49,43 @@ impl Run {
     /// Where F counts otherwise on an arc under compensation, with another value of what it counts there: a target without
     /// codes for it is not compared in that.
     pub(super) fn fed_otherwise(&self) -> Option<Span> {
+        self.fed_otherwise_with([&self.source, &self.target])
+    }
+
+    fn fed_otherwise_with(&self, [source, target]: [&Exec; 2]) -> Option<Span> {
         let arcs = matches!(self.other, Some(Other::Behaviour { behaviour: Behaviour::FeedOnArcs, .. }));
-        arcs.then(|| self.source.arc_fed_otherwise(&self.target)).flatten().map(|(at, _)| at)
+        arcs.then(|| source.arc_fed_otherwise(target)).flatten().map(|(at, _)| at)
+    }
+
+    /// Whether one side does what the usual run does: the fact is the other side's. A fork of a program that streams takes
+    /// the events from there, and leaves that control where it forked off.
+    fn shares(&self, side: usize) -> bool {
+        matches!(self.other, Some(Other::Behaviour { source, .. }) if source == (side == 1))
+    }
+
+    /// Takes the side that is the usual run's as it is there.
+    pub(super) fn catch_up(&mut self, usual: &Run) {
+        if self.shares(0) {
+            self.source.clone_from(&usual.source);
+        }
+        if self.shares(1) {
+            self.target.clone_from(&usual.target);
+        }
+    }
+
+    /// Takes further events of the sides that are the usual run's.
+    fn share(&mut self, usual: &Run) {
+        if let (true, Some(new)) = (self.shares(0), usual.source_events.get(self.taken[0]..)) {
+            self.source_events.extend_from_slice(new);
+        }
+        if let (true, Some(new)) = (self.shares(1), usual.target_events.get(self.taken[1]..)) {
+            self.target_events.extend_from_slice(new);
+        }
+    }
+
+    /// The usual run among all.
+    fn usual<'r>(&self, runs: &'r [Run]) -> Option<&'r Run> {
+        runs.iter().find(|run| (run.seed, run.skip) == (self.seed, self.skip))
     }
 
     /// One side: its control and its events.
@@ -220,31 +255,60 @@ impl Verifier {
         if known || self.others.iter().any(|run| run.other == Some(other) && run.skip == skip) {
             return;
         }
-        let mut run = self.runs[at].clone();
+        let usual = &mut self.runs[at];
+        let events = std::mem::take(&mut usual.source_events);
+        let mut run = usual.clone();
+        usual.source_events = events;
         run.comparison.keep_pairs(false);
         run.take(other);
+        if !run.shares(0) {
+            run.source_events.extend_from_slice(&usual.source_events);
+        }
+        run.taken = [run.source_events.len(), run.target_events.len()];
         self.others.push(run);
     }
 
-    /// Executes the text read back in the runs with another fact, and compares.
+    /// Executes statements of the source in the runs with another fact. A program that cannot be executed with a fact is not
+    /// compared under it.
+    pub(super) fn others_source(&mut self, stmts: &[Stmt]) {
+        self.others.retain_mut(|run| {
+            run.shares(0) || stmts.iter().all(|stmt| run.source.step(stmt, &mut run.source_events).is_ok())
+        });
+    }
+
+    /// Executes the text read back in the runs with another fact, and compares; the usual runs have executed it.
     ///
     /// # Errors
     /// A difference that the fact does not explain.
     pub(super) fn others_step(&mut self, over: bool) -> Result<(), Stop> {
         let (mut found, mut wrong) = (Vec::new(), None);
-        let (stmts, last) = (&self.batch.stmts, self.last);
+        let (stmts, last, runs) = (&self.batch.stmts, self.last, &self.runs);
         self.others.retain_mut(|run| {
-            if !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
+            let Some(usual) = run.usual(runs) else { return false };
+            let own = !run.shares(1);
+            if own && !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
                 // With this fact the target's control stops at what is executed otherwise.
                 found.extend(run.other.map(|other| (other, last)));
                 return false;
             }
-            if over {
+            if over && !run.shares(0) {
                 run.source.end_of_text(&mut run.source_events);
+            }
+            if over && own {
                 run.target.end_of_text(&mut run.target_events);
             }
+            run.share(usual);
+            let sides = [
+                if run.shares(0) { &usual.source } else { &run.source },
+                if run.shares(1) { &usual.target } else { &run.target },
+            ];
+            let fed = run.fed_otherwise_with(sides);
             let (a, b) = (&mut run.source_events, &mut run.target_events);
-            match (run.comparison.advance(a, b, over), run.other) {
+            let advanced = run.comparison.advance(a, b, over);
+            // There are many forks, and much room in each for few events.
+            a.shrink_to_fit();
+            b.shrink_to_fit();
+            match (advanced, run.other) {
                 (Err(difference), Some(other)) if !other.explains(run) => {
                     wrong = wrong.take().or(Some(different(&difference, None, last)));
                     false
@@ -254,7 +318,7 @@ impl Verifier {
                     found.push((other, at));
                     false
                 }
-                (Ok(()) | Err(_), other) => match run.fed_otherwise() {
+                (Ok(()) | Err(_), other) => match fed {
                     Some(at) => {
                         found.extend(other.map(|other| (other, at)));
                         false
@@ -269,11 +333,16 @@ impl Verifier {
 
     /// Leaves runs out that have come to the state of the usual one: what follows is the same.
     pub(super) fn drop_same(&mut self) {
-        let usual = |own: &Run| self.runs.iter().find(|run| (run.seed, run.skip) == (own.seed, own.skip));
-        self.others.retain(|run| {
-            let Some(usual) = usual(run) else { return false };
-            !(run.source.agrees(&usual.source)
-                && run.target.agrees(&usual.target)
+        let runs = &self.runs;
+        self.others.retain_mut(|run| {
+            let Some(usual) = run.usual(runs) else { return false };
+            run.taken = [usual.source_events.len(), usual.target_events.len()];
+            // A control agrees with itself only between blocks, and where nothing is under way.
+            let side = |side: usize, own: &Exec, usual: &Exec| {
+                if run.shares(side) { usual.agrees(usual) } else { own.agrees(usual) }
+            };
+            !(side(0, &run.source, &usual.source)
+                && side(1, &run.target, &usual.target)
                 && run.source_events == usual.source_events
                 && run.target_events == usual.target_events)
         });

@@ -308,7 +308,11 @@ impl Verifier {
         let mut runs = std::mem::take(&mut self.runs);
         // What was streamed has been looked at.
         runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::ask_anew);
-        let carried = std::mem::take(&mut self.others);
+        let mut carried = std::mem::take(&mut self.others);
+        for other in &mut carried {
+            let usual = runs.iter().find(|run| (run.seed, run.skip) == (other.seed, other.skip));
+            usual.into_iter().for_each(|usual| other.catch_up(usual));
+        }
         let first = runs.first().map(|run| run.seed);
         let wanted = runs.first().map(|run| self.facts_of(run, source)).unwrap_or_default();
         let (mut met, mut shown, mut left, mut apart) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
