@@ -5,10 +5,12 @@ mod facts;
 mod forks;
 mod twice;
 mod whole;
+mod with_facts;
 mod worlds;
 
 pub(crate) use facts::stops_differ;
-use facts::{Other, done_by_target, looked_at};
+use facts::{Other, done_by_target, looked_at, tries_facts};
+use with_facts::MOST_WITH_FACT;
 pub(crate) use worlds::worlds_of;
 
 use ncc_dialects::{Dialect, Quantity, Settings};
@@ -64,6 +66,8 @@ pub(crate) struct Run {
     level: bool,
     /// The one fact that is another one than usual, of a run that shows whether it matters.
     other: Option<Other>,
+    /// How many events of the usual run's source, and target, it has taken of those that are not compared yet.
+    taken: [usize; 2],
 }
 
 /// A verification in progress.
@@ -83,6 +87,10 @@ pub(crate) struct Verifier {
     optional_stop: bool,
     /// Facts that were found to make another cut, each where it does.
     matters: Vec<(Other, Span)>,
+    /// Facts that were not tried to the program's end, each where the program came to it.
+    untried: Vec<(Other, Span)>,
+    /// Events and steps for which a fact is tried.
+    reach: [u64; 2],
     /// Events of the sets of values, where the program cannot be executed without them.
     events_of_sets: u64,
     levels: u16,
@@ -206,6 +214,7 @@ impl Verifier {
                     target_events: Vec::new(),
                     level: false,
                     other: None,
+                    taken: [0; 2],
                 }
             })
             .collect();
@@ -245,6 +254,8 @@ impl Verifier {
             open: looked_at(job),
             optional_stop: stops_differ(job),
             matters: Vec::new(),
+            untried: Vec::new(),
+            reach: MOST_WITH_FACT,
             events_of_sets: 0,
             levels: 0,
             renamed: !renaming.is_empty(),
@@ -344,9 +355,7 @@ impl Verifier {
                 run.source.step(stmt, &mut run.source_events).map_err(Stop::Source)?;
             }
         }
-        // A program that cannot be executed with a fact is not compared under it.
-        self.others
-            .retain_mut(|run| stmts.iter().all(|stmt| run.source.step(stmt, &mut run.source_events).is_ok()));
+        self.others_source(stmts);
         if let Some(stmt) = stmts.last() {
             self.last = stmt.span;
         }
@@ -370,7 +379,8 @@ impl Verifier {
             return self.target_read(inherited);
         }
         let absolute = |run: &Run| run.source.counts_absolute() && run.target.counts_absolute();
-        let absolute = self.stood && self.runs.iter().all(absolute);
+        let absolute =
+            self.stood && self.runs.iter().all(absolute) && !stmts.iter().any(verify::counts_from_there);
         match absolute {
             true => self.assume(assumed),
             false => self.prepare(stmts, assumed),
@@ -413,11 +423,9 @@ impl Verifier {
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
         self.fork_for_facts();
+        self.usual_target()?;
         self.others_step(false)?;
         for run in &mut self.runs {
-            for stmt in &self.batch.stmts {
-                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
-            }
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
@@ -426,6 +434,16 @@ impl Verifier {
         }
         self.drop_same();
         self.batch.stmts.clear();
+        Ok(())
+    }
+
+    /// Executes what was read back with the usual facts.
+    fn usual_target(&mut self) -> Result<(), Stop> {
+        for run in &mut self.runs {
+            for stmt in &self.batch.stmts {
+                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
+            }
+        }
         Ok(())
     }
 
@@ -446,14 +464,14 @@ impl Verifier {
         self.batch.diagnostics.append(&mut rest.diagnostics);
         self.read_back(&Modes::default())?;
         self.fork_for_facts();
-        self.others_step(true)?;
+        self.usual_target()?;
         for run in &mut self.runs {
-            for stmt in &self.batch.stmts {
-                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
-            }
             run.source.no_open_corner().map_err(Stop::Source)?;
             run.source.end_of_text(&mut run.source_events);
             run.target.end_of_text(&mut run.target_events);
+        }
+        self.others_step(true)?;
+        for run in &mut self.runs {
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, true)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
@@ -485,6 +503,11 @@ impl Verifier {
     fn prepare(&mut self, stmts: &[Stmt], assumed: &Modes) {
         self.fork(levels(stmts));
         self.fork_for_source(stmts);
+        self.begin(assumed);
+    }
+
+    /// Takes for granted what the source does; at the beginning all controls stand where it begins.
+    fn begin(&mut self, assumed: &Modes) {
         for run in self.runs.iter_mut().chain(&mut self.others) {
             run.source.assume(assumed);
             if !self.stood {
@@ -505,7 +528,8 @@ impl Verifier {
             let all = self.levels;
             self.levels |= bit;
             if self.one_level && !first {
-                for run in self.runs.iter_mut().filter(|r| r.skip != 0) {
+                let all = self.runs.iter_mut().chain(&mut self.others);
+                for run in all.filter(|run| run.skip != 0) {
                     run.skip |= bit;
                     run.source.set_skip(run.skip);
                 }
@@ -517,7 +541,8 @@ impl Verifier {
             let further = |runs: &[Run]| -> Vec<Run> {
                 runs.iter().filter(|run| keeps(run.skip)).map(|run| run.skipping(bit, target)).collect()
             };
-            let (further, others) = (further(&self.runs), further(&self.others));
+            let (further, mut others) = (further(&self.runs), further(&self.others));
+            others.retain(|run| tries_facts(run.skip, self.levels));
             self.others.extend(others);
             self.runs.extend(further);
         }

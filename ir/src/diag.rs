@@ -469,6 +469,9 @@ faults! {
     NotTaken { holds: bool, fails: bool } = 605, Warning;
     /// The output decides more than the source does, and not all of that went both ways; blocks of it where it did not.
     OutputNotTaken { blocks: Box<str> } = 609, Warning;
+    /// A run with another value of an open fact was left before the program's end; `None` is the switch for optional
+    /// stops. `source` is whose control.
+    FactNotTried { behaviour: Option<Behaviour>, source: bool } = 610, Warning;
     /// A value was stated for a variable, and the program does not rely on it.
     ValueNotRead { name: Box<str> } = 606, Warning;
     /// Nothing in the program calls a subprogram of it, which was therefore not run against the output.

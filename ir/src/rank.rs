@@ -82,6 +82,7 @@ impl Fault {
             | Fault::VariableGiven { .. }
             | Fault::NotTaken { .. }
             | Fault::OutputNotTaken { .. }
+            | Fault::FactNotTried { .. }
             | Fault::ValueNotRead { .. }
             | Fault::NotCalled { .. }
             | Fault::ArgumentNeeded { .. }

@@ -40,7 +40,7 @@ fn batch(steps: &[Step]) -> Batch {
 }
 
 fn measure() -> Measure {
-    let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 0, feed_inch: 1, second: 3 };
+    let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 0, feed_inch: 1, second: 3, speed: 0 };
     Measure::of(&resolution, &resolution)
 }
 

@@ -368,6 +368,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NotTaken { .. } | Fault::OutputNotTaken { .. } | Fault::NotCalled { .. } => {
             own("look at what is written for it yourself")
         }
+        Fault::FactNotTried { behaviour: Some(behaviour), source } => {
+            let (side, option) = (if *source { "from" } else { "to" }, behaviour.option());
+            own(&format!("state what your machine does: `--{side}-option {option}=VALUE`"))
+        }
+        Fault::FactNotTried { behaviour: None, .. } => own("look at what follows the optional stop yourself"),
         Fault::ArgumentNeeded { check, .. } => match check {
             ArgumentCheck::NotAsked => own("look at the calls of this macro: each must give it"),
             ArgumentCheck::Whole => own("look at the calls: each must give it, as a whole number"),

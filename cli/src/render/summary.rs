@@ -434,6 +434,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::ValueNotRead { .. }
         | Fault::NotTaken { .. }
         | Fault::OutputNotTaken { .. }
+        | Fault::FactNotTried { .. }
         | Fault::NotCalled { .. }
         | Fault::ArgumentNeeded { .. }
         | Fault::CutStanding

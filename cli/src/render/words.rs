@@ -588,6 +588,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "not all of the output was executed when it was verified".into(),
             format!("it decides more often than the source; not both ways were gone of: {}", plain(blocks)),
         ),
+        Fault::FactNotTried { behaviour, source } => {
+            let control = if *source { from } else { to };
+            let fact = |b: &Behaviour| format!("another value of {} on {control}", b.option());
+            let what = behaviour.as_ref().map_or("the switch for optional stops".into(), fact);
+            let left = "the run with it was left 1000000 events or 20000000 steps after this";
+            (format!("{what} was not tried to the end of the program"), left.into())
+        }
         Fault::SkipSettingsSampled { levels } => (
             format!("not every setting of {levels} block-skip switches was tried"),
             "each switch alone and every pair were".into(),

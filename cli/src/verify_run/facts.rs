@@ -10,7 +10,7 @@ use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, by_control, touched};
+use ncc_ir::exec::{Event, Exec, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Aspect, Difference};
@@ -51,8 +51,51 @@ impl Run {
     /// Where F counts otherwise on an arc under compensation, with another value of what it counts there: a target without
     /// codes for it is not compared in that.
     pub(super) fn fed_otherwise(&self) -> Option<Span> {
+        self.fed_otherwise_with([&self.source, &self.target])
+    }
+
+    fn fed_otherwise_with(&self, [source, target]: [&Exec; 2]) -> Option<Span> {
         let arcs = matches!(self.other, Some(Other::Behaviour { behaviour: Behaviour::FeedOnArcs, .. }));
-        arcs.then(|| self.source.arc_fed_otherwise(&self.target)).flatten().map(|(at, _)| at)
+        arcs.then(|| source.arc_fed_otherwise(target)).flatten().map(|(at, _)| at)
+    }
+
+    /// Whether one side does what the usual run does: the fact is the other side's. A fork of a program that streams takes
+    /// the events from there, and leaves that control where it forked off.
+    fn shares(&self, side: usize) -> bool {
+        matches!(self.other, Some(Other::Behaviour { source, .. }) if source == (side == 1))
+    }
+
+    /// Takes the side that is the usual run's as it is there.
+    pub(super) fn catch_up(&mut self, usual: &Run) {
+        if self.shares(0) {
+            self.source.clone_from(&usual.source);
+        }
+        if self.shares(1) {
+            self.target.clone_from(&usual.target);
+        }
+    }
+
+    /// Takes further events of the sides that are the usual run's.
+    fn share(&mut self, usual: &Run) {
+        if let (true, Some(new)) = (self.shares(0), usual.source_events.get(self.taken[0]..)) {
+            self.source_events.extend_from_slice(new);
+        }
+        if let (true, Some(new)) = (self.shares(1), usual.target_events.get(self.taken[1]..)) {
+            self.target_events.extend_from_slice(new);
+        }
+    }
+
+    /// The usual run among all.
+    fn usual<'r>(&self, runs: &'r [Run]) -> Option<&'r Run> {
+        runs.iter().find(|run| (run.seed, run.skip) == (self.seed, self.skip))
+    }
+
+    /// One side: its control and its events.
+    pub(super) fn side(&mut self, side: usize) -> (&mut Exec, &mut Vec<Event>) {
+        match side {
+            0 => (&mut self.source, &mut self.source_events),
+            _ => (&mut self.target, &mut self.target_events),
+        }
     }
 
     /// The run with one more block-skip switch on; `target` gives the switches of the target's control.
@@ -133,6 +176,7 @@ impl Verifier {
         let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedParameter { .. });
         notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
         notes.extend(told);
+        notes.extend(self.take_untried());
         notes.extend(fed.map(|(at, [contour_in_source, inner])| {
             Diagnostic::new(Fault::FeedOnArcs { contour_in_source, inner }, at)
         }));
@@ -141,23 +185,54 @@ impl Verifier {
         notes
     }
 
+    /// Facts that were not tried to the end, each control's once. That they matter is told before.
+    fn take_untried(&mut self) -> Vec<Diagnostic> {
+        let mut told: Vec<Diagnostic> = Vec::new();
+        for (other, at) in std::mem::take(&mut self.untried) {
+            let fault = match other {
+                Other::Behaviour { behaviour, source, .. } => {
+                    Fault::FactNotTried { behaviour: Some(behaviour), source }
+                }
+                Other::OptionalStop => Fault::FactNotTried { behaviour: None, source: true },
+            };
+            if told.iter().all(|told| told.fault != fault) {
+                told.push(Diagnostic::new(fault, at));
+            }
+        }
+        told
+    }
+
     /// Adds runs for the open facts of the source's control that statements come to.
     pub(super) fn fork_for_source(&mut self, stmts: &[Stmt]) {
         if self.open[0] == 0 && !self.optional_stop {
             return;
         }
-        let (bits, optional) = come_to(stmts);
-        for at in Verifier::of_first_world(&self.runs) {
-            let own = bits | self.runs[at].source.comes_to(stmts);
-            if optional && self.optional_stop {
+        let optional = if self.optional_stop { OPTIONAL_STOP } else { 0 };
+        let looked_at = self.open[0] | optional;
+        for (at, bits) in self.met_by(|run| looked_at & come_to(&run.source, stmts)) {
+            if bits & OPTIONAL_STOP != 0 {
                 self.fork_with(at, Other::OptionalStop);
             }
-            self.fork_with_each(at, own & self.open[0], true);
+            self.fork_with_each(at, bits & self.open[0], true);
         }
     }
 
+    /// Runs of the first world in which facts are to be tried that they come to, with these facts: a fact that is met
+    /// under the settings in which facts are tried is tried under no other.
+    fn met_by(&self, comes: impl Fn(&Run) -> u64) -> Vec<(usize, u64)> {
+        let met = Verifier::of_first_world(&self.runs).map(|at| (at, comes(&self.runs[at])));
+        let mut met: Vec<(usize, u64)> = met.filter(|(_, bits)| *bits != 0).collect();
+        let tries = |at: usize| tries_facts(self.runs[at].skip, self.levels);
+        let mut tried = met.iter().filter(|(at, _)| tries(*at)).fold(0, |tried, (_, bits)| tried | bits);
+        for (_, bits) in met.iter_mut().filter(|(at, _)| !tries(*at)) {
+            let new = *bits & !tried;
+            (*bits, tried) = (new, tried | new);
+        }
+        met
+    }
+
     /// The runs of the first world: one for each setting of the block-skip switches.
-    pub(super) fn of_first_world(runs: &[Run]) -> impl Iterator<Item = usize> + use<> {
+    fn of_first_world(runs: &[Run]) -> impl Iterator<Item = usize> + use<> {
         let first = runs.first().map(|run| run.seed);
         let own: Vec<usize> = (0..runs.len()).filter(|at| Some(runs[*at].seed) == first).collect();
         own.into_iter()
@@ -166,10 +241,9 @@ impl Verifier {
     /// Adds runs for those of the target's control that the text read back comes to.
     pub(super) fn fork_for_facts(&mut self) {
         if self.open[1] != 0 {
-            let (bits, _) = come_to(&self.batch.stmts);
-            for at in Verifier::of_first_world(&self.runs) {
-                let own = bits | self.runs[at].target.comes_to(&self.batch.stmts);
-                self.fork_with_each(at, own & self.open[1], false);
+            let stmts = &self.batch.stmts;
+            for (at, bits) in self.met_by(|run| self.open[1] & come_to(&run.target, stmts)) {
+                self.fork_with_each(at, bits, false);
             }
         }
     }
@@ -205,31 +279,60 @@ impl Verifier {
         if known || self.others.iter().any(|run| run.other == Some(other) && run.skip == skip) {
             return;
         }
-        let mut run = self.runs[at].clone();
+        let usual = &mut self.runs[at];
+        let events = std::mem::take(&mut usual.source_events);
+        let mut run = usual.clone();
+        usual.source_events = events;
         run.comparison.keep_pairs(false);
         run.take(other);
+        if !run.shares(0) {
+            run.source_events.extend_from_slice(&usual.source_events);
+        }
+        run.taken = [run.source_events.len(), run.target_events.len()];
         self.others.push(run);
     }
 
-    /// Executes the text read back in the runs with another fact, and compares.
+    /// Executes statements of the source in the runs with another fact. A program that cannot be executed with a fact is not
+    /// compared under it.
+    pub(super) fn others_source(&mut self, stmts: &[Stmt]) {
+        self.others.retain_mut(|run| {
+            run.shares(0) || stmts.iter().all(|stmt| run.source.step(stmt, &mut run.source_events).is_ok())
+        });
+    }
+
+    /// Executes the text read back in the runs with another fact, and compares; the usual runs have executed it.
     ///
     /// # Errors
     /// A difference that the fact does not explain.
     pub(super) fn others_step(&mut self, over: bool) -> Result<(), Stop> {
         let (mut found, mut wrong) = (Vec::new(), None);
-        let (stmts, last) = (&self.batch.stmts, self.last);
+        let (stmts, last, runs) = (&self.batch.stmts, self.last, &self.runs);
         self.others.retain_mut(|run| {
-            if !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
+            let Some(usual) = run.usual(runs) else { return false };
+            let own = !run.shares(1);
+            if own && !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
                 // With this fact the target's control stops at what is executed otherwise.
                 found.extend(run.other.map(|other| (other, last)));
                 return false;
             }
-            if over {
+            if over && !run.shares(0) {
                 run.source.end_of_text(&mut run.source_events);
+            }
+            if over && own {
                 run.target.end_of_text(&mut run.target_events);
             }
+            run.share(usual);
+            let sides = [
+                if run.shares(0) { &usual.source } else { &run.source },
+                if run.shares(1) { &usual.target } else { &run.target },
+            ];
+            let fed = run.fed_otherwise_with(sides);
             let (a, b) = (&mut run.source_events, &mut run.target_events);
-            match (run.comparison.advance(a, b, over), run.other) {
+            let advanced = run.comparison.advance(a, b, over);
+            // There are many forks, and much room in each for few events.
+            a.shrink_to_fit();
+            b.shrink_to_fit();
+            match (advanced, run.other) {
                 (Err(difference), Some(other)) if !other.explains(run) => {
                     wrong = wrong.take().or(Some(different(&difference, None, last)));
                     false
@@ -239,7 +342,7 @@ impl Verifier {
                     found.push((other, at));
                     false
                 }
-                (Ok(()) | Err(_), other) => match run.fed_otherwise() {
+                (Ok(()) | Err(_), other) => match fed {
                     Some(at) => {
                         found.extend(other.map(|other| (other, at)));
                         false
@@ -254,15 +357,26 @@ impl Verifier {
 
     /// Leaves runs out that have come to the state of the usual one: what follows is the same.
     pub(super) fn drop_same(&mut self) {
-        let usual = |own: &Run| self.runs.iter().find(|run| (run.seed, run.skip) == (own.seed, own.skip));
-        self.others.retain(|run| {
-            let Some(usual) = usual(run) else { return false };
-            !(run.source.agrees(&usual.source)
-                && run.target.agrees(&usual.target)
+        let runs = &self.runs;
+        self.others.retain_mut(|run| {
+            let Some(usual) = run.usual(runs) else { return false };
+            run.taken = [usual.source_events.len(), usual.target_events.len()];
+            // A control agrees with itself only between blocks, and where nothing is under way.
+            let side = |side: usize, own: &Exec, usual: &Exec| {
+                if run.shares(side) { usual.agrees(usual) } else { own.agrees(usual) }
+            };
+            !(side(0, &run.source, &usual.source)
+                && side(1, &run.target, &usual.target)
                 && run.source_events == usual.source_events
                 && run.target_events == usual.target_events)
         });
     }
+}
+
+/// Whether facts are tried wherever they are met under a setting of the block-skip switches, `all` of them being
+/// those that occur: all off, all on, or one alone on. Under others a fact is tried where it is met under none of these.
+pub(super) fn tries_facts(skip: u16, all: u16) -> bool {
+    skip.count_ones() <= 1 || skip == all
 }
 
 /// Open facts of both controls that are looked at: those that matter at the machine, between two controls.
@@ -282,11 +396,18 @@ pub(crate) fn stops_differ(job: &Job) -> bool {
     from != to || job.between_controls() && from
 }
 
-/// Behaviours that statements come to, a bit each, and whether an optional stop is among them.
-fn come_to(stmts: &[Stmt]) -> (u64, bool) {
-    stmts.iter().fold((0, false), |(bits, optional), stmt| {
-        (bits | touched(&stmt.op), optional || matches!(stmt.op, Op::OptionalProgramStop))
-    })
+/// The switch for optional stops, among the bits of behaviours.
+pub(super) const OPTIONAL_STOP: u64 = 1 << 63;
+
+const _: () = assert!(Behaviour::ALL.len() < 63);
+
+/// Facts that statements come to from the state that a control is in, a bit each.
+#[inline]
+pub(super) fn come_to(exec: &Exec, stmts: &[Stmt]) -> u64 {
+    let stop = |stmt: &Stmt| matches!(stmt.op, Op::OptionalProgramStop);
+    let of = |stmt: &Stmt| touched(&stmt.op) | if stop(stmt) { OPTIONAL_STOP } else { 0 };
+    let executed = stmts.iter().filter(|stmt| !exec.skips(stmt));
+    executed.fold(exec.comes_to(stmts), |bits, stmt| bits | of(stmt))
 }
 
 /// What the target's control alone has done by itself, if two events differ by that.

@@ -4,7 +4,6 @@
 //! numbers of the program itself, so that its decisions go both ways, and nothing at all for local variables. With
 //! which values the source cannot be executed, it says nothing. Ways that were not gone are told.
 
-use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner};
@@ -12,7 +11,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
 use ncc_ir::passes::otherwise::{Taken, There, compares_nearly, otherwise, places};
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::program::{Op, Procedure, Program, Stmt, Type};
+use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
 use ncc_ir::valid::{anything, not_called};
 use ncc_ir::value::Value;
@@ -20,10 +19,12 @@ use ncc_ir::verify::Pair;
 
 use crate::given::Given as Stated;
 
-use super::{Other, Run, Stop, Verifier, different, levels, unreadable};
+use super::facts::{Other, tries_facts};
+use super::forks::{Forks, Shown};
+use super::{Run, Stop, Verifier, different, levels, unreadable};
 
 /// Events that are made on each side before they are compared.
-const PIECE: usize = 4096;
+pub(super) const PIECE: usize = 4096;
 
 /// Pieces of a source that are executed by itself, to see whether it can be.
 const MOST_PIECES: usize = 4096;
@@ -40,9 +41,6 @@ pub(super) const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 /// Sets of which one must come to the program's end; if none does, one of them is run as far as a program without
 /// variables of others is.
 const FEW_SETS: u32 = 8;
-
-/// Events of a run with another fact than usual.
-pub(super) const MOST_WITH_FACT: u64 = 1_000_000;
 
 /// Decisions that are told; of more, the first ones.
 const MOST_TOLD: usize = 20;
@@ -158,10 +156,10 @@ impl Given<'_> {
 
 /// One of the sets of values, and how far a program is run with it: events, and steps that nothing comes of.
 #[derive(Clone, Copy)]
-struct Set {
-    number: u32,
-    most: u64,
-    idle: Option<u64>,
+pub(super) struct Set {
+    pub(super) number: u32,
+    pub(super) most: u64,
+    pub(super) idle: Option<u64>,
 }
 
 impl Set {
@@ -176,9 +174,12 @@ impl Set {
     }
 }
 
+/// Where ways that were gone go, and pairs of events, if they are kept.
+pub(super) type To<'t> = (&'t mut Gone, &'t mut dyn FnMut(&[Pair]));
+
 /// Ways that were gone, of both programs.
 #[derive(Default)]
-struct Gone {
+pub(super) struct Gone {
     source: Vec<u8>,
     target: Vec<u8>,
 }
@@ -189,17 +190,10 @@ struct Came {
     through: bool,
     /// Which start, and the first set with it, with which it is longer than the run of a set may be.
     goes_on: Option<(usize, u32)>,
-    /// Open facts that were come to, a bit each: of the source's control, of the target's.
-    asked: [u64; 2],
     /// Starts and sets that took a path which none before them had taken.
     new_paths: Vec<(usize, u32)>,
     /// Events that were the same on both sides.
     events: u64,
-}
-
-/// Open facts that either of two runs has come to.
-fn either(asked: [u64; 2], run: &Run) -> [u64; 2] {
-    [asked[0] | run.source.asked(), asked[1] | run.target.asked()]
 }
 
 /// What the target's control refuses of an arc that the source's has made: no pass knows the size of a computed one.
@@ -259,7 +253,8 @@ impl Verifier {
         pairs: &mut dyn FnMut(&[Pair]),
     ) -> Result<(), Stop> {
         for procedure in &source.procedures {
-            self.prepare(&procedure.body, &source.assumed);
+            self.fork(levels(&procedure.body));
+            self.begin(&source.assumed);
         }
         let before: Vec<(u32, Exec)> = self.runs.iter().map(|run| (run.seed, run.source.clone())).collect();
         let stated = std::mem::take(&mut self.given);
@@ -313,13 +308,29 @@ impl Verifier {
         let mut runs = std::mem::take(&mut self.runs);
         // What was streamed has been looked at.
         runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::ask_anew);
-        let plain: Vec<Run> = Verifier::of_first_world(&runs).map(|at| runs[at].clone()).collect();
-        let mut asked = [0; 2];
-        let mut sets = Vec::new();
+        let mut carried = std::mem::take(&mut self.others);
+        for other in &mut carried {
+            let usual = runs.iter().find(|run| (run.seed, run.skip) == (other.seed, other.skip));
+            usual.into_iter().for_each(|usual| other.catch_up(usual));
+        }
+        let first = runs.first().map(|run| run.seed);
+        let wanted = runs.first().map(|run| self.facts_of(run, source)).unwrap_or_default();
+        let (mut met, mut shown, mut left, mut apart) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for run in &mut runs {
-            let start = (!given.open.is_empty() && run.skip == 0).then(|| run.clone());
-            let ended = self.run_against(run, [source, &target], given, Set::long(0), &mut gone, pairs);
-            asked = either(asked, run);
+            let mut forks = (Some(run.seed) == first).then(|| {
+                let tries = |other: &Other| tries_facts(run.skip, self.levels) || !met.contains(other);
+                let known = |other: &Other| shown.iter().any(|shown: &Shown| shown.other == *other);
+                let wanted = wanted.iter().copied().filter(|other| tries(other) && !known(other));
+                let mut forks = Forks::new(wanted.collect(), self.reach);
+                let own = |other: &&Run| (other.seed, other.skip) == (run.seed, run.skip);
+                for other in carried.iter().filter(own) {
+                    forks.carry(other.clone());
+                }
+                forks
+            });
+            let start = (!given.open.is_empty() && run.skip == 0 || forks.is_some()).then(|| run.clone());
+            let sides = [source, &target];
+            let ended = self.run_against(run, sides, given, Set::long(0), (&mut gone, pairs), forks.as_mut());
             match ended {
                 Ok(()) => {}
                 // With other values it may be executed.
@@ -331,26 +342,40 @@ impl Verifier {
                     return Err(Stop::Source(Diagnostic::new(fault, self.last)));
                 }
             }
-            starts.extend(start);
+            if let (Some(mut forks), Some(start)) = (forks, &start) {
+                let unseen = forks.unseen(run);
+                if !unseen.is_empty() {
+                    apart.push((start.clone(), unseen));
+                }
+                met.append(&mut forks.met);
+                shown.append(&mut forks.shown);
+                left.append(&mut forks.left);
+            }
+            starts.extend(start.filter(|start| !given.open.is_empty() && start.skip == 0));
         }
         self.runs = runs;
         self.compare_next_runs();
         let sides = [source, &target];
-        sets.extend(plain.into_iter().map(|plain| (plain, 0)));
         let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
-        asked = [asked[0] | came.asked[0], asked[1] | came.asked[1]];
-        sets.extend(came.new_paths.iter().map(|(start, set)| (starts[*start].clone(), *set)));
         if failed.is_some() {
             self.events_of_sets += came.events;
         }
-        for (start, set) in &sets {
-            self.whole_with_facts(start, *set, sides, given, asked)?;
+        for Shown { other, ended, run } in shown {
+            self.judge(ended, other, &run)?;
+        }
+        self.untried.append(&mut left);
+        for (start, facts) in apart {
+            self.run_apart(&start, 0, sides, given, facts)?;
+        }
+        for (start, set) in came.new_paths {
+            self.whole_with_facts(&starts[start], set, sides, given)?;
         }
         if let (false, Some((start, set))) = (came.through, came.goes_on) {
             // Only a run that comes to its end shows that the program has one.
             let mut run = starts[start].clone();
             run.comparison.keep_pairs(false);
-            match self.run_against(&mut run, sides, given, Set::long(set), &mut gone, &mut |_| {}) {
+            let to: To = (&mut gone, &mut |_| {});
+            match self.run_against(&mut run, sides, given, Set::long(set), to, None) {
                 Ok(()) => failed = None,
                 Err(Ended::Enough) => {
                     let fault = Fault::NoEnd { steps: MOST_EVENTS };
@@ -374,82 +399,6 @@ impl Verifier {
         Ok(())
     }
 
-    /// Runs both programs with a set of values and with each open fact that was come to, another one than usual, one at
-    /// a time. A fact that is known to matter is not tried again.
-    fn whole_with_facts(
-        &mut self,
-        start: &Run,
-        number: u32,
-        sides: [&Program; 2],
-        given: &Given,
-        asked: [u64; 2],
-    ) -> Result<(), Stop> {
-        for (bits, source) in [(asked[0] & self.open[0], true), (asked[1] & self.open[1], false)] {
-            self.fork_whole(start, bits, source);
-        }
-        let optional = |program: &Program| program.procedures.iter().any(|p| has_optional_stop(&p.body));
-        if self.optional_stop && optional(sides[0]) {
-            let mut run = start.clone();
-            run.take(Other::OptionalStop);
-            self.others.push(run);
-        }
-        let runs: Vec<Run> = std::mem::take(&mut self.others);
-        let (optional, mut facts) = runs.into_iter().partition(|run| run.other == Some(Other::OptionalStop));
-        self.fork_where_asked(start, number, sides, given, &mut facts)?;
-        let rest: Vec<Run> = optional;
-        for mut run in rest.into_iter().chain(facts) {
-            run.comparison.keep_pairs(false);
-            let Some(other) = run.other else { continue };
-            if self.matters.iter().any(|(known, _)| *known == other) {
-                continue;
-            }
-            let idle = (number > 0).then_some(MOST_OF_SET.1);
-            let set = Set { number, most: MOST_WITH_FACT, idle };
-            let ended = self.run_both(&mut run, sides, given, set, &mut Gone::default(), &mut |_| {});
-            self.judge(ended, other, &run)?;
-        }
-        Ok(())
-    }
-
-    /// What a run with another fact has shown.
-    pub(super) fn judge(&mut self, ended: Result<(), Ended>, other: Other, run: &Run) -> Result<(), Stop> {
-        match ended {
-            Err(Ended::Target(difference)) if !other.explains(run) => return Err(Stop::Target(difference)),
-            Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
-            // So a difference is told where the source leaves open what the target's control does.
-            Err(Ended::Source(fault))
-                if matches!(fault.fault, Fault::DoneByTarget { .. } | Fault::FactUnsaid { .. }) =>
-            {
-                if !other.explains(run) {
-                    return Err(Stop::Source(fault));
-                }
-                self.matters.push((other, fault.span));
-            }
-            Ok(()) if run.fed_otherwise().is_some() => {
-                self.matters.extend(run.fed_otherwise().map(|at| (other, at)));
-            }
-            // The target's control stops at an arc that the source has made.
-            Err(Ended::NotSo(fault)) if other.explains(run) => self.matters.push((other, fault.span)),
-            Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
-            // It cannot be executed so, or is long enough.
-            Ok(()) | Err(Ended::Source(_) | Ended::Enough) => {}
-        }
-        Ok(())
-    }
-
-    fn fork_whole(&mut self, start: &Run, bits: u64, source: bool) {
-        for behaviour in Behaviour::ALL.iter().copied().filter(|behaviour| bits & behaviour.bit() != 0) {
-            for value in self.other_values(behaviour, source) {
-                let other = Other::Behaviour { behaviour, source, value };
-                if self.others.iter().all(|run| run.other != Some(other)) {
-                    let mut run = start.clone();
-                    run.take(other);
-                    self.others.push(run);
-                }
-            }
-        }
-    }
-
     /// Runs both programs with sets of values, until every way of both was gone.
     fn with_sets(
         &self,
@@ -459,7 +408,7 @@ impl Verifier {
         through: bool,
         gone: &mut Gone,
     ) -> Result<Came, Stop> {
-        let mut came = Came { through, goes_on: None, asked: [0; 2], new_paths: Vec::new(), events: 0 };
+        let mut came = Came { through, goes_on: None, new_paths: Vec::new(), events: 0 };
         let [a, b] = sides.map(Runner::new);
         for set in 1..=SETS {
             let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
@@ -472,8 +421,8 @@ impl Verifier {
                 run.comparison.keep_pairs(false);
                 let (before, first) = ((gone.source.clone(), gone.target.clone()), !came.through);
                 let events = run.comparison.events;
-                let ended = self.run_against(&mut run, sides, given, Set::short(set), gone, &mut |_| {});
-                came.asked = either(came.asked, &run);
+                let ended =
+                    self.run_against(&mut run, sides, given, Set::short(set), (gone, &mut |_| {}), None);
                 if matches!(ended, Ok(()) | Err(Ended::Enough)) {
                     came.events += run.comparison.events - events;
                     if first || before != (gone.source.clone(), gone.target.clone()) {
@@ -495,23 +444,23 @@ impl Verifier {
     /// Runs both programs from where they begin, with one set of values. A difference that is none where what was
     /// taken for granted of the source's numbers is read the other way tells that they are not so; another one is the
     /// output's.
-    fn run_against(
+    fn run_against<'p>(
         &self,
         run: &mut Run,
-        [source, target]: [&Program; 2],
+        [source, target]: [&'p Program; 2],
         given: &Given,
         set: Set,
-        gone: &mut Gone,
-        pairs: &mut dyn FnMut(&[Pair]),
+        to: To,
+        forks: Option<&mut Forks<'p>>,
     ) -> Result<(), Ended> {
         let start = given.other_readings.iter().any(Option::is_some).then(|| run.clone());
-        let ended = self.run_both(run, [source, target], given, set, gone, pairs);
+        let ended = self.run_both(run, [source, target], given, set, to, forks);
         let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
         let same = |other: &Program| {
             let mut run = start.clone();
             run.comparison.keep_pairs(false);
-            let told =
-                self.run_both(&mut run, [other, target], given, set, &mut Gone::default(), &mut |_| {});
+            let to: To = (&mut Gone::default(), &mut |_| {});
+            let told = self.run_both(&mut run, [other, target], given, set, to, None);
             // Both may end in what a control stops at.
             match (&told, &ended) {
                 (Ok(()), _) => true,
@@ -539,31 +488,34 @@ impl Verifier {
         There { functions: &self.functions, fineness: self.fineness, near: given.near }
     }
 
-    fn run_both(
+    /// Runs both programs from where they begin.
+    pub(super) fn run_both<'p>(
         &self,
         run: &mut Run,
-        [source, target]: [&Program; 2],
+        sides: [&'p Program; 2],
         given: &Given,
         set: Set,
-        gone: &mut Gone,
-        pairs: &mut dyn FnMut(&[Pair]),
+        (gone, pairs): To,
+        mut forks: Option<&mut Forks<'p>>,
     ) -> Result<(), Ended> {
-        let (mut a, mut b) = (Runner::new(source), Runner::new(target));
-        a.give(&mut |var| given.value(var, run.seed, set.number));
-        b.give(&mut |var| given.value_there(var, run.seed, set.number));
-        for runner in [&mut a, &mut b] {
-            if let Some(most) = set.idle {
-                runner.limit_idle(most);
-            }
+        let mut runners = sides.map(Runner::new);
+        runners[0].give(&mut |var| given.value(var, run.seed, set.number));
+        runners[1].give(&mut |var| given.value_there(var, run.seed, set.number));
+        if let Some(most) = set.idle {
+            runners.iter_mut().for_each(|runner| runner.limit_idle(most));
+        }
+        if let Some(forks) = &mut forks {
+            forks.begin(&runners, self.last);
         }
         let first = run.comparison.events;
+        let mut done = [false; 2];
         let ended = loop {
-            let more_a = match a.run(&mut run.source, PIECE, &mut run.source_events) {
-                Ok(more) => more,
+            match self.run_side(0, run, &mut runners, &mut done, forks.as_deref_mut()) {
+                Ok(()) => {}
                 Err(fault) => break Err(Ended::Source(fault)),
-            };
-            let more_b = match b.run(&mut run.target, PIECE, &mut run.target_events) {
-                Ok(more) => more,
+            }
+            match self.run_side(1, run, &mut runners, &mut done, forks.as_deref_mut()) {
+                Ok(()) => {}
                 Err(fault) => {
                     let place = run.source_events.get(run.target_events.len());
                     break Err(match (target_arc(&fault.fault), place) {
@@ -573,8 +525,8 @@ impl Verifier {
                         _ => Ended::target(unreadable(&fault, self.last)),
                     });
                 }
-            };
-            let over = more_a == Progress::Done && more_b == Progress::Done;
+            }
+            let over = done == [true; 2];
             if run.comparison.events - first > set.most {
                 break Err(Ended::Enough);
             }
@@ -600,10 +552,39 @@ impl Verifier {
                 Ok(()) if over => break Ok(()),
                 Ok(()) => {}
             }
+            if let Some(forks) = &mut forks {
+                forks.look(run, &runners, self);
+            }
         };
-        a.add_taken(&mut gone.source);
-        b.add_taken(&mut gone.target);
+        if let (Some(forks), Ok(()) | Err(Ended::Source(_) | Ended::Enough)) = (forks, &ended) {
+            forks.finish(self);
+        }
+        runners[0].add_taken(&mut gone.source);
+        runners[1].add_taken(&mut gone.target);
         ended
+    }
+
+    /// Runs one side until there is something to compare.
+    fn run_side<'p>(
+        &self,
+        side: usize,
+        run: &mut Run,
+        runners: &mut [Runner<'p>; 2],
+        done: &mut [bool; 2],
+        forks: Option<&mut Forks<'p>>,
+    ) -> Result<(), Diagnostic> {
+        if done[side] {
+            return Ok(());
+        }
+        let came = match forks {
+            Some(forks) => forks.run_side(side, run, runners, *done, self.last)?,
+            None => {
+                let (exec, events) = run.side(side);
+                runners[side].run(exec, PIECE, events)?
+            }
+        };
+        done[side] = came == Progress::Done;
+        Ok(())
     }
 
     pub(super) fn advance_run(&self, run: &mut Run, over: bool) -> Result<(), Stop> {
@@ -642,15 +623,6 @@ impl Verifier {
             self.notes.push(Diagnostic::new(Fault::OutputNotTaken { blocks }, self.last));
         }
     }
-}
-
-/// Whether an optional stop stands anywhere in a body.
-fn has_optional_stop(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| match &stmt.op {
-        Op::OptionalProgramStop => true,
-        Op::Control(control) => control.bodies().any(|body| has_optional_stop(body)),
-        _ => false,
-    })
 }
 
 /// The block that something stands in.

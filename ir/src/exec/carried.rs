@@ -168,6 +168,8 @@ impl Exec {
             match &stmt.op {
                 Op::SetDistanceMode(mode) => distance = *mode,
                 frames!() | machine!() => all = true,
+                // By itself it has no words; before others a jump may lead to it.
+                Op::Label(_) if stmts.len() == 1 => {}
                 flow!() => return true,
                 _ => {}
             }

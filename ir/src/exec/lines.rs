@@ -7,6 +7,20 @@ use crate::diag::Diagnostic;
 use crate::program::{Op, Stmt};
 
 impl Exec {
+    /// Executes statements for their effect on the state alone; gives the number of their events.
+    ///
+    /// # Errors
+    /// As of [`Exec::step`].
+    pub fn pass(&mut self, stmts: &[Stmt]) -> Result<u64, Diagnostic> {
+        (self.quiet, self.counted) = (true, 0);
+        let mut none = Vec::new();
+        let lines = self.pass_lines(stmts);
+        let rest = lines.map(|lines| &stmts[lines..]);
+        let passed = rest.and_then(|rest| rest.iter().try_for_each(|stmt| self.step(stmt, &mut none)));
+        self.quiet = false;
+        passed.map(|()| self.counted)
+    }
+
     /// Whether a line by absolute words changes no more than where the axes stand.
     fn takes_lines(&self) -> bool {
         let state = &self.state;

@@ -19,6 +19,7 @@ mod entry;
 mod event;
 mod fine;
 mod frame;
+mod go;
 mod holes;
 mod in_block;
 mod left;
@@ -47,11 +48,12 @@ pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub use fine::Increments;
 pub(crate) use frame::Chain;
+pub use go::{Halt, Progress};
 pub use left::Again;
 pub(crate) use pace::{DEGREES, LINEAR};
 pub(crate) use rotary::end as rotary_end;
+pub use run::Runner;
 pub(crate) use run::again;
-pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
 pub use tilt::TiltedPlane;
 
@@ -290,20 +292,6 @@ impl Exec {
         self.position = self.unplace(&machine);
     }
 
-    /// Executes statements for their effect on the state alone; gives the number of their events.
-    ///
-    /// # Errors
-    /// As of [`Exec::step`].
-    pub fn pass(&mut self, stmts: &[Stmt]) -> Result<u64, Diagnostic> {
-        (self.quiet, self.counted) = (true, 0);
-        let mut none = Vec::new();
-        let lines = self.pass_lines(stmts);
-        let rest = lines.map(|lines| &stmts[lines..]);
-        let passed = rest.and_then(|rest| rest.iter().try_for_each(|stmt| self.step(stmt, &mut none)));
-        self.quiet = false;
-        passed.map(|()| self.counted)
-    }
-
     /// Tells functions one by one: those that set an attribute make events too, and so do straight
     /// moves of the program that go nowhere. For tables of what happens; not for a comparison.
     pub fn narrate(&mut self) {
@@ -324,7 +312,7 @@ impl Exec {
 
     /// Whether a block-skip switch leaves a statement out.
     #[inline]
-    fn skips(&self, stmt: &Stmt) -> bool {
+    pub fn skips(&self, stmt: &Stmt) -> bool {
         stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1)
     }
 

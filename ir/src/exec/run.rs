@@ -8,7 +8,7 @@ use super::needed::needed;
 use super::nesting::{Blocks, Frame};
 use super::rounds::Rounds;
 use super::term::{Asked, Place, Variables, Why, real};
-use super::{Event, Exec, message};
+use super::{Exec, message};
 use crate::arguments;
 use crate::canon::FeedMode;
 use crate::code_of::is_last;
@@ -30,15 +30,6 @@ const MOST_STEPS: u64 = 200_000_000;
 /// control that executes a thousand blocks a second stands still for half an hour with so many.
 const MOST_IDLE: u64 = 2_000_000;
 
-/// How far a run has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
-    /// There is more.
-    More,
-    /// The program is over.
-    Done,
-}
-
 /// A run of a whole program from its first statement.
 #[derive(Clone, Debug)]
 pub struct Runner<'p> {
@@ -56,16 +47,16 @@ pub struct Runner<'p> {
     pub(super) variables: Variables,
     /// Statements with what was computed for them last.
     now: Vec<Stmt>,
-    steps: u64,
+    pub(super) steps: u64,
     /// Steps at the last event.
-    eventful: u64,
+    pub(super) eventful: u64,
     rounds: Rounds,
     /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
     taken: Vec<u8>,
     /// Most steps of all.
     most: u64,
     /// Most steps between two statements that are executed by themselves.
-    most_idle: u64,
+    pub(super) most_idle: u64,
     /// Parameters of the main procedure that are read, with the place where it begins.
     pub(super) needed: Vec<(Var, Place, Span)>,
 }
@@ -167,29 +158,6 @@ impl<'p> Runner<'p> {
         };
         let calls = |after: usize| is(after, |op| matches!(op, Op::StartCycle(_)));
         is(at + 1, |op| matches!(op, Op::Alarm(_))) && (calls(at + 2) || calls(at + 3))
-    }
-
-    /// Executes statements until at least `enough` events are in `out`, or the program is over.
-    ///
-    /// # Errors
-    /// As of [`Exec::step`] and [`Runner::next`].
-    pub fn run(
-        &mut self,
-        exec: &mut Exec,
-        enough: usize,
-        out: &mut Vec<Event>,
-    ) -> Result<Progress, Diagnostic> {
-        while out.len() < enough {
-            let Some(stmt) = self.next(exec)? else { return Ok(Progress::Done) };
-            let (before, span) = (out.len(), stmt.span);
-            exec.step(stmt, out)?;
-            if out.len() > before {
-                self.eventful = self.steps;
-            } else if self.steps - self.eventful > self.most_idle {
-                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
-            }
-        }
-        Ok(Progress::More)
     }
 
     /// Whether another run of the same program stands at the same step, with the same in its variables.
@@ -400,11 +368,6 @@ impl<'p> Runner<'p> {
             self.variables.set(place, value);
         }
         Ok(())
-    }
-
-    /// How many steps it has made.
-    pub fn steps(&self) -> u64 {
-        self.steps
     }
 
     #[cold]

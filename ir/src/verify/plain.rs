@@ -14,11 +14,7 @@ pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
     let words = |a: &Point, b: &Point| {
         a.axes[..3].iter().zip(&b.axes[..3]).all(|(a, b)| match (a, b) {
             (None, None) => true,
-            (Some(a), Some(b)) => {
-                a.distance == b.distance
-                    && a.distance.known() != Some(Distance::Incremental)
-                    && value(&a.value, &b.value)
-            }
+            (Some(a), Some(b)) => a.distance == b.distance && value(&a.value, &b.value),
             (None, Some(_)) | (Some(_), None) => false,
         }) && a.axes[3..].iter().chain(&b.axes[3..]).all(Option::is_none)
     };
@@ -33,4 +29,10 @@ pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
         (Op::SetFeedRate(a), Op::SetFeedRate(b)) => value(a, b),
         _ => false,
     }
+}
+
+/// Whether a plain move has a word that says itself that it counts from where the axis stands.
+pub fn counts_from_there(stmt: &Stmt) -> bool {
+    let (Op::StraightFeed(m) | Op::StraightTraverse(m)) = &stmt.op else { return false };
+    m.to.axes.iter().flatten().any(|word| word.distance.known() == Some(Distance::Incremental))
 }
