@@ -2,6 +2,7 @@
 //! itself, the other may say in words, as long as nothing is cut.
 
 use ncc::job::Job;
+use ncc_dialects::builtin;
 
 use crate::plain::{Happening, Plain};
 
@@ -80,9 +81,25 @@ fn sense(speed: f64) -> i8 {
 }
 
 /// The source's events as the second interpreter of a target makes them that has no words for the way up to a tool change
-/// ([`Job::takes_way_up`]): it takes nothing of it.
+/// ([`Job::takes_way_up`]): it takes nothing of it; nor has it messages that its control does not show.
 pub fn for_target(list: Vec<Plain>, job: &Job) -> Vec<Plain> {
+    let list = as_shown(list, &job.to.dialect.id);
     if job.takes_way_up() { without_way_up(list) } else { list }
+}
+
+/// The events without messages that a control does not show: one that shows none while the program runs may show those with
+/// which it stops.
+pub fn as_shown(list: Vec<Plain>, dialect: &str) -> Vec<Plain> {
+    let Some(caps) = builtin(dialect).map(|dialect| &dialect.caps).filter(|caps| !caps.messages) else {
+        return list;
+    };
+    let stops = |at: usize| list.get(at + 1).is_some_and(|next| next.what == Happening::Stop);
+    let shown = |(at, event): &(usize, &Plain)| match event.what {
+        Happening::MessageCleared => false,
+        Happening::Message => caps.stop_messages && stops(*at),
+        _ => true,
+    };
+    list.iter().enumerate().filter(shown).map(|(_, event)| *event).collect()
 }
 
 /// The same as if the control stayed where the program has put it: what it does by itself for a tool change is undone, as
@@ -99,6 +116,19 @@ pub fn without_way_up(list: Vec<Plain>) -> Vec<Plain> {
             _ => z = None,
         }
         kept.push(event);
+    }
+    kept
+}
+
+/// The events without straight moves that are no longer than this, in mm.
+pub fn longer(moves: &[Plain], least: f64) -> Vec<Plain> {
+    let mut kept: Vec<Plain> = Vec::new();
+    for event in moves {
+        let straight = matches!(event.what, Happening::Traverse | Happening::Feed);
+        let short = |from: &Plain| from.at.iter().zip(event.at).all(|(a, b)| (a - b).abs() <= least);
+        if !(straight && kept.last().is_some_and(short)) {
+            kept.push(*event);
+        }
     }
     kept
 }

@@ -584,19 +584,6 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
     Ok(())
 }
 
-/// The events without straight moves that are no longer than this, in mm.
-pub fn longer(moves: &[Plain], least: f64) -> Vec<Plain> {
-    let mut kept: Vec<Plain> = Vec::new();
-    for event in moves {
-        let straight = matches!(event.what, Happening::Traverse | Happening::Feed);
-        let short = |from: &Plain| from.at.iter().zip(event.at).all(|(a, b)| (a - b).abs() <= least);
-        if !(straight && kept.last().is_some_and(short)) {
-            kept.push(*event);
-        }
-    }
-    kept
-}
-
 /// Whether an event is a straight move to where the machine stands, to half of what is looked at.
 fn stands(list: &[Plain], index: usize, within: Tolerance) -> bool {
     let (Some(event), Some(before)) = (list.get(index), index.checked_sub(1).and_then(|at| list.get(at)))

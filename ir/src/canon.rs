@@ -214,6 +214,8 @@ pub enum AdviceKind {
     SpeedOverride,
     /// Whether a switch of the machine holds the feed.
     FeedStop,
+    /// How smoothly corners are taken, and within which length: a level of the control's own.
+    Smoothness,
     /// How many blocks are read ahead of the one that is executed.
     ReadAhead,
     /// What takes the chips away.
@@ -226,7 +228,7 @@ pub enum AdviceKind {
 
 impl AdviceKind {
     /// All kinds with their names in text.
-    pub const ALL: [(AdviceKind, &'static str); 20] = [
+    pub const ALL: [(AdviceKind, &'static str); 21] = [
         (AdviceKind::LookAhead, "look-ahead"),
         (AdviceKind::ContourControl, "contour-control"),
         (AdviceKind::HighPrecision, "high-precision"),
@@ -243,6 +245,7 @@ impl AdviceKind {
         (AdviceKind::FeedOverride, "feed-override"),
         (AdviceKind::SpeedOverride, "speed-override"),
         (AdviceKind::FeedStop, "feed-stop"),
+        (AdviceKind::Smoothness, "smoothness"),
         (AdviceKind::ReadAhead, "read-ahead"),
         (AdviceKind::ChipConveyor, "chip-conveyor"),
         (AdviceKind::Door, "door"),
@@ -281,6 +284,7 @@ impl AdviceKind {
             AdviceKind::Orientation => &["workpiece", "machine"],
             AdviceKind::PathTolerance => &["off", "roughing", "semi-finishing", "finishing"],
             AdviceKind::CompensatedFeed => &["contour", "centre", "inside"],
+            AdviceKind::Smoothness => &["as-set", "rough", "medium", "fine"],
             AdviceKind::ReadAhead => &["unlimited", "limited"],
             AdviceKind::ChipConveyor => &["stopped", "forward", "back"],
             AdviceKind::Door => &["closed", "open"],
@@ -294,7 +298,7 @@ impl AdviceKind {
 
     /// Whether a length belongs to it.
     pub const fn has_amount(self) -> bool {
-        matches!(self, AdviceKind::PathTolerance)
+        matches!(self, AdviceKind::PathTolerance | AdviceKind::Smoothness)
     }
 
     /// Its value where its code stands without a word: a switch is on, what else would it be said for; and what a
@@ -302,7 +306,7 @@ impl AdviceKind {
     pub const fn alone(self) -> Option<u8> {
         match self {
             AdviceKind::FeedOverride | AdviceKind::SpeedOverride | AdviceKind::FeedStop => Some(1),
-            AdviceKind::ReadAhead | AdviceKind::PathTolerance => Some(0),
+            AdviceKind::ReadAhead | AdviceKind::Smoothness => Some(0),
             _ => None,
         }
     }

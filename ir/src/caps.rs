@@ -12,7 +12,7 @@ use crate::kinds::{
 };
 use crate::num::Num;
 use crate::passes::seen_advice;
-use crate::program::{Advice, FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
+use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
 use crate::round::ArcRule;
 
 /// Capabilities of a target, filled from its dictionary.
@@ -219,8 +219,6 @@ pub struct Caps {
     pub exact_stop: bool,
     /// Advice that it has words for, each with its value.
     pub advice: Vec<(AdviceKind, u8)>,
-    /// Whether a stage of machining can be said without its tolerance.
-    pub bare_stage: bool,
     /// What it computes with when the program runs; `None` is nothing.
     pub computes: Option<Box<Computes>>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
@@ -492,12 +490,6 @@ impl Caps {
     /// Whether advice can be written.
     pub fn advises(&self, kind: AdviceKind, value: u8) -> bool {
         self.advice.contains(&(kind, value))
-    }
-
-    /// Whether this advice can be written, with the length that it has or has not.
-    pub fn says_advice(&self, advice: &Advice) -> bool {
-        let bare = advice.amount.is_none() && advice.kind.has_amount() && advice.value > 0;
-        self.advises(advice.kind, advice.value) && (self.bare_stage || !bare)
     }
 
     /// Whether it shows what a program stop says.

@@ -319,6 +319,8 @@ impl Comparison {
     fn note_values(&mut self, a: &Event, b: &Event) {
         let Some(Measured { own: Some(own), coarse, .. }) = &mut self.measured else { return };
         *coarse |= a.rate.abs_diff(b.rate) > own.feeds(b.inch) as u64;
+        *coarse |= a.state.spindle != Spindle::Stopped
+            && a.state.speed.abs_diff(b.state.speed) > Resolution::half(own.speed, false) as u64;
         if let (Kind::Dwell(x), Kind::Dwell(y)) = (&a.kind, &b.kind) {
             *coarse |= x.abs_diff(*y) > Resolution::half(own.second, false) as u64;
         }

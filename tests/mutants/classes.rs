@@ -260,7 +260,7 @@ fn same(was: &[Plain], now: &[Plain]) -> Result<(), String> {
 
 /// Straight moves of less than half a thousandth of a millimetre are none.
 fn but_for_short(was: &[Plain], now: &[Plain]) -> Result<(), String> {
-    let [was, now] = [was, now].map(|list| plain::longer(list, HALF));
+    let [was, now] = [was, now].map(|list| ncc_tests::besides::longer(list, HALF));
     plain::compare(&was, &now, Tolerance { place: HALF, ..Tolerance::SAME })
 }
 

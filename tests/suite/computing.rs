@@ -141,8 +141,14 @@ fn comes_to_the_same(from: &str, text: &[u8], to: &str, written: &[u8]) -> Resul
         calls[..first].sort();
         calls
     };
-    if straight(to, written) != straight(from, text) {
-        return Err("it comes to something else".into());
+    let (there, here) = (straight(to, written), straight(from, text));
+    if there != here {
+        let other = there.iter().zip(&here).position(|(a, b)| a != b);
+        let shown = |calls: &[Vec<u8>]| {
+            let call = other.map_or(calls.last(), |at| calls.get(at));
+            String::from_utf8_lossy(call.map_or(b"", |call| call)).into_owned()
+        };
+        return Err(format!("it comes to something else: {} for {}", shown(&there), shown(&here)));
     }
     Ok(())
 }

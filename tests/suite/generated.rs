@@ -140,7 +140,7 @@ fn same_but_for_moves_of(
 ) -> Result<(), String> {
     let told = plain::compare(source, written, within);
     let Err(why) = told else { return Ok(()) };
-    let longer = plain::longer;
+    let longer = ncc_tests::besides::longer;
     let same =
         |least: &f64| plain::compare(&longer(source, *least), &longer(written, *least), within).is_ok();
     if lengths.iter().any(same) { Ok(()) } else { Err(why) }

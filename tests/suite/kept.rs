@@ -6,6 +6,7 @@
 use std::fmt::Write;
 use std::fs;
 
+use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::plain::{self, Corners, Tolerance};
@@ -47,7 +48,7 @@ fn what_is_kept_makes_the_moves_of_its_source() {
                         return Err("a subprogram that nothing calls".to_owned());
                     }
                     let machine = plain::second(dialect, text, plain::setup(&world, skip))?;
-                    Ok::<_, String>(plain::of_machine(&machine, start))
+                    Ok::<_, String>(besides::as_shown(plain::of_machine(&machine, start), to))
                 };
                 match (run(source.dialect, &source.text), run(to, &text)) {
                     (Ok(a), Ok(b)) => {

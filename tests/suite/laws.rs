@@ -171,13 +171,13 @@ fn only(there: &Outcome, through: &str) -> Option<u16> {
 
 /// Whether two programs of a dialect make the same cut.
 fn same_cut(dialect: &str, a: &[u8], b: &[u8]) -> Result<(), String> {
-    same_cut_at(dialect, a, b, None, (Corners::All, true))
+    same_cut_at((dialect, dialect), a, b, None, (Corners::All, true))
 }
 
 /// The same, where `only` is the work offset that the second program knows as its first, and so much of
 /// corners, and of what F counts on arcs, could be said on the way.
 fn same_cut_at(
-    dialect: &str,
+    (dialect, through): (&str, &str),
     a: &[u8],
     b: &[u8],
     only: Option<u16>,
@@ -201,7 +201,7 @@ fn same_cut_at(
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let list = |p| Ok::<_, String>(plain::of_events(&translate::execute(p, &world, skip)?, start));
-            let (a, b) = (list(&a)?, list(&b)?);
+            let [a, b] = [list(&a)?, list(&b)?].map(|list| besides::as_shown(list, through));
             // A control on the way may have stopped spindle and coolant where nothing is cut, which comes back as words.
             plain::compare(&a, &b, within)
                 .or_else(|_| plain::compare(&besides::of_cuts(&a), &besides::of_cuts(&b), within))?;
@@ -244,7 +244,8 @@ fn the_corpus_there_and_back() {
                 Ok(()) => {
                     done += 1;
                     let said = (Corners::between(from, through), plain::says_arcs(through));
-                    let result = same_cut_at(from, &program.text, &returned, only(&there, through), said);
+                    let result =
+                        same_cut_at((from, through), &program.text, &returned, only(&there, through), said);
                     failures.check(
                         &what,
                         result.map_err(|e| format!("{e}\n{}", String::from_utf8_lossy(&returned))),

@@ -328,8 +328,6 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         frames_shut: dialect.can.frames_shut,
         only_path: dialect.can.only_path.map(Into::into),
         exact_stop: everything || dialect.can.flat || says(Meaning::ExactStop),
-        bare_stage: everything
-            || dialect.code_for(Meaning::Advise(AdviceKind::PathTolerance, None)).is_some(),
         advice: AdviceKind::ALL
             .iter()
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))

@@ -60,7 +60,8 @@ impl Exec {
                 self.state.advice &= !(7 << bits);
                 self.state.advice |= u64::from(advice.value.min(6) + 1) << bits;
                 if advice.kind.has_amount() {
-                    self.state.within[2] = self.length_within(&advice.amount, span)?;
+                    let of = if advice.kind == crate::canon::AdviceKind::Smoothness { 4 } else { 2 };
+                    self.state.within[of] = self.length_within(&advice.amount, span)?;
                 }
             }
             Op::SetSpindleMode(mode) if self.state.spindle_mode != *mode => {

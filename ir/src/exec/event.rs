@@ -268,9 +268,9 @@ pub struct State {
     /// Under a surface speed, where the machine's X is from which the radius is measured; counts only while
     /// the spindle turns.
     pub centre: Nanos,
-    /// Lengths that belong to the path mode, to it in rapids, to advice, and to moves that are made one:
+    /// Lengths that belong to the path mode, to it in rapids, to advice, to moves that are made one, and to smoothness:
     /// tenths of a micrometre.
-    pub within: [i32; 4],
+    pub within: [i32; 5],
     /// Cutter radius compensation.
     pub compensation: Compensation,
     /// Sense of the spindle.
@@ -306,7 +306,7 @@ impl Default for State {
             advice: 0,
             limit: u32::MAX,
             centre: 0,
-            within: [0; 4],
+            within: [0; 5],
             compensation: Compensation::default(),
             spindle: Spindle::Stopped,
             spindle_mode: SpindleMode::Turns,
@@ -405,6 +405,7 @@ impl Seen {
             plain => plain,
         });
         let tolerance = AdviceKind::PathTolerance.bits();
+        let smoothness = AdviceKind::Smoothness.bits();
         // An exact stop of one move leaves the lengths of the mode around it as they are, without a use for them.
         let lengths = self.path && state.path.is_some_and(|mode| seen(mode) && mode != PathMode::ExactStop);
         let mut compensation = state.compensation;
@@ -418,6 +419,7 @@ impl Seen {
                 if lengths && self.in_rapids { state.within[1] } else { 0 },
                 if self.advice >> tolerance & 7 == 7 { state.within[2] } else { 0 },
                 if lengths && self.merges { state.within[3] } else { 0 },
+                if self.advice >> smoothness & 7 == 7 { state.within[4] } else { 0 },
             ],
             ..*state
         }

@@ -100,7 +100,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
                     made.leave_out(stmt);
                 }
             },
-            Op::Advise(advice) if !caps.says_advice(advice) => {
+            Op::Advise(advice) if !caps.advises(advice.kind, advice.value) => {
                 // What F counts on arcs is compared where one is cut.
                 if advice.kind != AdviceKind::CompensatedFeed && state.first_time(advice.kind as u32) {
                     let kind = advice.kind.name().into();

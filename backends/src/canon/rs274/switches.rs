@@ -29,6 +29,7 @@ impl Printer<'_> {
             | AdviceKind::StrokeCheck
             | AdviceKind::PathTolerance
             | AdviceKind::CompensatedFeed
+            | AdviceKind::Smoothness
             | AdviceKind::ReadAhead
             | AdviceKind::ChipConveyor
             | AdviceKind::Door

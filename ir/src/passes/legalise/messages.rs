@@ -7,9 +7,21 @@ use crate::diag::{Diagnostic, Fault};
 use crate::program::{Op, Output, Piece, Program, Stmt, Text};
 use crate::source::Span;
 
-/// A message that is a comment from here on: where the program stops, the operator is told something to do.
-fn lost(stops: bool) -> Fault {
-    if stops { Fault::MessageDropped } else { Fault::MessageAsComment }
+/// A message that is a comment from here on, by what stands behind it: where the program stops before another one takes its
+/// place, the operator is told something to do.
+fn lost(behind: &[Stmt]) -> Fault {
+    if stops_first(behind) == Some(true) { Fault::MessageDropped } else { Fault::MessageAsComment }
+}
+
+/// Whether the program stops before the next message; `None` if it does neither.
+fn stops_first(stmts: &[Stmt]) -> Option<bool> {
+    stmts.iter().find_map(|stmt| match &stmt.op {
+        Op::ProgramStop | Op::OptionalProgramStop => Some(true),
+        Op::Message(_) | Op::MessageOf(_) => Some(false),
+        // A stop on one of the ways counts.
+        Op::Control(control) => control.bodies().find_map(|body| stops_first(body)).filter(|stops| *stops),
+        _ => None,
+    })
 }
 
 /// Messages become comments; those with which the program stops stay where the target has them, in the block of the
@@ -31,7 +43,7 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
             }
         } else {
             let text = std::mem::take(text);
-            diags.push(Diagnostic::new(lost(stops), stmt.span));
+            diags.push(Diagnostic::new(lost(behind), stmt.span));
             stmt.op = Op::Comment(text);
         }
     }
@@ -123,9 +135,7 @@ fn values(stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
         let Some(stmt) = before.last_mut() else { continue };
         match &mut stmt.op {
             Op::MessageOf(pieces) => {
-                let stops =
-                    behind.first().is_some_and(|next| next.op == Op::ProgramStop && next.skip == stmt.skip);
-                diags.push(Diagnostic::new(lost(stops), stmt.span));
+                diags.push(Diagnostic::new(lost(behind), stmt.span));
                 stmt.op = Op::Comment(without_values(pieces));
             }
             Op::Control(control) => control.bodies_mut().for_each(|stmts| values(stmts, diags)),

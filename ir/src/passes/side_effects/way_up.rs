@@ -37,6 +37,8 @@ pub(super) struct WayUp {
     up: bool,
     /// A jump was made there.
     jumped: bool,
+    /// The motion in force is a rapid one, by which bare axis words go.
+    rapid: bool,
     /// What is refused, once each.
     refused: BTreeSet<Span>,
 }
@@ -76,10 +78,14 @@ impl WayUp {
     }
 
     fn walk(&mut self, stmts: &[Stmt], all: &[Procedure], depth: usize, found: &mut Vec<Diagnostic>) {
+        let led_to = jumps(stmts);
         for stmt in stmts {
             match &stmt.op {
                 Op::ChangeTool => self.up = true,
-                Op::Label(_) => self.up |= self.jumped,
+                Op::Label(_) => {
+                    self.up |= self.jumped;
+                    self.rapid &= !led_to;
+                }
                 Op::Goto(_) => self.jumped |= self.up,
                 Op::Control(control) => self.bodies(control, all, depth, found),
                 Op::Call(call) => match all.iter().find(|procedure| procedure.name == call.name) {
@@ -93,27 +99,36 @@ impl WayUp {
                 },
                 Op::RepeatBlocks(_) => self.refuse(stmt, found),
                 Op::Return | Op::Leave | Op::NextTurn => {}
-                Op::StraightTraverse(to) => self.rapid(&to.to, stmt, found),
-                op if cuts(op) => self.refuse(stmt, found),
+                Op::StraightTraverse(to) => {
+                    self.rapid = stmt.skip.is_none();
+                    self.rapid(&to.to, stmt, found);
+                }
+                Op::Position(to) if self.rapid => self.rapid(&to.to, stmt, found),
+                op if cuts(op) => {
+                    self.rapid = false;
+                    self.refuse(stmt, found);
+                }
                 Op::GoToReference(to) if to.axes[Axis::Z as usize] => self.up &= stmt.skip.is_some(),
                 _ => {}
             }
         }
     }
 
+    /// What a structure may leave in force is not looked for.
     fn bodies(&mut self, control: &Control, all: &[Procedure], depth: usize, found: &mut Vec<Diagnostic>) {
         let before = self.up;
         let runs_again = !matches!(control, Control::If { .. });
         let mut after = before;
         for body in control.bodies() {
             self.up = before;
+            self.rapid = false;
             self.walk(body, all, depth, found);
             if runs_again {
                 self.walk(body, all, depth, found);
             }
             after |= self.up;
         }
-        self.up = after;
+        (self.up, self.rapid) = (after, false);
     }
 
     /// A rapid move: by a place along Z it is known again.
@@ -139,5 +154,14 @@ fn changes(stmts: &[Stmt]) -> bool {
         Op::ChangeTool => true,
         Op::Control(control) => control.bodies().any(|body| changes(body)),
         op => matches!(op, flow!()),
+    })
+}
+
+/// Whether a jump is among statements.
+fn jumps(stmts: &[Stmt]) -> bool {
+    stmts.iter().any(|stmt| match &stmt.op {
+        Op::Goto(_) => true,
+        Op::Control(control) => control.bodies().any(|body| jumps(body)),
+        _ => false,
     })
 }
