@@ -453,14 +453,14 @@ impl Comparison {
                         self.source_at = a.end;
                         s += 1;
                     }
-                    Some(_) if self.vanishes(a, &self.target_at) => {
+                    Some(_) if self.vanishes(a, [&self.source_at, &self.target_at]) => {
                         if self.measured.is_some() {
                             self.note(a, b, [&a.end, &self.target_at.clone()]);
                         }
                         self.source_at = a.end;
                         s += 1;
                     }
-                    Some(_) if self.vanishes(b, &self.source_at) => {
+                    Some(_) if self.vanishes(b, [&self.target_at, &self.source_at]) => {
                         if self.measured.is_some() {
                             self.note(a, b, [&self.source_at.clone(), &b.end]);
                         }
@@ -470,13 +470,13 @@ impl Comparison {
                     Some(aspect) => break Some((aspect, Some(a.clone()), Some(b.clone()))),
                 },
                 (Some(a), None) if over => {
-                    if !self.vanishes(a, &self.target_at) {
+                    if !self.vanishes(a, [&self.source_at, &self.target_at]) {
                         break Some((Aspect::Length, Some(a.clone()), None));
                     }
                     s += 1;
                 }
                 (None, Some(b)) if over => {
-                    if !self.vanishes(b, &self.source_at) {
+                    if !self.vanishes(b, [&self.target_at, &self.source_at]) {
                         break Some((Aspect::Length, None, Some(b.clone())));
                     }
                     t += 1;
@@ -492,10 +492,15 @@ impl Comparison {
         }
     }
 
-    /// Whether a straight move goes nowhere, as seen from where the other machine stands.
-    fn vanishes(&self, event: &Event, other: &[Nanos; AXES]) -> bool {
-        matches!(event.kind, Kind::Traverse | Kind::Feed | Kind::Synchronised { .. })
-            && self.end(&event.end, other, event.inch).is_none()
+    /// Whether a move goes nowhere, as seen from where the other machine stands: a straight one, or an arc of less than a
+    /// quarter of a turn.
+    fn vanishes(&self, event: &Event, [own, other]: [&[Nanos; AXES]; 2]) -> bool {
+        let short = match event.kind {
+            Kind::Traverse | Kind::Feed | Kind::Synchronised { .. } => true,
+            Kind::Arc { .. } => part(event, own) == Part::Little,
+            _ => false,
+        };
+        short && self.end(&event.end, other, event.inch).is_none()
     }
 
     /// Whether one of two arcs is nearly nothing and the other nearly a whole circle: their ends and

@@ -4,7 +4,7 @@ use ncc_dialects::{NameMeaning, NameRole, NameRow, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Turn};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Point, Shape, Stmt};
+use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Op, Point, Shape, Stmt};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer, digits};
@@ -52,6 +52,10 @@ impl Writer {
 
     /// An arc or helix about a centre or by its radius.
     pub(super) fn arc(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if let Some(line) = self.words.as_line(arc) {
+            let to = line.to.clone();
+            return self.straight(&to, true, &Stmt::new(span, Op::StraightFeed(line)), sink);
+        }
         self.raw = false;
         self.before_move(&arc.to, true, span, sink)?;
         let motion = Motion::Arc(arc.turn);

@@ -270,6 +270,9 @@ impl Writer {
 
     /// An arc or helix.
     pub(crate) fn arc(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if let Some(line) = self.as_line(arc) {
+            return self.straight(&line, false, span, sink);
+        }
         let motion = Motion::Arc(arc.turn);
         let code = self.codes.arcs[arc.turn as usize].ok_or_else(|| cannot("an arc"))?;
         let turns = match (arc.turns, self.codes.turns) {
@@ -472,6 +475,25 @@ impl Writer {
         let Some(letter) = self.codes.axes[axis as usize] else { return Ok(target) };
         let unit = coord.value.literal().map_or(Unit::Mm, |n| n.unit);
         Ok(number::from_nanos(target, &letter.format, unit).nanos(false).unwrap_or(target))
+    }
+
+    /// An arc of less than a quarter of a turn whose ends become one point when they are rounded is a line: as an arc it
+    /// would be a full circle.
+    pub(crate) fn as_line(&self, arc: &Arc) -> Option<Move> {
+        let (first, second, normal) = self.tracker.plane(arc.plane)?.axes();
+        let along = |axis: Axis| Some((self.stands(axis).ok()?, self.arrives(arc, axis).ok()?));
+        let [(a, b), (c, d)] = [along(first)?, along(second)?];
+        let end = self.tracker.target(&arc.to);
+        let exact = |axis: Axis| Some([self.tracker.position[axis as usize]?, end[axis as usize]?]);
+        let ([x, to_x], [y, to_y]) = (exact(first)?, exact(second)?);
+        // Along the normal it would go beside the line of a helix.
+        let helix = end[normal as usize] != self.tracker.position[normal as usize];
+        if (a, c) != (b, d) || (x, y) == (to_x, to_y) || arc.turns > 0 || helix {
+            return None;
+        }
+        let centre = self.tracker.centre(arc)?;
+        let sweep = geometry::sweep_degrees([x, y], [to_x, to_y], centre, arc.turn, 0);
+        (sweep.abs() < 90.0).then(|| Move { to: arc.to.clone(), said: true })
     }
 
     /// An arc with an end of its own, whose rounded end is its start, would become a full circle or
