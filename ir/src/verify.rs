@@ -512,6 +512,19 @@ impl Comparison {
         )
     }
 
+    /// Whether one of two arcs is a full circle and the other nearly one, which ends where it begins to half a unit of the
+    /// last digit.
+    fn as_good_as_full(&self, a: &Event, b: &Event) -> bool {
+        let full = |event: &Event| matches!(event.kind, Kind::Arc { full: true, .. });
+        let (nearly, start) = if full(b) { (a, &self.source_at) } else { (b, &self.target_at) };
+        let Kind::Arc { plane, .. } = nearly.kind else { return false };
+        // Along the normal it may be a helix.
+        let mut end = nearly.end;
+        let normal = plane.axes().2 as usize;
+        end[normal] = start[normal];
+        full(a) != full(b) && part(nearly, start) == Part::Nearly && self.end(&end, start, a.inch).is_none()
+    }
+
     /// The axis in which two points differ.
     #[inline]
     fn end(&self, a: &[Nanos; AXES], b: &[Nanos; AXES], inch: bool) -> Option<Axis> {
@@ -561,7 +574,8 @@ impl Comparison {
                 // The centre follows from the rounded start and a rounded word, so it may be off by
                 // up to one and a half times what an end point may.
                 let half = (self.half[usize::from(b.inch || self.as_inches)] * 3 / 2).max(self.within);
-                let same = plane == p2 && turn == t2 && full == f2 && !self.other_way_round(a, b);
+                let round = full == f2 || self.as_good_as_full(a, b);
+                let same = plane == p2 && turn == t2 && round && !self.other_way_round(a, b);
                 if !same || !near(centre[0], c2[0], half) || !near(centre[1], c2[1], half) {
                     return Some(Aspect::Arc);
                 }

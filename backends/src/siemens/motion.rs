@@ -64,6 +64,9 @@ impl Writer {
         self.words.need_distance(arc.to.axes.iter().flatten(), &mut inserted)?;
         self.words.need_plane(arc.plane, &mut inserted)?;
         let start = self.words.residue;
+        // One that goes nearly round is a full circle then.
+        let full = matches!(arc.centre, Centre::Point { .. })
+            && self.words.sweep_of_vanishing(arc).is_some_and(|sweep| sweep > 270.0);
         let mut words = match &arc.centre {
             Centre::Radius(radius) => vec![self.named(NameRole::Radius, radius, None, span, sink)?],
             Centre::Point { words, from } => {
@@ -88,7 +91,7 @@ impl Writer {
         let says = arc.said || self.words.force.motion != Some(motion);
         self.arc_block(says.then_some(code), None, &arc.to, inserted, &words, span, sink)?;
         self.words.force.motion = Some(motion);
-        self.words.check_vanished(arc, start)
+        if full { Ok(()) } else { self.words.check_vanished(arc, start) }
     }
 
     /// An arc of another form.

@@ -287,6 +287,9 @@ impl Writer {
             return Err(cannot("an arc with a third axis"));
         }
         let start = self.residue;
+        // One that goes nearly round is a full circle then.
+        let full = matches!(arc.centre, Centre::Point { .. })
+            && self.sweep_of_vanishing(arc).is_some_and(|sweep| sweep > 270.0);
         let centre = self.centre(arc, span, sink)?;
         let mut need = self.point_need(Need::new(Rank::Motion), &arc.to)?;
         for (letter, _) in centre.iter().flatten() {
@@ -310,7 +313,7 @@ impl Writer {
             self.block.digits(Part::Axes, letter, &turns.to_string());
         }
         self.put_corner();
-        self.check_vanished(arc, start)
+        if full { Ok(()) } else { self.check_vanished(arc, start) }
     }
 
     /// Whether an arc has a word for a linear axis outside its plane.
@@ -477,23 +480,29 @@ impl Writer {
         Ok(number::from_nanos(target, &letter.format, unit).nanos(false).unwrap_or(target))
     }
 
-    /// An arc of less than a quarter of a turn whose ends become one point when they are rounded is a line: as an arc it
-    /// would be a full circle.
-    pub(crate) fn as_line(&self, arc: &Arc) -> Option<Move> {
-        let (first, second, normal) = self.tracker.plane(arc.plane)?.axes();
+    /// How far an arc goes round, in degrees, of which the ends become one point when they are rounded.
+    pub(crate) fn sweep_of_vanishing(&self, arc: &Arc) -> Option<f64> {
+        let (first, second, _) = self.tracker.plane(arc.plane)?.axes();
         let along = |axis: Axis| Some((self.stands(axis).ok()?, self.arrives(arc, axis).ok()?));
         let [(a, b), (c, d)] = [along(first)?, along(second)?];
         let end = self.tracker.target(&arc.to);
         let exact = |axis: Axis| Some([self.tracker.position[axis as usize]?, end[axis as usize]?]);
         let ([x, to_x], [y, to_y]) = (exact(first)?, exact(second)?);
-        // Along the normal it would go beside the line of a helix.
-        let helix = end[normal as usize] != self.tracker.position[normal as usize];
-        if (a, c) != (b, d) || (x, y) == (to_x, to_y) || arc.turns > 0 || helix {
+        if (a, c) != (b, d) || (x, y) == (to_x, to_y) || arc.turns > 0 {
             return None;
         }
         let centre = self.tracker.centre(arc)?;
-        let sweep = geometry::sweep_degrees([x, y], [to_x, to_y], centre, arc.turn, 0);
-        (sweep.abs() < 90.0).then(|| Move { to: arc.to.clone(), said: true })
+        Some(geometry::sweep_degrees([x, y], [to_x, to_y], centre, arc.turn, 0).abs())
+    }
+
+    /// An arc of less than a quarter of a turn whose ends become one point when they are rounded is a line: as an arc it
+    /// would be a full circle.
+    pub(crate) fn as_line(&self, arc: &Arc) -> Option<Move> {
+        let normal = self.tracker.plane(arc.plane)?.axes().2 as usize;
+        // Along the normal it would go beside the line of a helix.
+        let helix = self.tracker.target(&arc.to)[normal] != self.tracker.position[normal];
+        let little = !helix && self.sweep_of_vanishing(arc).is_some_and(|sweep| sweep < 90.0);
+        little.then(|| Move { to: arc.to.clone(), said: true })
     }
 
     /// An arc with an end of its own, whose rounded end is its start, would become a full circle or
