@@ -415,6 +415,9 @@ impl Writer {
     pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
         let value = self.value(&letter, feed, span, sink)?;
+        if matches!(value, Worth::Number(Shaped { mantissa: 0, rounded: true, .. })) {
+            return Err(cannot("a feed so small that the digits make it 0"));
+        }
         self.feed_apart(sink);
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
         self.block.word(Part::Feed, letter.letter, value);

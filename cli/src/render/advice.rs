@@ -19,6 +19,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     let to = at.to.id.as_str();
     let own = |text: &str| vec![text.to_owned()];
     match fault {
+        Fault::UnexpectedCharacter { found } if at.from.comment.close == found.to_string() => {
+            own("a comment ends at its first closing sign: take inner brackets away")
+        }
         Fault::UnexpectedCharacter { .. } => {
             vec![format!("is the source really {from}? `--from auto` looks at the text and says why")]
         }

@@ -160,7 +160,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::NoToolSelected => {
             ("tool change without a tool".into(), "no tool number has been said before".into())
         }
-        Fault::NoFeed => ("move at feed without a feed".into(), "no feed has been said before".into()),
+        Fault::NoFeed => {
+            ("move at feed without a feed".into(), "none has been said in the feed mode that is in force".into())
+        }
         Fault::NoSpeed => ("a thread without a speed".into(), "no spindle speed has been said before".into()),
         Fault::NoValue { what } => ("an expression without a value".into(), format!("this is {what}")),
         Fault::VariableUnset { name } => (
