@@ -194,7 +194,10 @@ impl Control {
             return self.words_call(&raw, all);
         }
         let words = self.values(&raw).or_else(|why| self.m.halt(why))?;
-        if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGMrc".contains(w.0)) {
+        // How far corners may be rounded, beside G187.
+        let smooth = self.haas && raw.contains(&('G', "187"));
+        let known = |letter| "XYZABCIJKRFSTHDPQLGMrc".contains(letter) || smooth && letter == 'E';
+        if let Some((letter, ..)) = words.iter().find(|word| !known(word.0)) {
             return self.m.halt(format!("the word {letter}"));
         }
         let codes = |letter: char| -> Vec<u32> {
@@ -255,6 +258,7 @@ impl Control {
                 42 => side = Some(false),
                 // Its P is of this block: look-ahead asks for no other path.
                 5 | 8 => {}
+                103 | 187 if self.haas => {}
                 // The stroke check moves nothing; with words it would set its limits.
                 22 | 23 if !self.haas && self.axis_words(&words) == [None; 6] => {}
                 9 => self.m.stop_once = true,
@@ -339,7 +343,8 @@ impl Control {
             // What is switched off is so behind the block's move.
             Some(89) if self.haas => {}
             Some(29) if !self.haas => self.rigid = true,
-            Some(97) if self.haas => {}
+            // Chips, screen and door: nothing that cuts.
+            Some(31 | 33 | 76 | 77 | 80 | 81 | 97) if self.haas => {}
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
         }

@@ -53,7 +53,8 @@ impl Control {
         if self.cycle.is_some() {
             return self.m.halt("a move of the machine within a cycle");
         }
-        let named = self.axis_words(words);
+        let mut named = self.axis_words(words);
+        let home = self.haas && code == 28 && named == [None; 6];
         if code == 31 {
             // A skip signal ends the block, which is the only one that it is for.
             let to = self.m.target(named)?;
@@ -76,6 +77,10 @@ impl Control {
                 self.m.traverse(way);
             }
             to = way;
+            if home {
+                // Alone it is for all axes, from where they stand (96-8000, p. 152); no rotary one is looked at.
+                named[..3].fill(Some(0.0));
+            }
             for axis in 0..6 {
                 if named[axis].is_some() {
                     self.by_point[axis] = Some(way[axis] - self.m.shift(axis));
