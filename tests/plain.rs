@@ -704,6 +704,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "ir" => interpreter::ir::run(text, setup),
         "siemens" => interpreter::siemens::run(text, setup),
         "linuxcnc" => interpreter::linuxcnc::run(text, setup),
+        "grbl" => interpreter::grbl::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

@@ -142,6 +142,7 @@ impl Writer {
                 let letter = codes.tool;
                 self.number_word(Rank::Tool, letter, tool, "a tool number", span, sink)
             }
+            Op::ChangeTool if self.dialect.can.change_by_hand => self.change_by_hand(span, sink),
             Op::ChangeTool => self.m_code(Rank::ToolChange, codes.change_tool, "a tool change", sink),
             Op::UseToolLengthOffset(entry) => self.length_offset(entry, span, sink),
             Op::StartSpindleClockwise => {

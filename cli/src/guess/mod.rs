@@ -90,7 +90,8 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     // Where a dialect explains all that one that builds on it explains, it is the plainer reading.
     let fits: Vec<(&str, usize)> = found.iter().map(|(d, e)| (d.id.as_str(), e.against.len())).collect();
     let plainer = |d: &Dialect, e: &Evidence| {
-        d.base.as_ref().is_some_and(|base| fits.iter().any(|(id, n)| id == base && *n <= e.against.len()))
+        let as_well = |base: &String| fits.iter().any(|(id, n)| id == base && *n <= e.against.len());
+        d.base.as_ref().is_some_and(as_well) || d.like.as_ref().is_some_and(as_well)
     };
     let (others, rest) = found.into_iter().partition(|(dialect, evidence)| plainer(dialect, evidence));
     let (built_on, mut found): (Vec<(&'static Dialect, Evidence)>, Vec<_>) = (others, rest);
@@ -105,7 +106,7 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     match found.first() {
         Some((dialect, evidence)) if clear => {
             let as_well = |(other, own): &&(&'static Dialect, Evidence)| {
-                other.base.as_ref() == Some(&dialect.id)
+                [&other.base, &other.like].contains(&&Some(dialect.id.clone()))
                     && own.against.len() - usize::from(own.digits) <= evidence.against.len()
             };
             let rivals = built_on.iter().filter(as_well).map(|(other, _)| *other).collect();

@@ -170,6 +170,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("look at F on outer arcs: the contour is cut faster there, and slower on inner ones")
         }
         Fault::FeedOnArcs { .. } => own("look at F on inner arcs: the contour is cut slower there"),
+        Fault::LengthByHand { .. } => {
+            own("touch off with this tool before the program goes on, and check its first move along Z")
+        }
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {
