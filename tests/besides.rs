@@ -81,8 +81,17 @@ fn sense(speed: f64) -> i8 {
 
 /// The source's events as the second interpreter of a target makes them that has no words for the way up to a tool change
 /// ([`Job::takes_way_up`]): it takes nothing of it.
-pub fn for_target(list: Vec<Plain>, job: &Job) -> Vec<Plain> {
+pub fn for_target(mut list: Vec<Plain>, job: &Job) -> Vec<Plain> {
+    if !job.to.caps().messages && !job.to.caps().stop_messages {
+        list = without_messages(list);
+    }
     if job.takes_way_up() { without_way_up(list) } else { list }
+}
+
+/// The same without messages: a control that shows none has them as comments.
+pub fn without_messages(mut list: Vec<Plain>) -> Vec<Plain> {
+    list.retain(|event| !matches!(event.what, Happening::Message | Happening::MessageCleared));
+    list
 }
 
 /// The same as if the control stayed where the program has put it: what it does by itself for a tool change is undone, as

@@ -37,8 +37,9 @@ pub struct World {
     /// Whether the length of the tool in the spindle is that of the last tool change, and none before the first,
     /// whatever number the program has set for it since: so on a control that only plays its machine.
     pub length_by_change: bool,
-    /// Whether no table of lengths counts, because the operator sets the zero of Z by each tool that is put in.
-    pub no_lengths: bool,
+    /// Whether the operator sets the zero of Z by each tool that is put in: the length of the tool in the spindle is
+    /// nothing then, and that of another one is what it was.
+    pub zeroed_by_tool: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
     /// Which arcs the control accepts.
@@ -184,7 +185,7 @@ impl World {
             peck_clearance: 0,
             backs_off: 0,
             length_by_change: false,
-            no_lengths: false,
+            zeroed_by_tool: false,
             feed_ends_with_mode: false,
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),
@@ -290,7 +291,7 @@ impl World {
     pub fn length_wear(&self, entry: u32) -> Nanos {
         match self.tables.wears.get(&entry) {
             Some(stated) => *stated,
-            None if self.seed == 0 || self.no_lengths => 0,
+            None if self.seed == 0 => 0,
             None => self.odd(renamed(&self.renaming.entries, entry).wrapping_mul(8).wrapping_add(3), 1),
         }
     }
@@ -351,7 +352,7 @@ impl World {
             1 if self.tables.named_lengths.contains_key(&tool) => self.tables.named_lengths[&tool],
             1 if entry != 0 && known.is_ok() => self.tool_length(self.edge_entry(entry)),
             1 if entry != 0 => self.own_length(entry),
-            _ if self.seed == 0 || self.no_lengths => 0,
+            _ if self.seed == 0 => 0,
             _ => {
                 let tool = if known.is_ok() { renamed(&self.renaming.tools, entry) } else { entry };
                 let index = tool.wrapping_mul(10).wrapping_add(edge).wrapping_mul(8);
@@ -362,11 +363,7 @@ impl World {
 
     /// A length that no table states.
     fn own_length(&self, entry: u32) -> Nanos {
-        if self.seed == 0 || self.no_lengths {
-            0
-        } else {
-            40 * ONE + self.odd(entry.wrapping_mul(8).wrapping_add(7), 35)
-        }
+        if self.seed == 0 { 0 } else { 40 * ONE + self.odd(entry.wrapping_mul(8).wrapping_add(7), 35) }
     }
 
     /// A value between -range and range mm that looks like no other: to six decimals, so that no

@@ -160,11 +160,13 @@ impl Control {
         self.m.absolute = of(3).map_or(self.m.absolute, |code| code == 900);
         let axes = ['X', 'Y', 'Z'].map(|letter| words.get(letter).map(|value| value * unit));
         let axes = [axes[0], axes[1], axes[2], None, None, None];
-        if length.is_none() {
-            self.act(&words, axes, of(1), once, unit)?;
-        } else if of(1).is_some() || once.is_some_and(|once| once != 40) {
+        let own = usize::from(length == Some(431));
+        let others = axes.iter().flatten().count() > own || of(1).is_some_and(|code| code != 800);
+        if length.is_some() && (others || matches!(once, Some(100 | 280 | 300 | 920))) {
             return self.m.halt("error 24: two commands of axes");
         }
+        let axes = if length.is_some() { [None; 6] } else { axes };
+        self.act(&words, axes, of(1), once, unit)?;
         match m.iter().find(|code| M_GROUPS[0].contains(code)) {
             Some(0) => self.m.record(What::Stop),
             Some(20 | 300) => {

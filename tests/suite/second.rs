@@ -79,7 +79,7 @@ fn emitted_programs_make_the_same_moves() {
                 // Where a peck cycle was written out, this is what the head says was assumed.
                 let world = plain::of_dialect(world, program.dialect);
                 // Where tools are put in by hand, the zero of Z is set by each.
-                let world = World { no_lengths: job.to.dialect.can.change_by_hand, ..world };
+                let world = World { zeroed_by_tool: job.to.dialect.can.change_by_hand, ..world };
                 let start = world.start.map(|n| n as f64 / 1e9);
                 let list = |dialect: &str, text: &[u8], skip, offset: Option<u16>| {
                     let mut setup = plain::setup(&world, skip);

@@ -443,7 +443,8 @@ impl Writer {
     fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let none = entry.literal().is_some_and(|n| n.is_zero());
         if let (true, Some(code)) = (none, self.codes.no_length) {
-            self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
+            let rank = if self.dialect.can.length_alone { Rank::Alone } else { Rank::Offset };
+            self.admit(&Need::new(rank).code(Some(code)), sink)?;
             self.block.code(Part::Mode, &code);
             return Ok(());
         }

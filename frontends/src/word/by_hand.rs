@@ -9,13 +9,14 @@
 //! what the control does at a change.
 
 use ncc_dialects::{BY_HAND, Meaning, TOOL_CHANGE};
+use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::Value;
 use super::lower::Lower;
-use super::sort::{Code, Words};
+use super::sort::{Code, Words, motion_of};
 use crate::Batch;
 
 impl Lower {
@@ -40,6 +41,25 @@ impl Lower {
         self.push(block, Op::ChangeTool, out);
         self.set_mode(Meaning::StraightTraverse, out);
         true
+    }
+
+    /// Refuses a length, or its end, beside another command of axes, where the control does.
+    pub(super) fn length_alone(&mut self, codes: &[Code], words: &Words, out: &mut Batch) {
+        if !self.settings.dialect.can.length_alone {
+            return;
+        }
+        let length = codes.iter().find_map(|code| match code.meaning {
+            Meaning::UseToolLength { .. } => Some((code, u32::from(words.get(b'Z').is_some()))),
+            Meaning::CancelToolLengthOffset => Some((code, 0)),
+            _ => None,
+        });
+        let Some((code, own)) = length else { return };
+        let axes = b"XYZABC".iter().filter(|letter| words.get(**letter).is_some()).count() as u32;
+        let moves = codes.iter().any(|code| motion_of(code.meaning).is_some());
+        if moves || axes > own {
+            let name = "tool length beside a move or a word of another axis".into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+        }
     }
 
     fn is_change(&self, codes: &[Code], words: &Words) -> bool {

@@ -32,6 +32,7 @@ impl Lower {
         if self.change_by_hand(codes, words, block.span, src, out) {
             return;
         }
+        self.length_alone(codes, words, out);
         let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
         if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
             self.option(CHANGE_IN_BLOCK, change.span, out);

@@ -538,6 +538,8 @@ pub struct Can {
     pub inherits_motion: bool,
     /// How corners are always taken, if there is no word for it.
     pub only_path: Option<PathName>,
+    /// A length, and its end, are commands of axes: neither a move nor the word of another axis stands beside them.
+    pub length_alone: bool,
     /// A tool is changed by hand, where the option `tool_change` is `manual`: a block of its own stops the spindle,
     /// switches coolant off, goes to machine zero along Z, names the tool and stops the program. The control knows no
     /// lengths of tools: the operator sets the zero of Z by the tool that is put in.
