@@ -1,4 +1,4 @@
-(flat cutter, then a drill, both put in by hand)
+; flat cutter, then a drill, both put in by hand
 G21 G90 G94 G17 G54
 M5 M9 G53 G0 Z0 T1 M0 (6 mm flat)
 S10000 M3

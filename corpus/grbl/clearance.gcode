@@ -1,4 +1,4 @@
-(3 mm plywood, sheet 300 x 200)
+; 3 mm plywood, sheet 300 x 200
 G90
 G21
 G53 G0 Z-5

@@ -1,4 +1,4 @@
-(six holes 3.2 mm, written out by the post)
+; six holes 3.2 mm, written out by the post
 G90 G94
 G17
 G21

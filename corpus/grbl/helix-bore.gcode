@@ -1,4 +1,4 @@
-(hole 16 mm by a helix, cutter 6 mm)
+; hole 16 mm by a helix, cutter 6 mm
 G21 G90 G17 G94
 G0 Z6
 G0 X25 Y20

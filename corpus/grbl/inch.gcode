@@ -1,4 +1,4 @@
-(bracket, stock 4 x 2 x 0.25)
+; bracket, stock 4 x 2 x 0.25
 G20 G90 G17
 G0 Z0.2
 G0 X-0.125 Y-0.125

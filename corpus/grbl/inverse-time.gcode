@@ -1,4 +1,4 @@
-(a move in each of which F says its time)
+; a move in each of which F says its time
 G21 G90 G17
 G0 X0 Y0 Z2
 M3 S10000

@@ -1,4 +1,4 @@
-(one hole in each of six vices)
+; one hole in each of six vices
 G21 G90 G17 G94
 G10 L2 P1 X-120 Y-80 Z-40
 M3 S6000

@@ -1,4 +1,4 @@
-(through the point above the part to the stored one)
+; through the point above the part to the stored one
 G21
 G90
 G17

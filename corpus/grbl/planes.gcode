@@ -1,4 +1,4 @@
-(grooves with a ball cutter in ZX and YZ)
+; grooves with a ball cutter in ZX and YZ
 G21 G90 G94
 G0 X0 Y0 Z5
 M3 S9000

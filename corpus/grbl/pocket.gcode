@@ -1,4 +1,4 @@
-(round pocket, 30 mm, 4 mm deep, cutter 6 mm)
+; round pocket, 30 mm, 4 mm deep, cutter 6 mm
 G21 G90 G94 G17
 G54
 S10000 M3

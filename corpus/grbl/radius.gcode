@@ -1,4 +1,4 @@
-(rounded plate, arcs by radius, one of them the long way)
+; rounded plate, arcs by radius, one of them the long way
 G21 G90 G17 G94
 G0 Z5
 G0 X0 Y5

@@ -1,4 +1,4 @@
-(relief cut in increments)
+; relief cut in increments
 G21 G17 G94
 G90 G0 X0 Y0
 Z4

@@ -30,10 +30,10 @@ pub struct Dialect {
     /// The dialect that it builds on: what this file does not say is as that one has it.
     #[serde(default)]
     pub base: Option<String>,
-    /// A dialect that most of its texts could be as well: a text that both explain is taken for one of that, if no fact
-    /// tells the two apart.
+    /// A dialect of which this one is about a part: a text that both explain is taken for one of that, and where the two
+    /// readings differ the user is asked.
     #[serde(default)]
-    pub like: Option<String>,
+    pub part_of: Option<String>,
     /// Which reader and writer it has; the base's, if it builds on one.
     pub family: Family,
     /// Usual file extensions, the first one for writing; without the dot.
