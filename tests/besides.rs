@@ -2,6 +2,7 @@
 //! itself, the other may say in words, as long as nothing is cut.
 
 use ncc::job::Job;
+use ncc_ir::world::World;
 
 use crate::plain::{Happening, Plain};
 
@@ -86,6 +87,13 @@ pub fn for_target(mut list: Vec<Plain>, job: &Job) -> Vec<Plain> {
         list = without_messages(list);
     }
     if job.takes_way_up() { without_way_up(list) } else { list }
+}
+
+/// A world in which two programs are compared, in which the operator sets the zero of Z by each tool where one of the two
+/// controls has no other way.
+pub fn zeroed(world: World, dialects: [&str; 2]) -> World {
+    let by_hand = |id: &str| ncc_dialects::builtin(id).is_some_and(|dialect| dialect.can.change_by_hand);
+    World { zeroed_by_tool: dialects.into_iter().any(by_hand), ..world }
 }
 
 /// The same without messages: a control that shows none has them as comments.

@@ -3,7 +3,6 @@
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
-use ncc_ir::world::World;
 use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
@@ -79,7 +78,7 @@ fn emitted_programs_make_the_same_moves() {
                 // Where a peck cycle was written out, this is what the head says was assumed.
                 let world = plain::of_dialect(world, program.dialect);
                 // Where tools are put in by hand, the zero of Z is set by each.
-                let world = World { zeroed_by_tool: job.to.dialect.can.change_by_hand, ..world };
+                let world = besides::zeroed(world, [program.dialect, to]);
                 let start = world.start.map(|n| n as f64 / 1e9);
                 let list = |dialect: &str, text: &[u8], skip, offset: Option<u16>| {
                     let mut setup = plain::setup(&world, skip);
