@@ -289,6 +289,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                     .into(),
             ]
         }
+        Fault::CannotSay { what } if &**what == "an optional stop" => {
+            own("`--m-code M1=drop` leaves it out: the program never stops there, as with the switch off")
+        }
+        Fault::CannotSay { what } if what.starts_with("a tool change by hand, which") => {
+            own("`--to-option tool_change=manual` writes a block that stops the program for it")
+        }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
             let option = Behaviour::SpindleAtChange.option();
