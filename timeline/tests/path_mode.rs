@@ -22,7 +22,7 @@ fn alone(s: f64, v: f64) -> f64 {
 fn square(mode: Option<PathMode>, within: f64) -> Way {
     let mut way = Way::new();
     way.state.path = mode;
-    way.state.within = [(within * 1e4).round() as i32; 4];
+    way.state.within = [(within * 1e4).round() as i32; 5];
     way.feed(6e3, &[40.0]).feed(6e3, &[40.0, 40.0]).feed(6e3, &[0.0, 40.0]).feed(6e3, &[0.0, 0.0]).clone()
 }
 
@@ -83,7 +83,7 @@ fn a_mode_counts_for_the_end_of_its_move() {
 fn rapids_have_a_length_of_their_own() {
     let mut way = Way::new();
     way.state.path = Some(PathMode::Distance);
-    way.state.within = [0, 20_000, 0, 0];
+    way.state.within = [0, 20_000, 0, 0, 0];
     let way =
         way.rapid(&[100.0]).rapid(&[100.0, 100.0]).feed(6e3, &[0.0, 100.0]).feed(6e3, &[0.0, 0.0]).clone();
     let got = run(TRAPEZOIDAL, &plain(), &way.acts);
