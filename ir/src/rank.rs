@@ -61,7 +61,6 @@ impl Fault {
             | Fault::StartedAgain { .. }
             | Fault::OpenBehaviour { .. }
             | Fault::MovedAtChange
-            | Fault::LengthByHand { .. }
             | Fault::FeedOnArcs { .. }
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }

@@ -29,10 +29,6 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        if self.change_by_hand(codes, words, block.span, src, out) {
-            return;
-        }
-        self.length_alone(codes, words, out);
         let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
         if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
             self.option(CHANGE_IN_BLOCK, change.span, out);
@@ -299,7 +295,7 @@ impl Lower {
                 return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
             }
         };
-        let letter = code.row.words.as_bytes().get(1).copied().filter(|_| kind.has_amount());
+        let letter = code.row.words.bytes().nth(1).filter(|_| kind.has_amount());
         let word = letter.and_then(|letter| words.take(letter));
         let amount = match word.map(|word| self.amount(&word, Quantity::Length, words, src, out)) {
             Some(None) => return,
@@ -310,7 +306,7 @@ impl Lower {
     }
 
     /// Speed and tool words.
-    pub(super) fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+    fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(word) = words.take(self.roles.speed)
             && let Some(value) = self.amount(&word, Quantity::Speed, words, src, out)
         {
