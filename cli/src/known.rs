@@ -23,6 +23,9 @@ use ncc_machines::reading::Side;
 use crate::m_codes::MCode;
 use crate::problem::{Exit, Problem};
 
+/// A dictionary that was made of the one at an address, for one side.
+type Derived = (usize, Side, &'static Dialect);
+
 /// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
@@ -40,7 +43,7 @@ pub struct Known {
     /// What becomes of M codes that dialects do not know.
     m_codes: Vec<MCode>,
     /// Dictionaries with these put in, each with the address of the one that it was made of.
-    derived: Arc<Mutex<Vec<(usize, Side, &'static Dialect)>>>,
+    derived: Arc<Mutex<Vec<Derived>>>,
 }
 
 impl Known {

@@ -139,6 +139,9 @@ pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
     found
 }
 
+/// How deep the calls of a procedure go, and by which of them: its place, its name, and where it stands.
+type Deep<'p> = (usize, Option<(usize, &'p str, Span)>);
+
 /// Calls within one another that are followed; no control has so many.
 const DEEPEST: usize = 64;
 
@@ -168,7 +171,7 @@ fn calls_too_deep(program: &Program) -> Option<Diagnostic> {
         known
     };
     // How deep the calls of each go, and by which of them; on the way to one, none is known of it.
-    let mut deep: Vec<Option<(usize, Option<(usize, &str, Span)>)>> = vec![None; program.procedures.len()];
+    let mut deep: Vec<Option<Deep>> = vec![None; program.procedures.len()];
     let mut entered = vec![false; program.procedures.len()];
     let mut ahead = if deep.is_empty() { Vec::new() } else { vec![(0, None)] };
     while let Some((at, own)) = ahead.pop() {

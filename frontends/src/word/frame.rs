@@ -137,7 +137,7 @@ impl Reader {
         }
         // The rest of the opening line is a leader, which controls ignore.
         if self.frame.opened || self.frame.blocks || !self.frame.programs.is_empty() {
-            if !self.frame.opened && !(self.frame.mark_behind_end && self.lower.ended) {
+            if !(self.frame.opened || self.frame.mark_behind_end && self.lower.ended) {
                 out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into() }, span);
                 self.frame.faulty = true;
             }

@@ -295,7 +295,7 @@ impl Lower {
                 return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
             }
         };
-        let letter = code.row.words.bytes().nth(1).filter(|_| kind.has_amount());
+        let letter = code.row.words.as_bytes().get(1).copied().filter(|_| kind.has_amount());
         let word = letter.and_then(|letter| words.take(letter));
         let amount = match word.map(|word| self.amount(&word, Quantity::Length, words, src, out)) {
             Some(None) => return,
