@@ -184,6 +184,7 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         options,
         start: args.standing.start,
         given: given.clone(),
+        ..Asked::default()
     };
     let a = asked(a, args.a_machine.as_deref(), args.a_option.as_slice());
     let b = asked(b, args.b_machine.as_deref(), args.b_option.as_slice());
