@@ -207,6 +207,9 @@ impl Row {
                     if schema.id.get_ref().is_empty() {
                         schema.id = Spanned::new(schema.id.span(), NAME.to_owned());
                     }
+                    if schema.title.is_empty() {
+                        schema.title = format!("machine of {NAME}");
+                    }
                     match Profile::of(*schema, dialect) {
                         Ok(profile) => Some(MachineRef::Inline(Box::new(profile), span)),
                         Err(errors) => {

@@ -104,7 +104,11 @@ impl Machine<'_> {
         }
         for question in own() {
             let (table, keys) = match &question.place {
-                Place::Code(code) => ("m_code", format!("code = {code:?}\n#function = \"\"")),
+                Place::Code(code) => {
+                    let left_out =
+                        "#effect = \"none\"  # in place of a function: it has no effect on the cut";
+                    ("m_code", format!("code = {code:?}\n#function = \"\"\n{left_out}"))
+                }
                 Place::Function(name) if name.starts_with(UNNAMED) => {
                     ("m_code", "code = \"\"\n#function = \"\"".to_owned())
                 }

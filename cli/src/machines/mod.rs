@@ -102,15 +102,17 @@ pub fn print(
     wrong: &[ProfileError],
     err: &mut dyn WriteColor,
 ) -> Result<(), codespan_reporting::files::Error> {
-    print_as(Severity::Error, name, text, wrong, err)
+    let schemas = "`ncc machines schema` lists every key and what it takes";
+    print_as(Severity::Error, schemas, name, text, wrong, err)
 }
 
-/// Prints what is wrong, or suspicious.
+/// Prints what is wrong, or suspicious. `schemas` says where every key is listed.
 ///
 /// # Errors
 /// Writing.
 pub(crate) fn print_as(
     severity: Severity,
+    schemas: &str,
     name: &str,
     text: &str,
     wrong: &[ProfileError],
@@ -118,7 +120,7 @@ pub(crate) fn print_as(
 ) -> Result<(), codespan_reporting::files::Error> {
     let file = SimpleFile::new(name, text);
     for error in wrong {
-        let said = words(&error.wrong);
+        let said = words(&error.wrong, schemas);
         let mut labels = vec![Label::primary((), error.span.clone()).with_message(said.label)];
         if let Some(related) = &error.related {
             labels.push(Label::secondary((), related.clone()).with_message("the first one"));

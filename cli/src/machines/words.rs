@@ -41,12 +41,10 @@ pub(super) fn message(wrong: &Wrong) -> String {
 }
 
 /// The words at its place.
-pub(super) fn words(wrong: &Wrong) -> Words {
+pub(super) fn words(wrong: &Wrong, schemas: &str) -> Words {
     let list = |words: &[String]| words.join(", ");
     let (label, help): (String, Option<String>) = match wrong {
-        Wrong::Form { .. } => {
-            ("here".into(), Some("`ncc machines schema` lists every key and what it takes".into()))
-        }
+        Wrong::Form { .. } => ("here".into(), Some(schemas.to_owned())),
         Wrong::UnknownDialect { .. } => {
             ("not one of the dictionaries".into(), Some("`ncc dialects` lists them".into()))
         }
@@ -96,7 +94,7 @@ pub(super) fn words(wrong: &Wrong) -> Words {
             ),
         ),
         Wrong::NoRows => {
-            ("the file is empty".into(), Some("`ncc init PROGRAM --to DIALECT` writes one".into()))
+            ("the file has no rows".into(), Some("`ncc init PROGRAM --to DIALECT` writes one".into()))
         }
         Wrong::NoFolder { .. } => {
             ("seen from the folder of this file".into(), Some("make it, or correct its name".into()))

@@ -10,7 +10,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_machines::project::NAME;
 use ncc_machines::{ProfileError, Wrong};
 
-use super::load::{InForce, Loaded, Row};
+use super::load::{InForce, Loaded, Row, SCHEMAS};
 use super::settle::facts;
 use super::{Look, Projects};
 use crate::known::Known;
@@ -24,7 +24,8 @@ const MOST: usize = 100_000;
 const EXAMPLES: &str = "\
 Examples:
   ncc config                   the rows of the `ncc.toml` that counts here
-  ncc config old/part.nc       what it states of a program, each with its line";
+  ncc config old/part.nc       what it states of a program, each with its line
+  ncc config --schema          the form of the file: every key and what it takes";
 
 /// `ncc config`.
 #[derive(Debug, Args)]
@@ -33,13 +34,23 @@ pub struct Config {
     /// The program; without, all rows of the file that counts in this folder
     #[arg(value_name = "PROGRAM")]
     pub program: Option<PathBuf>,
+    /// Print the form of the file: every key and what it takes
+    #[arg(long, conflicts_with = "program")]
+    pub schema: bool,
 }
+
+/// The form of the file, as it is documented.
+pub const SCHEMA: &str = include_str!("../../../docs/project-file.md");
 
 /// Runs it.
 ///
 /// # Errors
 /// The file has faults, or there is none; stdout cannot be written.
 pub fn run(args: &Config, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    if args.schema {
+        files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
+        return Ok(Exit::Done);
+    }
     let Some(projects) = known.projects() else {
         return Err(Problem::usage("`--no-config` leaves nothing to show", "leave it out"));
     };
@@ -153,7 +164,7 @@ fn of_folder(projects: &Projects, known: &Known, err: &mut dyn WriteColor) -> Re
         }
     }
     // Warnings that cannot be written change nothing about what is shown.
-    let _ = machines::print_as(Severity::Warning, &file.shown, &file.text, &empty, err);
+    let _ = machines::print_as(Severity::Warning, SCHEMAS, &file.shown, &file.text, &empty, err);
     for name in names.iter().flatten() {
         file.project.row(name).map_err(|wrong| file.wrong(&[wrong], err))?;
     }

@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use codespan_reporting::diagnostic::Severity;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_machines::project::{MachineRef, NAME, Programs, Project};
 use ncc_machines::{Profile, ProfileError, Wrong, shipped};
@@ -16,6 +17,10 @@ use super::Look;
 use crate::known::Known;
 use crate::machines;
 use crate::problem::{Exit, Problem};
+
+/// Where every key is listed.
+pub(super) const SCHEMAS: &str =
+    "`ncc config --schema` lists the keys of this file, `ncc machines schema` those of a machine";
 
 /// Project files that a call has met, each read once.
 #[derive(Debug, Default)]
@@ -213,7 +218,7 @@ fn load(path: PathBuf, known: &Known, err: &mut dyn WriteColor) -> Result<Loaded
 /// Prints what is wrong with a file.
 fn told(shown: &str, text: &str, wrong: &[ProfileError], err: &mut dyn WriteColor) -> Problem {
     // If stderr cannot be written, the exit code has to say it all.
-    let _ = machines::print(shown, text, wrong, err);
+    let _ = machines::print_as(Severity::Error, SCHEMAS, shown, text, wrong, err);
     let first = wrong.first().map(|error| machines::place(text, error.span.start)).unwrap_or_default();
     Problem {
         exit: Exit::Usage,
