@@ -63,6 +63,7 @@ pub fn run(args: &Init, known: &Known, err: &mut StandardStream) -> Result<Exit,
     if path.symlink_metadata().is_ok() {
         return Err(there());
     }
+    let hidden = known.projects().map(|projects| projects.nearest(folder, known, err)).transpose();
     let text = doctor::project(args, known, err)?;
     let mut file = File::create_new(&path).map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => there(),
@@ -72,5 +73,8 @@ pub fn run(args: &Init, known: &Known, err: &mut StandardStream) -> Result<Exit,
     // If nobody can read it, the file is there all the same.
     let _ =
         writeln!(err, "{shown} is written; `ncc config {}` shows what is in force", args.program.display());
+    if let Ok(Some(Some((other, _)))) = hidden {
+        let _ = writeln!(err, "for the programs of this folder it goes before {}", other.shown);
+    }
     Ok(Exit::Done)
 }

@@ -85,6 +85,15 @@ pub(crate) struct InForce {
     pub(crate) output: Option<Value<(String, PathBuf)>>,
 }
 
+impl InForce {
+    /// Whether a path is below the folder of the outputs.
+    pub(crate) fn has_output(&self, path: &Path) -> bool {
+        let whole = |path: &Path| fs::canonicalize(path).ok();
+        let folder = self.output.as_ref().and_then(|folder| whole(&folder.value.1));
+        folder.zip(whole(path)).is_some_and(|(folder, path)| path.starts_with(folder))
+    }
+}
+
 impl Projects {
     /// What the nearest file says of a program.
     ///

@@ -134,7 +134,7 @@ pub(crate) fn settle(
     let side = Side {
         key: "machine",
         dialect: from,
-        dialect_option: "--from",
+        dialect_option: if dialect.is_some() { "" } else { "--from " },
         machine: stated.machine,
         options: stated.from_options,
         units: known.units(),
@@ -153,7 +153,7 @@ pub(crate) fn settle(
                     Some(dialect) => Some(dialect),
                     None => named(stated.to)?,
                 },
-                dialect_option: "--to",
+                dialect_option: if dialect.is_some() { "" } else { "--to " },
                 machine: stated.machine_to,
                 options: stated.to_options,
                 units: None,
@@ -198,6 +198,7 @@ fn codes(known: &Known, number: impl Fn(&MCode) -> Option<u16>) -> Vec<(u16, MCo
 struct Side<'a> {
     key: &'static str,
     dialect: Option<&'static Dialect>,
+    /// What stands before its name where the call states it; nothing before a colon.
     dialect_option: &'static str,
     machine: Option<&'a str>,
     options: &'a [(String, String)],
@@ -221,7 +222,8 @@ impl Side<'_> {
             return None;
         }
         if let Some(dialect) = self.dialect.filter(|dialect| dialect.id != own.profile.dialect.id) {
-            let option = format!("{} {}", self.dialect_option, dialect.id);
+            let colon = if self.dialect_option.is_empty() { ":" } else { "" };
+            let option = format!("{}{}{colon}", self.dialect_option, dialect.id);
             used.overridden.push(before(&option, row, self.key, &name, own.line));
             return None;
         }

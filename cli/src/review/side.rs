@@ -184,9 +184,11 @@ impl Opened {
         let path: PathBuf = path.to_owned();
         let from = asked.from.filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
         let row = known.project(asked.look.unwrap_or(Look::File(&path)), err)?;
+        // An output is never a source of its own row.
+        let target = target.filter(|target| row.is_none() || target.has_output(&path));
         let settled = match (&row, target) {
-            (Some(row), _) => Some(settle(row, Sides::One, &asked.stated(), named, known)?),
-            (None, Some(target)) => Some(settle(target, Sides::Target, &asked.stated(), named, known)?),
+            (_, Some(target)) => Some(settle(target, Sides::Target, &asked.stated(), named, known)?),
+            (Some(row), None) => Some(settle(row, Sides::One, &asked.stated(), named, known)?),
             (None, None) => None,
         };
         let profile = match asked.machine {

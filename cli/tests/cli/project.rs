@@ -29,6 +29,40 @@ fn every_code_of_a_project_file_is_in_a_session() {
 }
 
 #[test]
+fn the_readme_shows_a_project_file() {
+    let readme = include_str!("../../../README.md");
+    let (_, block) = readme.split_once("```toml\n[[programs]]\n").unwrap();
+    let (file, rest) = block.split_once("```\n").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ncc.toml"), format!("[[programs]]\n{file}")).unwrap();
+    fs::write(folder.path().join("part.nc"), PART).unwrap();
+    let told = ncc(folder.path(), &["to", "siemens", "part.nc"]).exits(0).err;
+    let (_, shown) = rest.split_once("```\n").unwrap();
+    let (shown, _) = shown.split_once("```\n").unwrap();
+    assert!(told.starts_with(shown), "the README does not show\n{told}");
+}
+
+#[test]
+fn a_row_about_sources_is_not_about_their_outputs() {
+    let folder = project();
+    fs::write(
+        folder.path().join("ncc.toml"),
+        PROJECT.replace("to =", "output = \"out\"\nto =").replace("siemens", "fanuc"),
+    )
+    .unwrap();
+    let run = |arguments: &[&str]| ncc(folder.path(), arguments).exits(0);
+    run(&["to", "fanuc", "old/part.nc"]);
+    let told = run(&["verify", "old/part.nc", "out/part.nc"]).err;
+    assert!(told.contains("out/part.nc: ncc.toml") && told.contains(": to = fanuc"), "{told}");
+    // The outputs of an earlier call are no programs of a later one.
+    let told = run(&["to", "fanuc", "."]).out;
+    assert!(told.contains("1 program: 1 translated") && told.contains("the folder of the outputs"), "{told}");
+    fs::remove_file(folder.path().join("old/part.nc")).unwrap();
+    fs::write(folder.path().join("old/b.nc"), PART).unwrap();
+    run(&["init", "old/b.nc", "--from", "haas", "--to", "siemens"]).says("it goes before ncc.toml");
+}
+
+#[test]
 fn a_file_that_cannot_be_read_is_told() {
     let folder = project();
     let translate = || ncc(folder.path(), &["to", "siemens", "old/part.nc"]);
