@@ -340,6 +340,17 @@ mod tests {
     }
 
     #[test]
+    fn examples_of_the_document_are_project_files() {
+        let document = include_str!("../../docs/project-file.md");
+        let examples: Vec<&str> =
+            document.split("```toml\n").skip(1).filter_map(|e| e.split("```").next()).collect();
+        assert_eq!(examples.len(), 2);
+        for example in examples {
+            assert!(read(example).is_ok(), "{:?}\n{example}", read(example));
+        }
+    }
+
+    #[test]
     fn patterns_match_paths_below_the_file() {
         let text = "[[programs]]\nfiles = [\"*.nc\", \"old/*.NC\", \"./deep/**/{a,b}[0-9].nc\"]\n";
         let project = read(text).expect("a project");
