@@ -59,6 +59,9 @@ pub struct Cli {
     /// `M31=carry` writes it as it stands, `M31=M88` writes another one
     #[arg(long, global = true, value_name = "CODE=WHAT", value_parser = MCode::read)]
     pub m_code: Vec<MCode>,
+    /// Ignore `ncc.toml`, the project file that states machines of programs
+    #[arg(long, global = true)]
+    pub no_config: bool,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,
@@ -84,6 +87,7 @@ Examples:
   ncc mach9 to fanuc part.cn -o part.nc    write it to a file
   ncc mach9 -> fanuc part.cn               the same, into a file named `fanuc`
   ncc auto to canon part.nc                recognise the source; list the moves
+  ncc to siemens part.nc                   where `ncc.toml` names the machine of the program
   ncc explain NC0107                       what a message means, and what to do
 
 `ncc A to B FILE`, `ncc A:B FILE` and the arrow are short for `ncc translate --from A --to B FILE`;
@@ -109,6 +113,10 @@ Examples:
 pub enum Verb {
     /// Translate a program, and verify the result [short: A to B FILE]
     Translate(Box<Translate>),
+    /// Write `ncc.toml`: which machines the programs of a folder are for, with what is to be answered
+    Init(Box<crate::project::init::Init>),
+    /// Show what `ncc.toml` states of a program, and in which line
+    Config(crate::project::config::Config),
     /// List the dialects, or show one: its words, options, sources
     Dialects(Dialects),
     /// How long a program takes on a machine, and when everything in it happens
@@ -148,10 +156,10 @@ pub enum Verb {
     after_help = TRANSLATE_EXAMPLES
 )]
 pub struct Translate {
-    /// Dialect of the source, or `auto` to recognise it
+    /// Dialect of the source, or `auto` to recognise it [default: that of `ncc.toml`]
     #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
     pub from: Option<String>,
-    /// Dialect to translate into
+    /// Dialect to translate into [default: that of `ncc.toml`]
     #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
     pub to: Option<String>,
     /// The machine that the program was written for: a profile by its name or file, which names the
@@ -190,7 +198,7 @@ pub struct Translate {
     )]
     pub optimise: Option<u8>,
 
-    /// Write the program to this file instead of stdout; it appears whole or not at all. In a folder,
+    /// Write the program to this file instead of stdout, or of the folder of `ncc.toml`; it appears whole or not at all. In a folder,
     /// the file is named as the machine's profile has it
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,

@@ -5,7 +5,7 @@
 //! would have them; from there on everything reads, executes and verifies one text. Which of its places
 //! stand in which file is kept beside it, so that messages name the file and its own line.
 //!
-//! Without `-I` nothing is looked for. Not here: what a call means.
+//! Without `-I`, and without folders of a project file, nothing is looked for. Not here: what a call means.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -65,6 +65,7 @@ impl Called {
 /// A file cannot be read, or holds another program than the one that its name says.
 pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> Result<(), Problem> {
     let dialect = settings.dialect;
+    let folders: Vec<PathBuf> = folders.iter().chain(&source.include).cloned().collect();
     if folders.is_empty() || dialect.program.called.is_empty() || source.called.is_some() {
         return Ok(());
     }
@@ -87,7 +88,7 @@ pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> 
             missing(&whole, settings).into_iter().filter(|name| asked.insert(name.clone())).collect();
         let mut more = false;
         for name in wanted {
-            let Some(path) = find(&name, dialect, folders) else { continue };
+            let Some(path) = find(&name, dialect, &folders) else { continue };
             let file = read(&path, &name, dialect, &mut whole)?;
             called.files.push(file);
             more = true;

@@ -21,7 +21,7 @@ pages! {
     430 431 432 433 440 442 443 444 450
     501 502 503 504 505 506 507 508 509 520 521 522
     601 602 603 604 605 606 607 608 609 610
-    701 702 703 704 705 706 707 708 709 710 711 712 713
+    701 702 703 704 705 706 707 708 709 710 711 712 713 714 715 716 717 718 719
     801 802 803 804 805 806 807 808 809 810 811 812 813 814
 }
 
@@ -56,13 +56,20 @@ mod tests {
     #[test]
     fn every_code_has_a_page() {
         let codes: Vec<u16> = PAGES.iter().map(|(code, _)| *code).collect();
-        for code in Fault::CODES.iter().chain(Wrong::CODES).chain(Rule::CODES).chain(&[recognise::CODE]) {
+        for code in Fault::CODES
+            .iter()
+            .chain(Wrong::CODES)
+            .chain(Wrong::PROJECT_CODES)
+            .chain(Rule::CODES)
+            .chain(&[recognise::CODE])
+        {
             assert!(codes.contains(code), "NC{code:04} has no page");
         }
         for code in &codes {
             assert!(
                 Fault::CODES.contains(code)
                     || Wrong::CODES.contains(code)
+                    || Wrong::PROJECT_CODES.contains(code)
                     || Rule::CODES.contains(code)
                     || *code == recognise::CODE,
                 "NC{code:04} is no code any more"

@@ -4,6 +4,7 @@
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ncc_ir::diag::Diagnostic;
 use same_file::Handle;
@@ -12,6 +13,7 @@ use crate::arrow;
 use crate::called::Called;
 use crate::job::Output;
 use crate::problem::{Exit, Problem};
+use crate::project::{Settled, Used};
 
 /// Largest source, in bytes: places in it are 32-bit numbers.
 const LARGEST: u64 = u32::MAX as u64;
@@ -29,6 +31,10 @@ pub struct Source {
     pub called: Option<Called>,
     /// Assumptions about the file that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,
+    /// What a project file says of it.
+    pub(crate) project: Option<Arc<Used>>,
+    /// Folders of called programs that the project file names.
+    pub(crate) include: Vec<PathBuf>,
     identity: Option<Handle>,
 }
 
@@ -59,7 +65,9 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
         Some(name) if !stdin => name.to_string_lossy().into_owned(),
         Some(_) | None => "-".to_owned(),
     };
-    Ok(Source { file, shown, name, called: None, assumed: Vec::new(), identity: identity.ok() })
+    let (project, include) = (None, Vec::new());
+    let assumed = Vec::new();
+    Ok(Source { file, shown, name, called: None, assumed, project, include, identity: identity.ok() })
 }
 
 /// Keeps what can be read only once in an anonymous file.
@@ -74,7 +82,14 @@ impl Source {
     /// A file that nobody has named: an anonymous one, from its beginning.
     pub(crate) fn of(file: File, name: &str) -> Source {
         let (shown, name) = (name.to_owned(), name.to_owned());
-        Source { file, shown, name, called: None, assumed: Vec::new(), identity: None }
+        let (project, include) = (None, Vec::new());
+        Source { file, shown, name, called: None, assumed: Vec::new(), project, include, identity: None }
+    }
+
+    /// Keeps what a project file says of it.
+    pub(crate) fn settle(&mut self, settled: &Settled) {
+        self.project = Some(Arc::clone(&settled.used));
+        self.include.clone_from(&settled.include);
     }
 
     /// Whether the path is this source.
@@ -225,6 +240,19 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())
+}
+
+/// Makes a folder of outputs that a project file names.
+///
+/// # Errors
+/// There is a file of its name, or it cannot be made.
+pub(crate) fn make_folder(folder: &Path) -> Result<(), Problem> {
+    let shown = folder.display().to_string();
+    if folder.exists() && !folder.is_dir() {
+        let message = format!("{shown} is a file, and `ncc.toml` has it as the folder of outputs");
+        return Err(Problem::usage(message, "name another folder there, or -o FILE here"));
+    }
+    fs::create_dir_all(folder).map_err(|error| Problem::file("make the folder", &shown, &error))
 }
 
 /// Where an output goes.

@@ -24,6 +24,9 @@ pub(crate) fn lines(
     let verified = if job.verify { "verified" } else { "UNVERIFIED" };
     let mut lines =
         vec![format!("ncc: {} {} sha256 {hash}, {verified}", job.from.dialect.id, job.source_name)];
+    if let Some(project) = &job.project {
+        lines.push(project.line());
+    }
     for file in job.called.iter().flat_map(|called| &called.files) {
         let hash: String = file.sha256[..4].iter().map(|b| format!("{b:02x}")).collect();
         let name = std::path::Path::new(&file.name).file_name();

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::sync::Arc;
 
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
@@ -25,6 +26,7 @@ use tempfile::SpooledTempFile;
 use crate::called::Called;
 use crate::given::Given;
 use crate::machines::pair::Machines;
+use crate::project::Used;
 use crate::questions::{Policy, Question};
 
 /// The pass that writes the path of the tool's centre.
@@ -61,6 +63,8 @@ pub struct Job {
     pub source_name: String,
     /// Files of called programs, which stand behind the source's own text.
     pub called: Option<Called>,
+    /// What a project file says of the source.
+    pub project: Option<Arc<Used>>,
     /// Assumptions about the source that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,
     /// Numbers of tools that the source calls by name and no profile numbers, for a target without names.
@@ -93,6 +97,7 @@ impl Job {
             program_number: None,
             source_name: source_name.into(),
             called: None,
+            project: None,
             assumed: Vec::new(),
             numbered_tools: Vec::new(),
             rivals: Vec::new(),

@@ -22,6 +22,7 @@ use ncc_machines::reading::Side;
 
 use crate::m_codes::MCode;
 use crate::problem::{Exit, Problem};
+use crate::project::Projects;
 
 /// A dictionary that was made of the one at an address, for one side.
 type Derived = (usize, Side, &'static Dialect);
@@ -42,6 +43,8 @@ pub struct Known {
     units: Option<Units>,
     /// What becomes of M codes that dialects do not know.
     m_codes: Vec<MCode>,
+    /// Project files; `None` if none counts.
+    projects: Option<Arc<Projects>>,
     /// Dictionaries with these put in, each with the address of the one that it was made of.
     derived: Arc<Mutex<Vec<Derived>>>,
 }
@@ -149,6 +152,16 @@ impl Known {
         let dialect: &'static Dialect = Box::leak(Box::new(dialect));
         made.push((address, side, dialect));
         dialect
+    }
+
+    /// Lets project files count.
+    pub(crate) fn use_projects(&mut self) {
+        self.projects = Some(Arc::default());
+    }
+
+    /// Project files, where they count.
+    pub(crate) fn projects(&self) -> Option<&Projects> {
+        self.projects.as_deref()
     }
 
     /// Folders in which called programs are looked for.

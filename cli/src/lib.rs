@@ -29,6 +29,7 @@ pub mod milling;
 mod order;
 pub mod plot;
 pub mod problem;
+pub mod project;
 pub mod provenance;
 pub mod questions;
 pub mod render;

@@ -2,6 +2,8 @@
 //!
 //! Not here: those that a machine's profile names (`ncc_machines`).
 
+use std::fmt;
+
 use ncc_dialects::{CodeRow, Dialect, Meaning, Settings};
 use ncc_machines::reading::Side;
 
@@ -36,6 +38,16 @@ impl MCode {
         };
         let form = || "write it as M31=drop, M31=carry or M31=M88".to_owned();
         Ok(MCode { number: own.ok_or_else(form)?, written: written.ok_or_else(form)? })
+    }
+}
+
+impl fmt::Display for MCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.written {
+            None => write!(f, "--m-code M{}=drop", self.number),
+            Some(written) if written == self.number => write!(f, "--m-code M{}=carry", self.number),
+            Some(written) => write!(f, "--m-code M{}=M{written}", self.number),
+        }
     }
 }
 

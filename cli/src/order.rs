@@ -3,6 +3,9 @@
 //!
 //! Not here: the programs themselves, and where their translations go (`run`, `batch`).
 
+use std::path::Path;
+use std::sync::Arc;
+
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
@@ -15,6 +18,7 @@ use crate::known::Known;
 use crate::m_codes;
 use crate::machines::pair::{Machines, agreed};
 use crate::problem::Problem;
+use crate::project::{InForce, Settled, Sides, Stated, settle};
 use crate::provenance::annotate;
 use crate::questions::Policy;
 use crate::run::{INTO_WHAT, settings, state_units};
@@ -34,6 +38,8 @@ pub(crate) struct Order {
     from: Option<Settings>,
     /// What is known of all sources.
     known: Known,
+    /// What a project file says of them.
+    pub(crate) settled: Option<Settled>,
 }
 
 impl Order {
@@ -42,16 +48,27 @@ impl Order {
     /// # Errors
     /// A dialect or a machine is missing, unknown or at odds with the other; an option is none of the
     /// dialect's.
-    pub(crate) fn find(args: &Translate, known: &Known, told: &mut dyn WriteColor) -> Result<Order, Problem> {
-        let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, told)?;
+    pub(crate) fn find(
+        args: &Translate,
+        known: &Known,
+        row: Option<&InForce>,
+        told: &mut dyn WriteColor,
+    ) -> Result<Order, Problem> {
+        let settled = row.map(|row| settle(row, Sides::Written, &stated(args), None, known)).transpose()?;
+        let mut machines =
+            Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, told)?;
+        if let Some(settled) = &settled {
+            machines.from = machines.from.or_else(|| settled.machine.clone());
+            machines.to = machines.to.or_else(|| settled.to.clone());
+        }
         let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
         let to = agreed(to, machines.to.as_deref(), "to")?;
         let to = to.ok_or_else(|| Problem::usage("translate into what?", INTO_WHAT))?;
-        if args.from.is_none() && args.machine_from.is_none() {
+        if args.from.is_none() && machines.from.is_none() {
             return Err(Problem::usage(
                 "translate from what?",
                 "name a dialect: --from mach9; or have it recognised: --from auto; \
-                 or name a machine: --machine-from MACHINE",
+                 or name a machine: --machine-from MACHINE; or in `ncc.toml`, which `ncc init` writes",
             ));
         }
         let mut to = settings(machines.settings(Side::To, to), &args.to_option)?;
@@ -72,7 +89,12 @@ impl Order {
             m_codes::state(from, Side::From, known)?;
         }
         let given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
-        Ok(Order { from, machines, to, given, named, known: known.clone() })
+        Ok(Order { from, machines, to, given, named, known: known.clone(), settled })
+    }
+
+    /// The folder of outputs, where a project file names it and the command line nothing.
+    pub(crate) fn folder(&self, args: &Translate) -> Option<&Path> {
+        self.settled.as_ref().filter(|_| args.output.is_none())?.output.as_deref()
     }
 
     /// Line ends, as far as they are the same for all.
@@ -114,6 +136,7 @@ impl Order {
             program_number: args.program_number,
             source_name: source_name.to_owned(),
             called: None,
+            project: self.settled.as_ref().map(|settled| Arc::clone(&settled.used)),
             assumed: Vec::new(),
             numbered_tools: Vec::new(),
             rivals: Vec::new(),
@@ -121,5 +144,18 @@ impl Order {
             allow: args.allow.clone(),
             deny: args.deny.clone(),
         })
+    }
+}
+
+/// What the command line states of both sides.
+fn stated(args: &Translate) -> Stated<'_> {
+    Stated {
+        from: args.from.as_deref(),
+        machine: args.machine_from.as_deref(),
+        from_options: &args.from_option,
+        to: args.to.as_deref(),
+        machine_to: args.machine_to.as_deref(),
+        to_options: &args.to_option,
+        output: args.output.as_deref(),
     }
 }

@@ -18,6 +18,7 @@ use crate::chunks::{Chunk, Chunks};
 use crate::files;
 use crate::job::{Failure, Job, Outcome};
 use crate::milling::Refusal;
+use crate::project::Used;
 use crate::questions::of_translation;
 use crate::render::json::Entry;
 use crate::render::words::Context;
@@ -73,6 +74,9 @@ impl Serialize for Options<'_> {
 /// What became of a translation, as a line of `--format json`.
 #[derive(Serialize)]
 pub struct Summary<'a> {
+    /// What a project file answers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    project: Option<&'a Used>,
     result: &'static str,
     verification: Option<Verification>,
     verdicts: Counts<'a>,
@@ -80,8 +84,9 @@ pub struct Summary<'a> {
 
 impl<'a> Summary<'a> {
     /// Of this outcome.
-    pub fn of(outcome: &'a Outcome) -> Summary<'a> {
+    pub fn of(job: &'a Job, outcome: &'a Outcome) -> Summary<'a> {
         Summary {
+            project: job.project.as_deref(),
             result: match (outcome.release, outcome.verified) {
                 (Ok(()), Some(_)) => "verified",
                 (Ok(()), None) => "unverified",
@@ -174,6 +179,9 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     let mut map = json.serialize_map(None)?;
     map.serialize_entry("ncc_report", &1)?;
     map.serialize_entry("ncc_version", env!("CARGO_PKG_VERSION"))?;
+    if let Some(project) = &job.project {
+        map.serialize_entry("project", &**project)?;
+    }
     map.serialize_entry(
         "source",
         &Source {
@@ -188,7 +196,7 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     )?;
     let bytes = if outcome.release.is_ok() { outcome.output.bytes() } else { 0 };
     map.serialize_entry("target", &Target { dialect: &job.to.dialect.id, options: Options(&job.to), bytes })?;
-    let summary = Summary::of(outcome);
+    let summary = Summary::of(job, outcome);
     map.serialize_entry("result", summary.result)?;
     map.serialize_entry("verification", &summary.verification)?;
     let names = |verdicts: &[Verdict]| verdicts.iter().map(|v| v.name()).collect::<Vec<_>>();
@@ -235,6 +243,9 @@ pub(crate) fn refused(
     let mut map = json.serialize_map(None)?;
     map.serialize_entry("ncc_report", &1)?;
     map.serialize_entry("ncc_version", env!("CARGO_PKG_VERSION"))?;
+    if let Some(project) = &source.project {
+        map.serialize_entry("project", &**project)?;
+    }
     let unread = Unread { name: &source.name, dialect, bytes, sha256: hex(&hash) };
     map.serialize_entry("source", &unread)?;
     map.serialize_entry(

@@ -28,7 +28,7 @@ use crate::sugar::{Said, rewrite};
 use crate::tools_by_name;
 use crate::{
     arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, listing, machines, plot,
-    report, review, time, translate,
+    project, report, review, time, translate,
 };
 
 /// What to say to who names no target.
@@ -61,6 +61,9 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
     }
     known.state_units(cli.units.map(Units::from));
     known.state_m_codes(&cli.m_code);
+    if !cli.no_config {
+        known.use_projects();
+    }
     if let Err(problem) = known.look_in(&cli.include) {
         return fail(&problem, &mut err, as_json);
     }
@@ -78,6 +81,8 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         },
         Verb::Machines(args) => return ended(machines::run(args, &known, &mut err), &mut err),
         Verb::Doctor(args) => return ended(doctor::run(args, &known, &mut err), &mut err),
+        Verb::Init(args) => return ended(project::init::run(args, &known, &mut err), &mut err),
+        Verb::Config(args) => return ended(project::config::run(args, &known, &mut err), &mut err),
         Verb::Passes => print(&passes()),
         Verb::Time(args) => return ended(time::run(args, &known, &mut err), &mut err),
         Verb::Check(args) => return ended(check::run(args, &known, cli.color, &mut err), &mut err),
@@ -188,12 +193,18 @@ fn translated(
         Some(name) if name != Path::new("-") => Destination::File(name.clone()),
         Some(_) | None => Destination::Stdout,
     };
+    let say = args.format == Format::Human && !args.telling.quiet;
     let order = {
         // For a reader of JSON, the problem alone says where.
         let mut nowhere = Buffer::no_color();
         let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
-        Order::find(args, known, told)?
+        let row = project::row(path, say, known, told)?;
+        Order::find(args, known, row.as_deref(), told)?
     };
+    if let Some(folder) = order.folder(args).filter(|_| arrow.is_none() && args.style == Style::Plain) {
+        files::make_folder(folder)?;
+        destination = Destination::File(folder.to_owned());
+    }
     destination.check()?;
     let voice = match (args.format, args.telling.quiet) {
         (Format::Json, _) => Voice::Json,
@@ -202,6 +213,9 @@ fn translated(
         (Format::Human, false) => Voice::Human,
     };
     let mut source = files::open(path)?;
+    if let Some(settled) = &order.settled {
+        source.settle(settled);
+    }
     if let Some(refusal) = milling::admit(&mut source, voice, known, err)? {
         if let Some(name) = &args.report {
             source.guard(Some(name))?;
@@ -319,7 +333,7 @@ pub(crate) fn tell(
             }
             json::print(&mut out, about, &outcome.diagnostics, loudness)?;
             if loudness != Loudness::Quiet {
-                json::line(&mut out, &report::Summary::of(outcome))?;
+                json::line(&mut out, &report::Summary::of(about.job, outcome))?;
             }
         }
         Format::Human => {

@@ -1,6 +1,6 @@
 //! Other ways to say `ncc translate --from A --to B FILE`, rewritten before clap sees them.
 //!
-//! `ncc A to B FILE`, `ncc A:B FILE`, and the arrow: `->`, `=>` and `→`, as a word or glued. clap
+//! `ncc A to B FILE`, `ncc to B FILE` where a project file names A, `ncc A:B FILE`, and the arrow: `->`, `=>` and `→`, as a word or glued. clap
 //! would take `->` for an option. An arrow that is not quoted never arrives: a POSIX shell reads
 //! `>` as a redirection, so that `mach9 -> fanuc part.cn` becomes `mach9 - part.cn` with stdout
 //! sent to a file named `fanuc`. That is recognised here by what is left of it; whether it can be
@@ -53,6 +53,12 @@ pub fn rewrite(arguments: Vec<OsString>) -> Said {
     };
     if let Some((from, to)) = glued(first) {
         return translate(from, to, without(1));
+    }
+    if first == ARROWS[0] && is_name(word(at + 1)) {
+        let mut all: Vec<OsString> = vec![arguments[0].clone(), "translate".into()];
+        all.extend(["--to", word(at + 1)].map(OsString::from));
+        all.extend(without(2));
+        return Said::Plain(all);
     }
     if is_name(first) {
         let second = word(at + 1);
@@ -193,6 +199,13 @@ mod tests {
         assert_eq!(plain("--assume=milling mach9 to fanuc p.cn"), verb);
         assert_eq!(plain("time --assume milling p.cn"), "time --assume=milling p.cn");
         assert_eq!(plain("time -- --assume milling"), "time -- --assume milling");
+    }
+
+    #[test]
+    fn a_source_that_a_project_file_names_is_left_out() {
+        assert_eq!(plain("to siemens p.nc"), "translate --to siemens p.nc");
+        assert_eq!(plain("-q to siemens -o x p.nc"), "translate --to siemens -q -o x p.nc");
+        assert_eq!(plain("to"), "to");
     }
 
     #[test]

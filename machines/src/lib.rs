@@ -13,6 +13,7 @@ mod document;
 mod fact;
 mod maps;
 mod profile;
+pub mod project;
 pub mod reading;
 pub mod schema;
 mod shipped;

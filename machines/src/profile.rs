@@ -43,10 +43,19 @@ impl Profile {
         text: &str,
         dialect: &dyn Fn(&str) -> Option<&'static Dialect>,
     ) -> Result<Profile, Vec<ProfileError>> {
-        let schema: Schema = toml::from_str(text).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            vec![ProfileError::new(Wrong::Form { message: error.message().to_owned() }, inside(span, text))]
-        })?;
+        let schema: Schema = toml::from_str(text).map_err(|error| vec![form(&error, text)])?;
+        toml::from_str::<Named>(text).map_err(|error| vec![form(&error, text)])?;
+        Profile::of(schema, dialect)
+    }
+
+    /// A profile that was read, checked.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, in the order of the file.
+    pub(crate) fn of(
+        schema: Schema,
+        dialect: &dyn Fn(&str) -> Option<&'static Dialect>,
+    ) -> Result<Profile, Vec<ProfileError>> {
         let Some(dialect) = dialect(schema.dialect.get_ref()) else {
             let name = schema.dialect.get_ref().clone();
             return Err(vec![ProfileError::new(Wrong::UnknownDialect { name }, schema.dialect.span())]);
@@ -188,6 +197,21 @@ impl Profile {
         rows.push(row(&s.emit));
         rows
     }
+}
+
+/// What a profile in a file of its own must have besides its dialect.
+#[derive(serde::Deserialize)]
+struct Named {
+    #[serde(rename = "id")]
+    _id: serde::de::IgnoredAny,
+    #[serde(rename = "title")]
+    _title: serde::de::IgnoredAny,
+}
+
+/// A text that has not the form of its file.
+pub(crate) fn form(error: &toml::de::Error, text: &str) -> ProfileError {
+    let span = error.span().unwrap_or(0..0);
+    ProfileError::new(Wrong::Form { message: error.message().to_owned() }, inside(span, text))
 }
 
 /// A place that is one: not behind the end, and between characters.

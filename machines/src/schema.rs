@@ -17,9 +17,11 @@ use crate::table::{Words, kebab, table};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Schema {
-    /// Its name on the command line.
+    /// Its name on the command line. A profile in a file of its own has one.
+    #[serde(default = "unnamed")]
     pub id: Spanned<String>,
-    /// What it is, for people.
+    /// What it is, for people. A profile in a file of its own has one.
+    #[serde(default)]
     pub title: String,
     /// The dialect of its control.
     pub dialect: Spanned<String>,
@@ -69,6 +71,10 @@ pub struct Schema {
     /// The shop's choices for emitted programs.
     #[serde(default)]
     pub emit: Emit,
+}
+
+fn unnamed() -> Spanned<String> {
+    Spanned::new(0..0, String::new())
 }
 
 /// The value of an option: a number or a word.

@@ -27,6 +27,8 @@ pub struct Stated {
     pub source: String,
     /// Whether it is marked as assumed.
     pub assumed: bool,
+    /// Its place in the file, in bytes.
+    pub span: Range<usize>,
 }
 
 /// A table with a fixed set of keys.
@@ -58,7 +60,7 @@ pub trait Words {
 impl<T: Words> Tell for Fact<T> {
     fn tell(&self, key: &'static str) -> Stated {
         let value = self.value.as_ref().map(Words::words);
-        Stated { key, value, source: self.source.clone(), assumed: self.assumed }
+        Stated { key, value, source: self.source.clone(), assumed: self.assumed, span: self.place() }
     }
 
     fn place(&self) -> Range<usize> {

@@ -102,6 +102,37 @@ pub enum Wrong {
         /// What the dialect does not have.
         lacks: &'static str,
     },
+    /// A project file names a machine that is neither shipped nor a file.
+    NoMachine {
+        /// The name.
+        name: String,
+        /// The shipped machines.
+        has: Vec<String>,
+        /// Whether it is the name of a dialect.
+        is_dialect: bool,
+    },
+    /// A pattern of a project file that no file can match.
+    Pattern {
+        /// Why not.
+        message: String,
+    },
+    /// Two rows of a project file match one program.
+    TwoRows {
+        /// The program, from the folder of the project file.
+        program: String,
+    },
+    /// A pattern of a project file that no file below its folder matches: a warning.
+    NoFile {
+        /// The pattern.
+        pattern: String,
+    },
+    /// A project file without rows.
+    NoRows,
+    /// A folder that a project file names and that there is not.
+    NoFolder {
+        /// The folder, as the file names it.
+        name: String,
+    },
 }
 
 impl Wrong {
@@ -121,9 +152,18 @@ impl Wrong {
             Wrong::NotOneToOne { .. } => 711,
             Wrong::TooFine { .. } => 712,
             Wrong::NoForm { .. } => 713,
+            Wrong::NoMachine { .. } => 714,
+            Wrong::Pattern { .. } => 715,
+            Wrong::TwoRows { .. } => 716,
+            Wrong::NoFile { .. } => 717,
+            Wrong::NoRows => 718,
+            Wrong::NoFolder { .. } => 719,
         }
     }
 
-    /// Every code.
+    /// Every code of a profile.
     pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713];
+
+    /// Every code of a project file that is none of a profile.
+    pub const PROJECT_CODES: &'static [u16] = &[714, 715, 716, 717, 718, 719];
 }

@@ -107,9 +107,9 @@ pub(super) fn identity(path: &Path) -> Option<Identity> {
 }
 
 /// Finds the files of a batch. `output` is the folder that the outputs go to.
-pub(super) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: &Path) -> Gathered {
+pub(super) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: Option<&Path>) -> Gathered {
     let mut found = Gathered::default();
-    let output = identity(output);
+    let output = output.and_then(identity);
     for path in named {
         if !path.is_dir() {
             found.take(path.clone(), PathBuf::new());
@@ -129,6 +129,11 @@ impl Gathered {
             Some(own) if !self.seen.insert(own) => self.skip(path, Reason::Twice),
             Some(_) | None => self.items.push(Item { path, below }),
         }
+    }
+
+    /// Leaves out a file that was taken.
+    pub(super) fn leave(&mut self, path: PathBuf, reason: Reason) {
+        self.skip(path, reason);
     }
 
     fn skip(&mut self, path: PathBuf, reason: Reason) {

@@ -10,6 +10,7 @@
 
 mod gather;
 mod names;
+mod orders;
 mod pool;
 mod progress;
 mod split;
@@ -30,6 +31,7 @@ pub use self::summary::SCHEMA;
 
 use self::gather::{Gathered, gather, identity};
 use self::names::Claim;
+use self::orders::{Orders, where_to};
 use self::progress::Progress;
 use self::summary::{Result as Came, Row, Summary};
 use self::work::{Bench, Done, Held, Store, make_folder};
@@ -61,45 +63,58 @@ pub(crate) fn run(
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let begun = Instant::now();
-    let folder = output_folder(args)?;
-    let order = {
-        // For a reader of JSON, the problem alone says where.
-        let mut nowhere = Buffer::no_color();
-        let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
-        Order::find(args, known, told)?
-    };
-    let to = order.to.dialect;
+    let folder = output_folder(args, known)?;
+    // For a reader of JSON, the problem alone says where.
+    let mut nowhere = Buffer::no_color();
+    // Where project files say it, nothing is wrong with a command that does not.
+    let mut aside = if err.supports_color() { Buffer::ansi() } else { Buffer::no_color() };
+    let plain = Order::find(args, known, None, &mut aside);
+    let extensions = extensions(plain.as_ref().ok(), known);
+    let mut found = gather(&args.files, &extensions, folder.as_deref());
+    let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
+    let failed = plain.is_err();
+    let orders = Orders::of(args, plain, folder.as_deref(), &found, known, told);
+    if failed && orders.is_err() {
+        // If nobody can read it, there is nobody to tell.
+        let _ = as_write(told).write_all(aside.as_slice());
+    }
+    let mut orders = orders?;
+    if folder.is_none() {
+        orders.leave_outputs(&mut found);
+    }
+    let (found, orders) = (found, orders);
+    let Some(to) = orders.target() else { return Err(where_to(args)) };
     if args.split && !split::can(to) {
         return Err(Problem::usage(
             format!("subprograms of {} are no files of their own", to.id),
             "leave --split out",
         ));
     }
-    let extensions = extensions(&order, known);
-    let found = gather(&args.files, &extensions, &folder);
     if found.items.is_empty() {
         return Err(nothing(&found, &extensions));
     }
     let split = !args.no_split && (args.split || split::usual(to));
     // Names that follow from what is in the programs are known at the end.
-    let late = split || order.machines.names_by_number() || called::by_files(to);
+    let late =
+        split || orders.orders().any(|(order, _)| order.machines.names_by_number()) || called::by_files(to);
     let sources: BTreeSet<_> = found.items.iter().filter_map(|item| identity(&item.path)).collect();
     let shown = |at: usize| found.items[at].path.display().to_string();
-    let refused = match late {
-        true => BTreeMap::new(),
-        false => names::refused(&planned(&order, &found, &folder), &sources, &shown),
-    };
-    make_folder(&folder.join("x"))?;
+    let mut refused: BTreeMap<usize, Problem> = orders.refused().collect();
+    if !late {
+        refused.extend(names::refused(&planned(&orders, &found), &sources, &shown));
+    }
+    for (_, folder) in orders.orders() {
+        make_folder(&folder.join("x"))?;
+    }
     let store = match late {
         true => Some(Mutex::new(Store::new().map_err(|e| Problem::file("write", "an anonymous file", &e))?)),
         false => None,
     };
     let bench = Bench {
         args,
-        order: &order,
+        orders: &orders,
         known,
         items: &found.items,
-        folder: &folder,
         refused: &refused,
         split,
         store: store.as_ref(),
@@ -119,7 +134,7 @@ pub(crate) fn run(
     }
     let summary = Summary {
         to: &to.id,
-        folder: folder.display().to_string(),
+        folder: folders(&orders),
         exit: rows.iter().fold(Exit::Done, |exit, row| exit.and(row.exit)),
         rows,
         skipped: &found.skipped,
@@ -131,22 +146,30 @@ pub(crate) fn run(
     Ok(summary.exit)
 }
 
-/// The folder of the outputs.
-fn output_folder(args: &Translate) -> Result<PathBuf, Problem> {
-    let several = match args.files.as_slice() {
+/// What a command is about.
+fn several(args: &Translate) -> String {
+    match args.files.as_slice() {
         [one] => one.display().to_string(),
         files => format!("{} files and folders", files.len()),
-    };
+    }
+}
+
+/// The folders of the outputs, each once.
+fn folders(orders: &Orders) -> String {
+    let all: BTreeSet<String> = orders.orders().map(|(_, folder)| folder.display().to_string()).collect();
+    all.into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// The folder of the outputs that the command names.
+fn output_folder(args: &Translate, known: &Known) -> Result<Option<PathBuf>, Problem> {
+    let several = several(args);
     let folder = match &args.output {
-        Some(name) if name != Path::new("-") => name.clone(),
-        Some(_) | None => {
-            return Err(Problem::usage(
-                format!("{several}: where to?"),
-                "name a folder for the outputs: -o FOLDER",
-            ));
-        }
+        Some(name) if name != Path::new("-") => Some(name.clone()),
+        // A project file may name it.
+        None if known.projects().is_some() => None,
+        Some(_) | None => return Err(where_to(args)),
     };
-    if folder.exists() && !folder.is_dir() {
+    if let Some(folder) = folder.as_ref().filter(|folder| folder.exists() && !folder.is_dir()) {
         return Err(Problem::usage(
             format!("{several}: {} is a file", folder.display()),
             "the outputs go to a folder",
@@ -168,9 +191,9 @@ fn output_folder(args: &Translate) -> Result<PathBuf, Problem> {
 }
 
 /// Extensions of files in folders that are taken, in small letters.
-fn extensions(order: &Order, known: &Known) -> BTreeSet<String> {
+fn extensions(order: Option<&Order>, known: &Known) -> BTreeSet<String> {
     let of = |dialect: &Dialect| dialect.extensions.iter().map(|e| e.to_lowercase()).collect::<Vec<_>>();
-    match order.named {
+    match order.and_then(|order| order.named) {
         Some(dialect) => of(dialect).into_iter().collect(),
         None => known.all().into_iter().flat_map(of).collect(),
     }
@@ -189,13 +212,14 @@ fn nothing(found: &Gathered, extensions: &BTreeSet<String>) -> Problem {
 }
 
 /// Names of the outputs, where they follow from those of the sources.
-fn planned(order: &Order, found: &Gathered, folder: &Path) -> Vec<Claim> {
+fn planned(orders: &Orders, found: &Gathered) -> Vec<Claim> {
     let name = |path: &Path| path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let claim = |(by, item): (usize, &gather::Item)| {
+        let (order, folder) = orders.at(by)?;
         let name = order.machines.file_name(order.to.dialect, &name(&item.path), None);
-        Claim { by, path: folder.join(&item.below).join(name), shared: None }
+        Some(Claim { by, path: folder.join(&item.below).join(name), shared: None })
     };
-    found.items.iter().enumerate().map(claim).collect()
+    found.items.iter().enumerate().filter_map(claim).collect()
 }
 
 /// Translates all, and tells of each in its turn.

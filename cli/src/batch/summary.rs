@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use super::gather::{Reason, Skipped};
 use crate::problem::{Exit, Problem};
+use crate::project::Used;
 use crate::render::words::plural;
 use crate::time::grid::Grid;
 
@@ -66,6 +67,9 @@ pub(super) struct Missing {
 pub(super) struct Row {
     pub(super) file: String,
     pub(super) from: Option<String>,
+    /// What a project file answers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) project: Option<Used>,
     pub(super) result: Result,
     pub(super) events: Option<u64>,
     pub(super) warnings: usize,
@@ -88,6 +92,7 @@ impl Row {
         Row {
             file,
             from: None,
+            project: None,
             result: Result::NotTranslated,
             events: None,
             warnings: 0,

@@ -15,13 +15,13 @@ use ncc_ir::diag::{Fault, Gravity, Verdict};
 use sha2::{Digest, Sha256};
 
 use super::gather::Item;
+use super::orders::Orders;
 use super::split;
 use super::summary::{Missing, Result as Came, Row};
 use crate::args::{Eol, Format, Translate};
 use crate::files::{self, Source};
 use crate::job::{Failure, Job, Outcome};
 use crate::known::Known;
-use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::questions::of_translation;
@@ -86,10 +86,9 @@ pub(super) struct Done {
 #[derive(Debug)]
 pub(super) struct Bench<'a> {
     pub(super) args: &'a Translate,
-    pub(super) order: &'a Order,
+    pub(super) orders: &'a Orders,
     pub(super) known: &'a Known,
     pub(super) items: &'a [Item],
-    pub(super) folder: &'a Path,
     /// Programs that are not to be translated.
     pub(super) refused: &'a BTreeMap<usize, Problem>,
     pub(super) split: bool,
@@ -129,7 +128,11 @@ impl Bench<'_> {
             return Err(problem.clone());
         }
         let args = self.args;
+        let Some((order, folder)) = self.orders.at(at) else { return Ok(()) };
         let mut source = files::open(&item.path)?;
+        if let Some(settled) = &order.settled {
+            source.settle(settled);
+        }
         let say = !args.telling.quiet && args.format == Format::Human;
         if let Some(refusal) = milling::refusal(&mut source, self.known)? {
             done.row.result = Came::Refused;
@@ -146,17 +149,18 @@ impl Bench<'_> {
         if let Some(note) = milling::note(&source).filter(|_| say) {
             let _ = writeln!(done.told, "{note}");
         }
-        let (from, rivals) = match self.order.named {
+        let (from, rivals) = match order.named {
             Some(dialect) => (dialect, Vec::new()),
             None => run::recognise_all(&mut source, say, self.known, &mut done.told)?,
         };
         done.row.from = Some(from.id.clone());
-        let crlf = match self.order.eol(args) {
+        done.row.project = source.project.as_deref().cloned();
+        let crlf = match order.eol(args) {
             Eol::Lf => false,
             Eol::Crlf => true,
             Eol::Keep => source.is_crlf()?,
         };
-        let mut job = self.order.job(args, from, &source.name, crlf)?;
+        let mut job = order.job(args, from, &source.name, crlf)?;
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
         job.rivals = rivals;
         called::gather(&mut source, &job.from, self.known.folders())?;
@@ -170,7 +174,7 @@ impl Bench<'_> {
             .map_err(|e| Problem::file("translate", &source.shown, &e))?;
         self.account(item, &job, &mut source, &outcome, &mut done.row)?;
         if outcome.release.is_ok() {
-            done.held = self.release(item, &job, &source, &mut outcome, &mut done.row)?;
+            done.held = self.release(item, folder, &job, &source, &mut outcome, &mut done.row)?;
         }
         let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
         match args.format {
@@ -244,13 +248,14 @@ impl Bench<'_> {
     fn release(
         &self,
         item: &Item,
+        folder: &Path,
         job: &Job,
         source: &Source,
         outcome: &mut Outcome,
         row: &mut Row,
     ) -> Result<Vec<Held>, Problem> {
         let to = job.to.dialect;
-        let below = self.folder.join(&item.below);
+        let below = folder.join(&item.below);
         let plain = below.join(job.machines.file_name(to, &source.name, outcome.program_number));
         let main = below.join(job.machines.output_name(to, &source.name, outcome));
         let otherwise = (plain != main).then_some(plain);

@@ -55,11 +55,10 @@ pub fn run(args: &Check, known: &Known, color: Color, err: &mut dyn WriteColor) 
         Some(name) => Some(crate::machines::find(name, known, err)?),
         None => None,
     };
-    let limits = limits(args, profile.as_ref());
     let mut exit = Exit::Done;
     let mut programs = Vec::new();
     for file in &args.files {
-        match one(args, file, &limits, known, err) {
+        match one(args, file, profile.as_ref(), known, err) {
             Ok(program) => programs.push(program),
             Err(problem) if args.files.len() < 2 => return Err(problem),
             Err(problem) => {
@@ -80,7 +79,7 @@ pub fn run(args: &Check, known: &Known, color: Color, err: &mut dyn WriteColor) 
 fn one(
     args: &Check,
     file: &str,
-    limits: &Limits,
+    profile: Option<&Profile>,
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Program, Problem> {
@@ -91,6 +90,8 @@ fn one(
         options: &args.reading.from_option,
         start: None,
         given: args.holding.read()?,
+        beside: args.machine.as_deref(),
+        ..Asked::default()
     };
     let say = !args.telling.quiet && args.format == Form::Text;
     let Side { mut source, job } = open_one(&asked, say, known, err)?;
@@ -99,7 +100,8 @@ fn one(
     }
     let shown = source.shown.clone();
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
-    let course = drive::drive(&job, limits.clone(), args.switches.on(), &mut source).map_err(wrong)?;
+    let limits = limits(args, profile.or(job.machines.from.as_deref()));
+    let course = drive::drive(&job, limits, args.switches.on(), &mut source).map_err(wrong)?;
     if say {
         let sound = course.diagnostics.iter().all(|d| d.fault.gravity() != Gravity::Error);
         questions::note(&job, &mut source, &course.diagnostics, sound, err)?;

@@ -5,6 +5,7 @@
 //! exactly these questions can be written. Not here: which fact an assumption rests on
 //! (`ncc_machines::reading`).
 
+mod init;
 mod question;
 mod stub;
 
@@ -16,18 +17,21 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use codespan_reporting::term::termcolor::StandardStream;
 use ncc_dialects::Settings;
+use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_machines::Profile;
 use ncc_machines::reading::{Place, Side, UNNAMED};
 
-use crate::args::pair;
-use crate::files;
-use crate::job::{Job, Rest};
+use crate::args::{Start, pair};
+use crate::files::{self, Source};
+use crate::job::{Job, Outcome, Rest};
 use crate::known::Known;
 use crate::m_codes;
 use crate::machines::pair::{Machines, agreed};
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
+use crate::project::init::Init;
+use crate::project::{self, Sides, Stated};
 use crate::questions::Policy;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
@@ -89,12 +93,18 @@ pub struct Doctor {
 /// # Errors
 /// Wrong usage, or a file.
 pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
-    let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, err)?;
-    let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
-    let to = agreed(to, machines.to.as_deref(), "to")?;
-    let to = to.ok_or_else(|| Problem::usage("translated into what?", INTO_WHAT))?;
-    let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
-    let named = agreed(named, machines.from.as_deref(), "from")?;
+    let stated = Asked {
+        file: &args.file,
+        from: args.from.as_deref(),
+        to: args.to.as_deref(),
+        machine_from: args.machine_from.as_deref(),
+        machine_to: args.machine_to.as_deref(),
+        from_option: &args.from_option,
+        to_option: &args.to_option,
+        start: args.standing.start.unwrap_or_default(),
+        telling: args.telling,
+        no_project: false,
+    };
     for path in [&args.write_from, &args.write_to].into_iter().flatten() {
         if path.exists() {
             let message = format!("{} is there already", path.display());
@@ -104,19 +114,122 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     if args.write_from.is_some() && args.write_from == args.write_to {
         return Err(Problem::usage("one file for two machines", "each has a profile of its own"));
     }
+    let Examined { job, mut source, outcome, exit } = examine(&stated, known, err)?;
+    let shown = source.shown.clone();
+    let mut about = About { job: &job, name: &shown, source: &mut source.file };
+    let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
+    // Messages that cannot be written change nothing about what was found.
+    let asked_for: BTreeSet<usize> = outcome.rests.iter().map(|rest| rest.diagnostic).collect();
+    let others = outcome.diagnostics.iter().enumerate().filter(|(at, _)| !asked_for.contains(at));
+    let others: Vec<Diagnostic> = others.map(|(_, diagnostic)| diagnostic.clone()).collect();
+    let _ = match args.telling.verbose {
+        true => human::print(err, &mut about, &outcome.diagnostics, Loudness::Verbose),
+        false => human::print(err, &mut about, &others, Loudness::Quiet),
+    };
+    let asked = questions(&mut about, &outcome).map_err(cannot_read)?;
+    let text = told(&about, &others, &asked);
+    files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
+    for (side, path) in [(Side::From, &args.write_from), (Side::To, &args.write_to)] {
+        let Some(path) = path else { continue };
+        let text = stub::profile(side, &about, &asked, &stem(path));
+        files::to_file(path, &mut |out| out.write_all(text.as_bytes()))?;
+    }
+    Ok(exit)
+}
+
+/// The text of a project file for a program, with the questions as comments.
+///
+/// # Errors
+/// Wrong usage, or a file.
+pub(crate) fn project(args: &Init, known: &Known, err: &mut StandardStream) -> Result<String, Problem> {
+    let stated = Asked {
+        file: &args.program,
+        from: args.from.as_deref(),
+        to: args.to.as_deref(),
+        machine_from: args.machine_from.as_deref(),
+        machine_to: args.machine_to.as_deref(),
+        from_option: &args.from_option,
+        to_option: &[],
+        start: [None; AXES],
+        telling: Telling { verbose: false, quiet: false },
+        no_project: true,
+    };
+    let Examined { job, mut source, outcome, .. } = examine(&stated, known, err)?;
+    let shown = source.shown.clone();
+    let mut about = About { job: &job, name: &shown, source: &mut source.file };
+    let asked = questions(&mut about, &outcome)
+        .map_err(|e| Problem::file("examine", &args.program.display().to_string(), &e))?;
+    Ok(init::text(args, known, &about, &asked))
+}
+
+/// What a translation is examined with.
+struct Asked<'a> {
+    file: &'a Path,
+    from: Option<&'a str>,
+    to: Option<&'a str>,
+    machine_from: Option<&'a str>,
+    machine_to: Option<&'a str>,
+    from_option: &'a [(String, String)],
+    to_option: &'a [(String, String)],
+    start: Start,
+    telling: Telling,
+    /// Whether no project file counts.
+    no_project: bool,
+}
+
+/// A translation of which the questions are asked.
+struct Examined {
+    job: Job,
+    source: Source,
+    outcome: Outcome,
+    /// That of the translation as it was asked for.
+    exit: Exit,
+}
+
+fn examine(args: &Asked, known: &Known, err: &mut StandardStream) -> Result<Examined, Problem> {
+    let mut machines = Machines::find(args.machine_from, args.machine_to, known, err)?;
+    let stated = Stated {
+        from: args.from,
+        machine: args.machine_from,
+        from_options: args.from_option,
+        to: args.to,
+        machine_to: args.machine_to,
+        to_options: args.to_option,
+        output: None,
+    };
+    let row = match args.no_project {
+        true => None,
+        false => project::row(args.file, !args.telling.quiet, known, err)?,
+    };
+    let settled = row.map(|row| project::settle(&row, Sides::Both, &stated, None, known)).transpose()?;
+    if let Some(settled) = &settled {
+        machines.from = machines.from.or_else(|| settled.machine.clone());
+        machines.to = machines.to.or_else(|| settled.to.clone());
+    }
+    let to = args.to.map(|id| known.dialect(id)).transpose()?;
+    let to = agreed(to, machines.to.as_deref(), "to")?;
+    let to = to.ok_or_else(|| Problem::usage("translated into what?", INTO_WHAT))?;
+    let named = args.from.filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
+    let named = agreed(named, machines.from.as_deref(), "from")?;
     let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
-    let mut source = milling::open(&args.file, voice, known, err)?;
+    let mut source = milling::open(args.file, voice, known, err)?;
+    if let Some(settled) = &settled {
+        source.settle(settled);
+        if !args.telling.quiet {
+            project::note(&source.shown, &settled.used, err);
+        }
+    }
     let from = match named {
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.telling.quiet, known, err)?,
     };
-    let mut said = settings(machines.settings(Side::From, from), &args.from_option)?;
+    let mut said = settings(machines.settings(Side::From, from), args.from_option)?;
     state_units(&mut said, known.units())?;
     m_codes::state(&mut said, Side::From, known)?;
-    let mut into = settings(machines.settings(Side::To, to), &args.to_option)?;
+    let mut into = settings(machines.settings(Side::To, to), args.to_option)?;
     m_codes::state(&mut into, Side::To, known)?;
-    let start = args.standing.start.unwrap_or_default();
     let assumed = source.assumed.clone();
+    let start = args.start;
     let mut job =
         Job { machines, start, assumed, questions: Policy::Skip, ..Job::new(said, into, &source.name) };
     source.rewind()?;
@@ -135,7 +248,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
         // What else there is to ask shows once these codes stand for something.
         let mut profile = job.machines.from.as_deref().cloned().unwrap_or_else(|| Profile::empty(from));
         codes.iter().for_each(|code| profile.add_code(code, &stand_in(code)));
-        job.from = settings(profile.settings(), &args.from_option)?;
+        job.from = settings(profile.settings(), args.from_option)?;
         state_units(&mut job.from, known.units())?;
         m_codes::state(&mut job.from, Side::From, known)?;
         source.rewind()?;
@@ -145,24 +258,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
             outcome.diagnostics.push(diagnostic);
         }
     }
-    let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
-    // Messages that cannot be written change nothing about what was found.
-    let asked_for: BTreeSet<usize> = outcome.rests.iter().map(|rest| rest.diagnostic).collect();
-    let others = outcome.diagnostics.iter().enumerate().filter(|(at, _)| !asked_for.contains(at));
-    let others: Vec<Diagnostic> = others.map(|(_, diagnostic)| diagnostic.clone()).collect();
-    let _ = match args.telling.verbose {
-        true => human::print(err, &mut about, &outcome.diagnostics, Loudness::Verbose),
-        false => human::print(err, &mut about, &others, Loudness::Quiet),
-    };
-    let asked = questions(&mut about, &outcome).map_err(cannot_read)?;
-    let text = told(&about, &others, &asked);
-    files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
-    for (side, path) in [(Side::From, &args.write_from), (Side::To, &args.write_to)] {
-        let Some(path) = path else { continue };
-        let text = stub::profile(side, &about, &asked, &stem(path));
-        files::to_file(path, &mut |out| out.write_all(text.as_bytes()))?;
-    }
-    Ok(exit)
+    Ok(Examined { job, source, outcome, exit })
 }
 
 /// A name for what a code does, as long as nobody has said it.

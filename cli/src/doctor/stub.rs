@@ -91,7 +91,7 @@ pub(super) fn profile(side: Side, about: &About, asked: &[Question], id: &str) -
 }
 
 /// A comment in lines that are not too long.
-fn comment(text: &mut String, words: &str) {
+pub(super) fn comment(text: &mut String, words: &str) {
     let mut line = String::from("#");
     for word in words.split_whitespace() {
         if line.chars().count() + 1 + word.chars().count() > WIDE {

@@ -10,7 +10,7 @@ pub use args::Machines;
 
 use std::path::Path;
 
-use codespan_reporting::diagnostic::{Diagnostic as Boxed, Label};
+use codespan_reporting::diagnostic::{Diagnostic as Boxed, Label, Severity};
 use codespan_reporting::files::SimpleFile;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
@@ -102,14 +102,30 @@ pub fn print(
     wrong: &[ProfileError],
     err: &mut dyn WriteColor,
 ) -> Result<(), codespan_reporting::files::Error> {
+    let schemas = "`ncc machines schema` lists every key and what it takes";
+    print_as(Severity::Error, schemas, name, text, wrong, err)
+}
+
+/// Prints what is wrong, or suspicious. `schemas` says where every key is listed.
+///
+/// # Errors
+/// Writing.
+pub(crate) fn print_as(
+    severity: Severity,
+    schemas: &str,
+    name: &str,
+    text: &str,
+    wrong: &[ProfileError],
+    err: &mut dyn WriteColor,
+) -> Result<(), codespan_reporting::files::Error> {
     let file = SimpleFile::new(name, text);
     for error in wrong {
-        let said = words(&error.wrong);
+        let said = words(&error.wrong, schemas);
         let mut labels = vec![Label::primary((), error.span.clone()).with_message(said.label)];
         if let Some(related) = &error.related {
             labels.push(Label::secondary((), related.clone()).with_message("the first one"));
         }
-        let boxed = Boxed::error()
+        let boxed = Boxed::new(severity)
             .with_code(format!("NC{:04}", error.wrong.code()))
             .with_message(message(&error.wrong))
             .with_labels(labels)
@@ -120,7 +136,7 @@ pub fn print(
 }
 
 /// Where the first error is.
-fn place(text: &str, at: usize) -> String {
+pub(crate) fn place(text: &str, at: usize) -> String {
     let before = text.get(..at).unwrap_or_default();
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
@@ -128,6 +144,6 @@ fn place(text: &str, at: usize) -> String {
 }
 
 /// `1 error`, `2 errors`.
-fn count(n: usize, noun: &str) -> String {
+pub(crate) fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }

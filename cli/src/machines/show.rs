@@ -65,7 +65,13 @@ fn options(out: &mut String, profile: &Profile) -> fmt::Result {
         .map(|row| {
             let chosen = profile.schema.options.iter().find(|(name, _)| *name.get_ref() == row.name);
             let stated = chosen.map(|(_, choice)| choice.tell("")).filter(|stated| stated.value.is_some());
-            stated.unwrap_or(Stated { key: "", value: None, source: String::new(), assumed: false })
+            stated.unwrap_or(Stated {
+                key: "",
+                value: None,
+                source: String::new(),
+                assumed: false,
+                span: 0..0,
+            })
         })
         .collect();
     if rows.is_empty() {

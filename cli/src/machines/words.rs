@@ -31,16 +31,20 @@ pub(super) fn message(wrong: &Wrong) -> String {
         Wrong::NotOneToOne { function } => format!("two codes for {function}"),
         Wrong::TooFine { key, .. } => format!("{key}: finer than the control"),
         Wrong::NoForm { key, lacks } => format!("{key}: the dialect has no {lacks}"),
+        Wrong::NoMachine { name, .. } => format!("there is no machine `{name}`"),
+        Wrong::Pattern { .. } => "no file can match this pattern".to_owned(),
+        Wrong::TwoRows { program } => format!("two rows of [[programs]] match {program}"),
+        Wrong::NoFile { pattern } => format!("no file matches `{pattern}`"),
+        Wrong::NoRows => "no [[programs]] in the project file".to_owned(),
+        Wrong::NoFolder { name } => format!("there is no folder `{name}`"),
     }
 }
 
 /// The words at its place.
-pub(super) fn words(wrong: &Wrong) -> Words {
+pub(super) fn words(wrong: &Wrong, schemas: &str) -> Words {
     let list = |words: &[String]| words.join(", ");
     let (label, help): (String, Option<String>) = match wrong {
-        Wrong::Form { .. } => {
-            ("here".into(), Some("`ncc machines schema` lists every key and what it takes".into()))
-        }
+        Wrong::Form { .. } => ("here".into(), Some(schemas.to_owned())),
         Wrong::UnknownDialect { .. } => {
             ("not one of the dictionaries".into(), Some("`ncc dialects` lists them".into()))
         }
@@ -69,6 +73,32 @@ pub(super) fn words(wrong: &Wrong) -> Words {
         ),
         Wrong::TooFine { most, .. } => (format!("it has {most} digits after the point"), None),
         Wrong::NoForm { .. } => ("cannot be written so".into(), None),
+        Wrong::NoMachine { name, is_dialect: true, .. } => {
+            (format!("{name} is a dialect"), Some(format!("write `{{ dialect = {name:?} }}`")))
+        }
+        Wrong::NoMachine { has, .. } => (
+            "neither a shipped machine nor a file".into(),
+            Some(format!("name the file of a profile, or one of {}", list(has))),
+        ),
+        Wrong::Pattern { message } => (
+            message.clone(),
+            Some("write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`".into()),
+        ),
+        Wrong::TwoRows { .. } => {
+            ("which machine is it for?".into(), Some("let one of the patterns match fewer files".into()))
+        }
+        Wrong::NoFile { .. } => (
+            "below the folder of this file".into(),
+            Some(
+                "patterns begin in the folder of this file; `*` stays in one folder, `**/` goes down".into(),
+            ),
+        ),
+        Wrong::NoRows => {
+            ("the file has no rows".into(), Some("`ncc init PROGRAM --to DIALECT` writes one".into()))
+        }
+        Wrong::NoFolder { .. } => {
+            ("seen from the folder of this file".into(), Some("make it, or correct its name".into()))
+        }
     };
     Words { label, help }
 }

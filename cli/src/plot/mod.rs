@@ -61,8 +61,12 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Resul
     let mut pages = Vec::new();
     let mut caption = String::new();
     for (n, source) in sources.iter_mut().enumerate() {
-        let asked = args.timed(n);
-        let shop = Shop::of(&asked, known, err)?;
+        let mut asked = args.timed(n);
+        let own = time::settle(&asked, &args.files[n], source, known, err)?;
+        if own.is_some() && args.from.is_empty() {
+            asked.reading.from = None;
+        }
+        let shop = Shop::of(&asked, own.as_ref().map(|(profile, _)| &**profile), known, err)?;
         let job = time::job(&asked, &shop, known, source, err)?;
         // The picture is that of the contour.
         let plan = Plan { centre: false, ..time::plan(&asked, &shop, &job) };

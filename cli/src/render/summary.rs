@@ -109,6 +109,7 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
             writeln!(out)?;
         }
     }
+    project(out, about)?;
     for line in by_name(&outcome.renumbered, "→") {
         writeln!(out, "  {line}")?;
     }
@@ -148,6 +149,31 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
     Ok(())
 }
 
+/// What a project file answers, and what options go before.
+fn project(out: &mut dyn WriteColor, about: &About) -> io::Result<()> {
+    let Some(used) = &about.job.project else { return Ok(()) };
+    let mut facts = used.facts().split("; ").map(|fact| format!("{fact};")).collect::<Vec<String>>();
+    if let Some(last) = facts.last_mut() {
+        last.pop();
+    }
+    let mut lines = vec![String::new()];
+    for fact in facts {
+        let last = lines.last().map_or(0, |line| line.chars().count());
+        if last > 0 && HEADING + 2 + last + 1 + fact.chars().count() > WIDTH {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(&fact);
+        }
+    }
+    for (i, line) in lines.iter().chain(&used.overridden).enumerate() {
+        headed(out, Color::Green, &if i == 0 { used.title().join(" ") } else { String::new() })?;
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
 fn headed(out: &mut dyn WriteColor, colour: Color, heading: &str) -> io::Result<()> {
     write!(out, "  ")?;
     coloured(out, colour, &format!("{heading:<HEADING$}"))
@@ -179,6 +205,11 @@ fn list(groups: &[Group]) -> String {
 }
 
 fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
+    failure(out, about, outcome)?;
+    project(out, about)
+}
+
+fn failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
     write!(out, ", ")?;
     let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
     let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;

@@ -18,6 +18,7 @@ use crate::args::Format;
 use crate::files;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
+use crate::project::Look;
 
 /// Longest value that is told whole, in characters.
 const LONGEST: usize = 80;
@@ -76,6 +77,8 @@ pub(crate) fn check_again(
         machine: machines[side].as_deref(),
         options: &options[side],
         start: start.filter(|_| side == 0),
+        look: programs[side].project.is_none().then_some(Look::Nothing),
+        is_output: side == 1,
         ..Asked::default()
     };
     let mut sides = open([&asked(0), &asked(1)], false, &known, err)?;
@@ -256,6 +259,9 @@ pub fn disagreements(certificate: &Document, fresh: &Document) -> Vec<String> {
         for side in ["source", "output"] {
             if let Some(side) = all.get_mut(side).and_then(Value::as_object_mut) {
                 side.retain(|key, _| !matches!(key.as_str(), "file" | "machine" | "sha256" | "called"));
+                if let Some(project) = side.get_mut("project").and_then(Value::as_object_mut) {
+                    project.retain(|key, _| !matches!(key.as_str(), "file" | "overridden"));
+                }
             }
         }
     }

@@ -24,6 +24,7 @@ use crate::m_codes;
 use crate::machines::pair::{Machines, agreed};
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
+use crate::project::{self, InForce, Look, Sides, Stated, settle};
 use crate::run::{recognise, settings, state_units};
 use crate::sugar::is_name;
 
@@ -42,6 +43,29 @@ pub(crate) struct Asked<'a> {
     pub(crate) start: Option<Start>,
     /// What its variables hold before.
     pub(crate) given: Given,
+    /// A machine that the command line names for another purpose than reading: none of a project file counts beside it.
+    pub(crate) beside: Option<&'a str>,
+    /// Which program a project file is asked about; by default the one in the operand's file.
+    pub(crate) look: Option<Look<'a>>,
+    /// Whether it is the output of the other side: the target's machine of that is its own, unless a project file says
+    /// something of it.
+    pub(crate) is_output: bool,
+}
+
+impl Asked<'_> {
+    /// What the command line states of it.
+    fn stated(&self) -> Stated<'_> {
+        let machine = self.machine.or(self.beside);
+        Stated {
+            from: self.from,
+            machine,
+            from_options: self.options,
+            to: self.from,
+            machine_to: machine,
+            to_options: self.options,
+            output: None,
+        }
+    }
 }
 
 /// A program, ready to be executed.
@@ -94,8 +118,9 @@ pub(crate) fn open(
     err: &mut dyn WriteColor,
 ) -> Result<[Side; 2], Problem> {
     let [a, b] = asked;
-    let mut first = Opened::of(a, say, known, err)?;
-    let mut second = Opened::of(b, say, known, err)?;
+    let mut first = Opened::of(a, None, say, known, err)?;
+    let target = first.row.clone().filter(|_| b.is_output);
+    let mut second = Opened::of(b, target.as_deref(), say, known, err)?;
     if first.stdin && second.stdin {
         return Err(Problem::usage("stdin can be read only once", "name a file for one side"));
     }
@@ -129,7 +154,7 @@ pub(crate) fn open_one(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Side, Problem> {
-    let mut opened = Opened::of(asked, say, known, err)?;
+    let mut opened = Opened::of(asked, None, say, known, err)?;
     opened.settle(None, say, known, err)?;
     opened.finish(asked, say, known, err)
 }
@@ -139,31 +164,51 @@ struct Opened {
     source: Source,
     named: Option<&'static Dialect>,
     profile: Option<Arc<Profile>>,
+    /// What a project file says of it.
+    row: Option<Arc<InForce>>,
     /// Dialects that explain a text as well which was recognised.
     rivals: Vec<&'static Dialect>,
     stdin: bool,
 }
 
 impl Opened {
-    fn of(asked: &Asked, say: bool, known: &Known, err: &mut dyn WriteColor) -> Result<Opened, Problem> {
+    /// `target` is what a project file says of the program that this one is the output of.
+    fn of(
+        asked: &Asked,
+        target: Option<&InForce>,
+        say: bool,
+        known: &Known,
+        err: &mut dyn WriteColor,
+    ) -> Result<Opened, Problem> {
         let (named, path) = operand(asked.operand, known)?;
         let path: PathBuf = path.to_owned();
         let from = asked.from.filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
-        let profile = asked.machine.map(|name| crate::machines::find(name, known, err)).transpose()?;
+        let row = known.project(asked.look.unwrap_or(Look::File(&path)), err)?;
+        // An output is never a source of its own row.
+        let target = target.filter(|target| row.is_none() || target.has_output(&path));
+        let settled = match (&row, target) {
+            (_, Some(target)) => Some(settle(target, Sides::Target, &asked.stated(), named, known)?),
+            (Some(row), None) => Some(settle(row, Sides::One, &asked.stated(), named, known)?),
+            (None, None) => None,
+        };
+        let profile = match asked.machine {
+            Some(name) => Some(Arc::new(crate::machines::find(name, known, err)?)),
+            None => settled.as_ref().and_then(|settled| settled.machine.clone()),
+        };
         let named = match named {
-            Some(dialect) => agreed(Some(dialect), profile.as_ref(), "from")?,
+            Some(dialect) => agreed(Some(dialect), profile.as_deref(), "from")?,
             // What holds for both sides gives way to a profile of one.
             None => profile.as_ref().map(|profile| profile.dialect).or(from),
         };
         let voice = if say { Voice::Human } else { Voice::Quiet };
-        let source = milling::open(&path, voice, known, err)?;
-        Ok(Opened {
-            source,
-            named,
-            profile: profile.map(Arc::new),
-            rivals: Vec::new(),
-            stdin: path == Path::new("-"),
-        })
+        let mut source = milling::open(&path, voice, known, err)?;
+        if let Some(settled) = &settled {
+            source.settle(settled);
+            if say {
+                project::note(&source.shown, &settled.used, err);
+            }
+        }
+        Ok(Opened { source, named, profile, row, rivals: Vec::new(), stdin: path == Path::new("-") })
     }
 
     /// Finds the dialect, if the text or the other side tells it.
@@ -242,6 +287,7 @@ impl Side {
             machines,
             start: start.unwrap_or_default(),
             called: source.called.clone(),
+            project: source.project.clone(),
             ..Job::new(from.clone(), from, &source.name)
         };
         Side { source, job }

@@ -24,6 +24,7 @@ use crate::job::Output;
 use crate::known::Known;
 use crate::milling;
 use crate::problem::{Exit, Problem};
+use crate::project::Look;
 use crate::questions;
 
 /// `ncc git-textconv`.
@@ -45,7 +46,12 @@ pub struct Textconv {
 /// # Errors
 /// Wrong usage, or a file that cannot be read.
 pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let (_, own) = super::side::operand(&args.file, known)?;
+    let name = own.file_name().unwrap_or_default().to_string_lossy();
+    // Of a version in its store, git hands over a copy somewhere else.
+    let look = if own.is_absolute() { Look::Named(&name) } else { Look::Git(own) };
     let asked = Asked {
+        look: Some(look),
         operand: &args.file,
         from: args.from.as_deref(),
         options: &args.from_option,

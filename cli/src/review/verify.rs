@@ -168,14 +168,16 @@ fn verify(
             options: &args.from_option,
             start: args.standing.start,
             given: given.clone(),
+            ..Asked::default()
         },
         Asked {
             operand: &files[1],
             from: args.to.as_deref(),
             machine: args.machine_to.as_deref(),
             options: &args.to_option,
-            start: None,
             given,
+            is_output: true,
+            ..Asked::default()
         },
     ];
     let say = !args.telling.quiet && args.format == Format::Human;

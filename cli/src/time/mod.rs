@@ -49,6 +49,7 @@ use crate::m_codes;
 use crate::machines::pair::Machines;
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
+use crate::project::{self, Sides, Stated};
 use crate::questions::{self, Policy};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
@@ -64,10 +65,16 @@ pub(crate) struct Shop {
 }
 
 impl Shop {
-    pub(crate) fn of(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Shop, Problem> {
+    /// `own` is the machine of a project file, which counts where the command line names none.
+    pub(crate) fn of(
+        args: &Time,
+        own: Option<&Profile>,
+        known: &Known,
+        err: &mut dyn WriteColor,
+    ) -> Result<Shop, Problem> {
         let profile = match &args.setting.machine {
             Some(name) => Some(crate::machines::find(name, known, err)?),
-            None => None,
+            None => own.cloned(),
         };
         let mut machine = profile.as_ref().map(Profile::machine).unwrap_or_default();
         if let Some(on) = args.setting.tool_change_on {
@@ -93,16 +100,28 @@ pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         return Ok(Exit::Done);
     }
     check(args, known)?;
-    let shop = Shop::of(args, known, err)?;
+    let mut own = None;
     let mut lost = Lost { names: Vec::new(), exit: Exit::Done };
     let mut sources = Vec::new();
     let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
     for path in &args.files {
         match milling::open(path, voice, known, err) {
-            Ok(source) => sources.push(source),
+            Ok(mut source) => {
+                let machine = settle(args, path, &mut source, known, err)?;
+                if let Some((_, first)) = own.as_ref().filter(|(own, _)| !same(own, &machine)) {
+                    return Err(Problem::usage(
+                        format!("{first} and {} are for two machines", source.shown),
+                        "call ncc once for each of them, or name one machine: --machine MACHINE",
+                    ));
+                }
+                own.get_or_insert((machine, source.shown.clone()));
+                sources.push(source);
+            }
             Err(problem) => lost.take(args, path.display().to_string(), problem, err)?,
         }
     }
+    let own = own.and_then(|(machine, _)| machine);
+    let shop = Shop::of(args, own.as_ref().map(|(profile, _)| &**profile), known, err)?;
     let destination = destination(args, &sources)?;
     destination.check()?;
     let mut spool = Spool { output: Output::new() };
@@ -127,6 +146,42 @@ pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
             Ok(exit)
         }
     }
+}
+
+/// A machine of a project file, and the file with the line in which it stands.
+pub(crate) type Own = Option<(Arc<Profile>, (String, usize))>;
+
+/// Whether two programs are for one machine.
+fn same(one: &Own, other: &Own) -> bool {
+    let place = |own: &Own| own.as_ref().map(|(_, place)| place.clone());
+    place(one) == place(other)
+}
+
+/// Keeps with a source what a project file says of it; gives its machine.
+///
+/// # Errors
+/// As of [`Known::project`].
+pub(crate) fn settle(
+    args: &Time,
+    path: &Path,
+    source: &mut Source,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Own, Problem> {
+    let Some(row) = project::row(path, !args.telling.quiet, known, err)? else { return Ok(None) };
+    let stated = Stated {
+        from: args.reading.from.as_deref(),
+        machine: args.setting.machine.as_deref(),
+        from_options: &args.reading.from_option,
+        ..Stated::default()
+    };
+    let settled = project::settle(&row, Sides::One, &stated, None, known)?;
+    source.settle(&settled);
+    if !args.telling.quiet {
+        project::note(&source.shown, &settled.used, err);
+    }
+    let line = row.machine.as_ref().map_or(0, |machine| machine.line);
+    Ok(settled.machine.map(|machine| (machine, (row.file.shown.clone(), line))))
 }
 
 /// Programs that could not be executed.
@@ -245,6 +300,7 @@ pub(crate) fn job(
     Ok(Job {
         machines,
         called: source.called.clone(),
+        project: source.project.clone(),
         rivals,
         start: args.setting.standing.start.unwrap_or_default(),
         given: args.setting.holding.read()?,

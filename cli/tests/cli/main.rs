@@ -14,6 +14,7 @@ mod machines;
 mod messages;
 mod milling;
 mod plot;
+mod project;
 mod provenance;
 mod questions;
 mod readme;

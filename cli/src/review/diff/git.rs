@@ -20,6 +20,7 @@ use crate::guess::{Guess, guess};
 use crate::known::Known;
 use crate::milling;
 use crate::problem::{Exit, Problem};
+use crate::project::Look;
 use crate::questions;
 use crate::review::side::{Asked, Side, open};
 
@@ -98,12 +99,15 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mu
     // Files of git have names of their own: they are never taken for `DIALECT:PATH`.
     let names = versions
         .map(|file| if Path::new(file).is_absolute() { file.to_owned() } else { format!("./{file}") });
-    let asked = |operand| Asked {
-        operand,
-        from: dialect(args, known, versions),
-        options: &args.from_option,
-        ..Asked::default()
+    let look = Look::Git(Path::new(path));
+    // The machine of a project file says which dialect it is.
+    let named = match known.project(look, err) {
+        Ok(row) => row.is_some_and(|row| row.machine.is_some()),
+        Err(problem) => return format!("not compared: {}\n", problem.message),
     };
+    let from = if named { args.from.as_deref() } else { dialect(args, known, versions) };
+    let asked =
+        |operand| Asked { look: Some(look), operand, from, options: &args.from_option, ..Asked::default() };
     if let Some(told) = not_milling(known, versions, path) {
         return told;
     }

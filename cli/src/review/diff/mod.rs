@@ -30,6 +30,7 @@ use crate::files::{self, Source};
 use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
+use crate::project;
 use crate::questions;
 use crate::render::{About, human};
 use crate::setting::{Holding, Nearness, Standing, Telling};
@@ -184,10 +185,18 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         options,
         start: args.standing.start,
         given: given.clone(),
+        ..Asked::default()
     };
     let a = asked(a, args.a_machine.as_deref(), args.a_option.as_slice());
     let b = asked(b, args.b_machine.as_deref(), args.b_option.as_slice());
     let mut sides = open([&a, &b], args.telling.verbose, known, err)?;
+    if !args.telling.quiet && !args.telling.verbose {
+        for source in sides.iter().map(|side| &side.source) {
+            if let Some(used) = &source.project {
+                project::note(&source.shown, used, err);
+            }
+        }
+    }
     if let Some(page) = &args.html {
         sides[0].source.guard(Some(page))?;
         sides[1].source.guard(Some(page))?;

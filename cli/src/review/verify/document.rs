@@ -20,6 +20,7 @@ use super::pair::{Found, Verdict, job_of};
 use super::{Call, hashes};
 use crate::called::CalledFile;
 use crate::difference;
+use crate::project::Used;
 use crate::render::words::Context;
 use crate::render::{About, summary};
 use crate::report::hex;
@@ -70,6 +71,9 @@ pub struct Document {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Program {
+    /// What a project file says of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) project: Option<Used>,
     /// As it was named; `-` is stdin.
     pub(crate) file: String,
     pub(crate) bytes: u64,
@@ -241,7 +245,7 @@ impl Document {
             version: VERSION,
             ncc_version: env!("CARGO_PKG_VERSION").to_owned(),
             dictionaries: hashes::dictionaries(sides, call.known),
-            profiles: hashes::profiles(call.machines)?,
+            profiles: hashes::profiles(call.machines, sides)?,
             asked: Asked {
                 tolerance_mm: call.tolerance.map(millimetres),
                 start: job.start.map(|at| at.map(millimetres)),
@@ -390,6 +394,7 @@ fn program(side: usize, found: &Found, sides: &mut [Side; 2], call: &Call) -> io
         told.take(diagnostic, settings.dialect, (side == 1).then_some(&found.shared));
     }
     Ok(Program {
+        project: sides[side].job.project.as_deref().cloned(),
         file: call.files[side].clone(),
         bytes,
         sha256,

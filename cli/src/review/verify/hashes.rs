@@ -47,9 +47,11 @@ pub(crate) fn dictionaries(sides: &[Side; 2], known: &Known) -> Vec<Hashed> {
 ///
 /// # Errors
 /// Reading the file of one.
-pub(crate) fn profiles(names: [Option<&str>; 2]) -> io::Result<Vec<Hashed>> {
+pub(crate) fn profiles(names: [Option<&str>; 2], sides: &[Side; 2]) -> io::Result<Vec<Hashed>> {
+    let projects = sides.iter().filter_map(|side| side.job.project.as_deref());
+    let of_projects = projects.flat_map(|used| used.profiles.iter().map(String::as_str));
     let mut all: Vec<Hashed> = Vec::new();
-    for name in names.into_iter().flatten() {
+    for name in names.into_iter().flatten().chain(of_projects) {
         if all.iter().any(|other| other.name == name) {
             continue;
         }
