@@ -196,7 +196,11 @@ impl Control {
             self.m.record(What::Alarm);
             return Ok(Next::End);
         }
-        let (g, m) = (words.codes('G'), words.codes('M'));
+        let (mut g, m) = (words.codes('G'), words.codes('M'));
+        // G80 counts for nothing beside another code of motion, nor a second time (rs274, run).
+        let others = g.iter().any(|code| *code != 800 && GROUPS[0].contains(code));
+        let mut first = !others;
+        g.retain(|code| *code != 800 || std::mem::take(&mut first));
         let of = |group: &[u32]| g.iter().copied().find(|code| group.contains(code));
         for group in GROUPS {
             if g.iter().filter(|code| group.contains(code)).count() > 1 {

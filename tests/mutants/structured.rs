@@ -8,6 +8,7 @@
 use std::sync::Mutex;
 
 use ncc::judge::Judge;
+use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::plain::{self, Corners, Tolerance};
@@ -233,7 +234,7 @@ fn makes_the_same(from: &str, source: &[u8], to: &str, text: &[u8]) -> Result<()
                 let machine = plain::second(dialect, text, plain::setup(&world, skip))?;
                 Ok::<_, String>(plain::of_machine(&machine, start))
             };
-            plain::compare(&run(from, source)?, &run(to, text)?, within)?;
+            plain::compare(&besides::as_shown(run(from, source)?, to), &run(to, text)?, within)?;
         }
     }
     Ok(())
