@@ -17,7 +17,7 @@ use besides::{
 };
 
 use crate::alarms::Alarms;
-use crate::canon::{AXES, Axis, Spindle, Turn, same_point};
+use crate::canon::{AXES, Axis, Spindle, SpindleMode, Turn, same_point};
 use crate::exec::{Event, Kind, Seen, State, Stored, by_control, cuts, named_tool};
 
 use crate::num::{Nanos, ONE, POW10};
@@ -354,7 +354,9 @@ impl Comparison {
             return true;
         }
         let apart = a.speed.abs_diff(b.speed);
-        if apart != 0 && apart <= Resolution::half(self.resolution.speed, false) as u64 {
+        // What a surface's speed counts is no unit of the last digit in inches.
+        let turns = a.spindle_mode == SpindleMode::Turns;
+        if turns && apart != 0 && apart <= Resolution::half(self.resolution.speed, false) as u64 {
             // As lengths, a speed is what the target's digits say of it.
             return self.same_state(a, &State { speed: a.speed, ..*b });
         }

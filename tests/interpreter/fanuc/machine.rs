@@ -95,6 +95,10 @@ impl Control {
             }
         }
         self.m.traverse(to);
+        if self.haas && code == 28 && named[2].is_some() {
+            // G28 cancels the length for the blocks behind it (96-8000, p. 152).
+            self.m.use_length(0);
+        }
         for (settled, word) in self.m.settled.iter_mut().zip(named) {
             *settled &= word.is_none();
         }
