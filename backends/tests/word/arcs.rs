@@ -111,9 +111,20 @@ fn full_circles_and_helices() {
 }
 
 #[test]
-fn an_arc_that_rounding_closes_is_refused() {
-    let a = after("X0. Y0.", arc(Clockwise, "X0.0004 Y0.", centre(Start, "10.", "0.", "")));
-    let (_, diags) = text("fanuc", &a);
+fn an_arc_that_rounding_closes_is_a_line_a_circle_or_refused() {
+    let from = |to: &str, about: [&str; 2]| {
+        let a = arc(Clockwise, to, centre(Start, about[0], about[1], ""));
+        text("fanuc", &after("X0. Y0.", a))
+    };
+    // A little one goes nowhere, and one that goes nearly round is a full circle.
+    let (little, diags) = from("X0. Y0.0004", ["10.", "0."]);
+    assert_eq!(little, "G00 X0. Y0.\nG01 X0. Y0.\n");
+    assert!(!faults(&diags).contains(&&Fault::ArcVanishes));
+    let (nearly, diags) = from("X0. Y-0.0004", ["10.", "0."]);
+    assert_eq!(nearly, "G00 X0. Y0.\nG02 X0. Y0. I10. J0.\n");
+    assert!(!faults(&diags).contains(&&Fault::ArcVanishes));
+    // Half a turn of so small a radius is neither.
+    let (_, diags) = from("X0.0004 Y0.", ["0.0002", "0."]);
     assert!(faults(&diags).contains(&&Fault::ArcVanishes));
     let a = after("X0. Y0.", arc(Clockwise, "X0.0006 Y0.", centre(Start, "10.", "0.", "")));
     let (text, diags) = text("fanuc", &a);
