@@ -39,7 +39,10 @@ fn names_and_titles() {
     assert!(out.diagnostics.is_empty() && !out.whole);
     assert_eq!(read("fanuc", ":0097\nM30\n").name.number, Some(97));
     assert_eq!(stmts(&read("fanuc", "O5 (A) (B) G21\nM30\n")), ["UseLengthUnits(Mm) (B)", "ProgramEnd"]);
-    assert_eq!(errors("fanuc", "O0\nM30\n"), ["OutOfRange { word: 'O0' } at 'O0'"]);
+    // The number is given at the control.
+    let unnumbered = read("fanuc", "O0000 (PART 12)\nM30\n");
+    assert_eq!((unnumbered.name.number, unnumbered.name.title.as_deref()), (None, Some("PART 12")));
+    assert_eq!(errors("fanuc", "O1\nM30\nO0\n"), ["OutOfRange { word: 'O0' } at 'O0'"]);
     assert_eq!(errors("fanuc", "O1\nM30\nO1\nM99\n"), ["ProgramTwice { name: '1' } at 'O1'"]);
 }
 
