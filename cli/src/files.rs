@@ -31,7 +31,7 @@ pub struct Source {
     pub called: Option<Called>,
     /// Assumptions about the file that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,
-    /// What a project file says of it.
+    /// The project file's answers for this program.
     pub(crate) project: Option<Arc<Used>>,
     /// Folders of called programs that the project file names.
     pub(crate) include: Vec<PathBuf>,

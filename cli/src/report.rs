@@ -74,7 +74,7 @@ impl Serialize for Options<'_> {
 /// What became of a translation, as a line of `--format json`.
 #[derive(Serialize)]
 pub struct Summary<'a> {
-    /// What a project file answers.
+    /// Answers that a project file gave.
     #[serde(skip_serializing_if = "Option::is_none")]
     project: Option<&'a Used>,
     result: &'static str,

@@ -66,7 +66,7 @@ pub(crate) fn run(
     let folder = output_folder(args, known)?;
     // For a reader of JSON, the problem alone says where.
     let mut nowhere = Buffer::no_color();
-    // Where project files say it, nothing is wrong with a command that does not.
+    // A command need not say what project files say, so this failure alone is no error.
     let mut aside = if err.supports_color() { Buffer::ansi() } else { Buffer::no_color() };
     let plain = Order::find(args, known, None, &mut aside);
     let extensions = extensions(plain.as_ref().ok(), known);
@@ -146,7 +146,7 @@ pub(crate) fn run(
     Ok(summary.exit)
 }
 
-/// What a command is about.
+/// Names the program of a command, or says how many files and folders it names.
 fn several(args: &Translate) -> String {
     match args.files.as_slice() {
         [one] => one.display().to_string(),

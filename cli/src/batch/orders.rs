@@ -1,4 +1,4 @@
-//! What each program of a batch is ordered to be: the same for all, or by the rows of project files.
+//! The order of each program of a batch: one for all, or one for each row of the project files.
 //!
 //! Programs of one batch have one target; their machines, options and folders of outputs may differ.
 
@@ -127,7 +127,7 @@ impl Orders {
     }
 }
 
-/// What to say where no folder of outputs is named.
+/// The usage error of a batch that names no folder for its outputs.
 pub(super) fn where_to(args: &Translate) -> Problem {
     let several = super::several(args);
     Problem::usage(format!("{several}: where to?"), "name a folder for the outputs: -o FOLDER")

@@ -67,7 +67,7 @@ pub(super) struct Missing {
 pub(super) struct Row {
     pub(super) file: String,
     pub(super) from: Option<String>,
-    /// What a project file answers.
+    /// Answers that a project file gave.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) project: Option<Used>,
     pub(super) result: Result,
