@@ -64,9 +64,7 @@ impl Writer {
         self.words.need_distance(arc.to.axes.iter().flatten(), &mut inserted)?;
         self.words.need_plane(arc.plane, &mut inserted)?;
         let start = self.words.residue;
-        // One that goes nearly round is a full circle then.
-        let full = matches!(arc.centre, Centre::Point { .. })
-            && self.words.sweep_of_vanishing(arc).is_some_and(|sweep| sweep > 270.0);
+        let full = self.words.becomes_full(arc);
         let mut words = match &arc.centre {
             Centre::Radius(radius) => vec![self.named(NameRole::Radius, radius, None, span, sink)?],
             Centre::Point { words, from } => {

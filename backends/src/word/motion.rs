@@ -287,9 +287,7 @@ impl Writer {
             return Err(cannot("an arc with a third axis"));
         }
         let start = self.residue;
-        // One that goes nearly round is a full circle then.
-        let full = matches!(arc.centre, Centre::Point { .. })
-            && self.sweep_of_vanishing(arc).is_some_and(|sweep| sweep > 270.0);
+        let full = self.becomes_full(arc);
         let centre = self.centre(arc, span, sink)?;
         let mut need = self.point_need(Need::new(Rank::Motion), &arc.to)?;
         for (letter, _) in centre.iter().flatten() {
@@ -480,8 +478,14 @@ impl Writer {
         Ok(number::from_nanos(target, &letter.format, unit).nanos(false).unwrap_or(target))
     }
 
+    /// Whether an arc that goes nearly round is a full circle when its ends are rounded.
+    pub(crate) fn becomes_full(&self, arc: &Arc) -> bool {
+        matches!(arc.centre, Centre::Point { .. })
+            && self.sweep_of_vanishing(arc).is_some_and(|sweep| sweep > 270.0)
+    }
+
     /// How far an arc goes round, in degrees, of which the ends become one point when they are rounded.
-    pub(crate) fn sweep_of_vanishing(&self, arc: &Arc) -> Option<f64> {
+    fn sweep_of_vanishing(&self, arc: &Arc) -> Option<f64> {
         let (first, second, _) = self.tracker.plane(arc.plane)?.axes();
         let along = |axis: Axis| Some((self.stands(axis).ok()?, self.arrives(arc, axis).ok()?));
         let [(a, b), (c, d)] = [along(first)?, along(second)?];

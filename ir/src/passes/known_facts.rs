@@ -158,14 +158,7 @@ pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
     if let Some(main) = flow.ways.first_mut() {
         main.entry = Some(Held { at: entry.clone(), ..Held::default() });
     }
-    for _ in 0..MOST_ROUNDS {
-        flow.changed = false;
-        flow.over(program);
-        if !flow.changed {
-            flow.settles = true;
-            return flow.over(program);
-        }
-    }
+    flow.until_settled(program);
 }
 
 /// What holds where stretches begin; the program stays as it is. `entry` is what holds where the program begins, and
@@ -179,16 +172,11 @@ pub(crate) fn starts(program: &Program, entry: &Tracker, path: Option<&PathContr
         let path = path.cloned().map(Box::new);
         main.entry = Some(Held { at: entry.clone(), path, ..Held::default() });
     }
-    for _ in 0..MOST_ROUNDS {
-        flow.changed = false;
-        flow.over(&mut program);
-        if !flow.changed {
-            flow.settles = true;
-            flow.over(&mut program);
-            return Some(Known { starts: flow.starts, paths: flow.paths, cycles: flow.cycles });
-        }
-    }
-    None
+    flow.until_settled(&mut program).then_some(Known {
+        starts: flow.starts,
+        paths: flow.paths,
+        cycles: flow.cycles,
+    })
 }
 
 /// What holds at a call.
@@ -212,16 +200,7 @@ pub(crate) fn at_calls(program: &Program, entry: &Tracker) -> Option<HashMap<u32
     if let Some(main) = flow.ways.first_mut() {
         main.entry = Some(Held { at: entry.clone(), ..Held::default() });
     }
-    for _ in 0..MOST_ROUNDS {
-        flow.changed = false;
-        flow.over(&mut program);
-        if !flow.changed {
-            flow.settles = true;
-            flow.over(&mut program);
-            return Some(flow.calls);
-        }
-    }
-    None
+    flow.until_settled(&mut program).then_some(flow.calls)
 }
 
 /// What holds at a place.
@@ -465,6 +444,21 @@ fn meet(state: &mut Option<Held>, other: Option<&Held>) -> bool {
 }
 
 impl Flow<'_> {
+    /// Goes over the program until nothing changes any more, and once more to take what holds then. False if it
+    /// changes still after [`MOST_ROUNDS`].
+    fn until_settled(&mut self, program: &mut Program) -> bool {
+        for _ in 0..MOST_ROUNDS {
+            self.changed = false;
+            self.over(program);
+            if !self.changed {
+                self.settles = true;
+                self.over(program);
+                return true;
+            }
+        }
+        false
+    }
+
     fn over(&mut self, program: &mut Program) {
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             self.at = at;
