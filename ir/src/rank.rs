@@ -65,6 +65,7 @@ impl Fault {
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }
             | Fault::NextRunTurned
+            | Fault::NextRunVariable { .. }
             | Fault::RoundsFreely
             | Fault::AssumedMilling { .. }
             | Fault::FeedAtUnits { .. }
