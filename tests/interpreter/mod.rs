@@ -15,7 +15,7 @@ mod hole;
 pub mod ir;
 pub mod linuxcnc;
 pub mod mach9;
-mod next_run;
+pub mod next_run;
 mod pace;
 pub mod setup;
 pub mod siemens;

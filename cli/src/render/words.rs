@@ -4,8 +4,8 @@
 //! is in `advice`, the background on the fault's page in `pages/`.
 
 use super::numbers::{millimetres, rotary_turn, signed};
-pub use super::spelled::{kept, return_path};
 use super::spelled::{character, found_words, next_run, radii_of};
+pub use super::spelled::{kept, return_path};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;

@@ -62,14 +62,16 @@ impl Verifier {
         }
         let last = self.last;
         // With another setting of the block-skip switches a program may leave something else.
-        let first_apart = |behaviours| {
+        let first_apart = |behaviours, usual: bool| {
             let told = |run: &&Run| Some((apart(run, behaviours)?, run.source.filled_at().unwrap_or(last)));
             let variable = |one: &Outliving| Some((one.apart(behaviours)?, one.at));
-            runs.iter().find_map(told).or_else(|| self.outliving.iter().find_map(variable))
+            // Of a variable that others set, it is told anyway that it must be given.
+            let of_concern = self.outliving.iter().filter(|one| usual || one.set);
+            runs.iter().find_map(told).or_else(|| of_concern.filter_map(variable).next())
         };
         let mut notes = Vec::new();
         let mut found = Vec::new();
-        if let Some((fault, at)) = first_apart(behaviours) {
+        if let Some((fault, at)) = first_apart(behaviours, true) {
             notes.push(Diagnostic::new(fault, at));
         } else {
             for (behaviour, source) in self.open_at_end() {
@@ -77,7 +79,7 @@ impl Verifier {
                     let mut other = behaviours;
                     let side = &mut other[usize::from(!source)];
                     *side = side.with(behaviour, value);
-                    let told = first_apart(other);
+                    let told = first_apart(other, false);
                     found.extend(told.map(|(_, at)| (Other::Behaviour { behaviour, source, value }, at)));
                 }
             }
