@@ -65,7 +65,7 @@ impl Fault {
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }
             | Fault::NextRunTurned
-            | Fault::NextRunVariable { .. }
+            | Fault::NextRunVariables { .. }
             | Fault::RoundsFreely
             | Fault::AssumedMilling { .. }
             | Fault::FeedAtUnits { .. }
