@@ -338,12 +338,6 @@ impl Comparison {
         b.kind == Kind::Coolant && (before || self.after_optional)
     }
 
-    /// Whether an event of the source switches coolant to what words of the target did for an optional stop already.
-    fn off_since_optional_stop(&self, a: &Event, b: &Event) -> bool {
-        let same = (a.state.flood, a.state.mist) == (b.state.flood, b.state.mist);
-        a.kind == Kind::Coolant && self.after_optional && same && !(b.state.flood || b.state.mist)
-    }
-
     /// What of spindle and coolant is passed over at an optional stop, and after it until something is cut.
     fn around_optional_stop(&self, a: &Event, b: &Event) -> u8 {
         let stops = a.kind == Kind::OptionalProgramStop || self.after_optional;
@@ -451,7 +445,7 @@ impl Comparison {
                     Some(_) if switched_by_control(a, b) => s += 1,
                     Some(_) if switched_by_control(b, a) => t += 1,
                     Some(_) if self.optional_stops && self.at_optional_stop(a, b) => t += 1,
-                    Some(_) if self.off_since_optional_stop(a, b) => s += 1,
+                    Some(_) if self.passed.off_already(a, b) => s += 1,
                     Some(_) if b.state.by_control & by_control::MOVE != 0 => {
                         // Only the target's control goes there: up, before it changes the tool.
                         self.target_at = b.end;
