@@ -13,6 +13,16 @@ use super::words::{Context, mode, plain, plain_upto};
 use crate::m_codes::may_be_stated;
 use crate::review::words::decimal;
 
+/// The option of the source's dialect that states where a point of the machine is, which the target has no word for.
+fn place_option(what: &str, from: &Dialect) -> Option<&'static str> {
+    let option = match what {
+        "a move to a position that is stored in the control" => "stored_position",
+        "a move to this point of the machine" => "further_point",
+        _ => return None,
+    };
+    from.option.iter().any(|row| row.name == option).then_some(option)
+}
+
 /// What to do. Empty where the message says it already.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     let from = at.from.id.as_str();
@@ -103,8 +113,17 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             format!("say the position: an absolute {axis} word before this block"),
             format!("or, if the tool stands somewhere when the program starts: `--start {axis}100`"),
         ],
-        Fault::CallUnknown { .. } => {
-            own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
+        Fault::CallUnknown { name } => {
+            let file = match at.from.program.called.first().is_some_and(|form| form.starts_with('O')) {
+                true => format!("O{name}"),
+                false => plain(name),
+            };
+            vec![
+                format!(
+                    "name the folder that has it as {file}: `-I FOLDER`; or put it into this file, after the end"
+                ),
+                format!("if the call has no effect on the cut, leave it out: `--call {}=drop`", plain(name)),
+            ]
         }
         Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
@@ -287,6 +306,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 "state in the profile of the source's machine that the entry is this tool's: `[[tool]]` with `number`, \
                  `name` and `length_entry`, and the same `name` in the target's; `ncc doctor` writes both"
                     .into(),
+            ]
+        }
+        Fault::CannotSay { what } if let Some(option) = place_option(what, at.from) => {
+            vec![
+                format!("if that point is the machine's zero: `--from-option {option}=zero`"),
+                "else write the move in machine coordinates, with G53".into(),
             ]
         }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {

@@ -35,6 +35,11 @@ impl Lower {
             return self.call_program(called.text(), times, code.span.to(span), span, out);
         }
         let Some(word) = words.take(program) else {
+            // Where no program is named, blocks of this one may be.
+            if let Some(block) = code.row.blocks.bytes().find_map(|letter| words.take(letter)) {
+                let count = letters.next().and_then(|letter| words.take(letter));
+                return self.local_call(code, &block, count.as_ref(), words, src, out);
+            }
             let (code_text, word) = (code.row.code.as_str().into(), char::from(program).to_string().into());
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
@@ -73,7 +78,7 @@ impl Lower {
     }
 
     fn call_program(&mut self, name: Text, times: u32, block: Span, word: Span, out: &mut Batch) {
-        if self.within_modal(block, out) {
+        if self.leaves_call_out(&name, block, out) || self.within_modal(block, out) {
             return;
         }
         if times == 0 || times > MOST_TIMES {
@@ -86,6 +91,18 @@ impl Lower {
         self.leave_motion(None, out);
         self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new(), shared })), out);
         self.lose_state(out);
+    }
+
+    /// Whether a call is left out, as the user states of the program that it names; reported once for each.
+    pub(super) fn leaves_call_out(&mut self, name: &str, at: Span, out: &mut Batch) -> bool {
+        let names = &self.settings.dialect.program.calls_left_out;
+        let Some(place) = names.iter().position(|own| own == name) else { return false };
+        let reported = self.reported.calls_left_out >> (place & 31) & 1 == 1;
+        if !reported {
+            self.reported.calls_left_out |= 1 << (place & 31);
+            out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
+        }
+        true
     }
 
     /// The end of the main program's text: what returns does not end by itself as well.

@@ -113,6 +113,8 @@ pub(super) struct Reported {
     pub(super) tool_change: bool,
     /// By which of two codes of distance the words of a return are read.
     pub(super) return_distance: bool,
+    /// Calls that are left out, a bit each.
+    pub(super) calls_left_out: u32,
     /// Rows of codes.
     codes: Vec<bool>,
     /// Address letters, a bit each.

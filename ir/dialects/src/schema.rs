@@ -178,6 +178,9 @@ pub struct ProgramRules {
     pub called: Vec<String>,
     /// The extension of files that hold a subprogram alone, without the dot, where the control knows them by it.
     pub sub_extension: Option<String>,
+    /// Programs whose calls are left out, as the user states: no key of a dictionary.
+    #[serde(skip)]
+    pub calls_left_out: Vec<String>,
     /// Who says so.
     pub source: String,
 }
