@@ -23,6 +23,10 @@ fn place_option(what: &str, from: &Dialect) -> Option<&'static str> {
     from.option.iter().any(|row| row.name == option).then_some(option)
 }
 
+/// Tolerances of arcs that are proposed: nanos of a millimetre, and millimetres as they are typed.
+const ARC_TOLERANCES: [(u64, &str); 4] =
+    [(30_000_000, "0.03"), (50_000_000, "0.05"), (100_000_000, "0.1"), (200_000_000, "0.2")];
+
 /// What to do. Empty where the message says it already.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     let from = at.from.id.as_str();
@@ -83,7 +87,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             None => own("add the centre (I, J, K)"),
         },
         Fault::ArcCentreAndRadius => own("keep the centre, or the radius"),
-        Fault::ArcEndOffCircle { allowed, .. } => {
+        Fault::ArcEndOffCircle { radii, allowed } => {
             let check = match at.from.arc.centre_absolute {
                 true => {
                     "check the centre: here it is measured from program zero, not from the start of the arc"
@@ -92,14 +96,14 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                     "check the centre: here it is measured from the start of the arc, not from program zero"
                 }
             };
-            vec![check.to_owned(), arc_tolerance(at.from, *allowed, "--from-option")]
+            vec![check.to_owned(), arc_tolerance(at.from, *radii, *allowed, "--from-option")]
         }
         Fault::RefusedCompensated { .. } | Fault::CompensatedThere { .. } => {
             own("move it before the block that switches compensation on, or behind the one that ends it")
         }
-        Fault::ArcRadiiDiffer { allowed, .. } => {
+        Fault::ArcRadiiDiffer { radii, allowed } => {
             let correct = "correct the centre so that both radii are equal";
-            vec![correct.to_owned(), arc_tolerance(at.to, *allowed, "--to-option")]
+            vec![correct.to_owned(), arc_tolerance(at.to, *radii, *allowed, "--to-option")]
         }
         Fault::ArcRadiusTooSmall => own("check the radius, the end point, and where the tool stands before"),
         Fault::NoArc => {
@@ -421,10 +425,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
 
 /// What a control accepts of the radii of an arc, and how a machine states another tolerance where its dialect has an
 /// option for that.
-fn arc_tolerance(dialect: &Dialect, allowed: i64, option: &str) -> String {
+fn arc_tolerance(dialect: &Dialect, radii: [i64; 2], allowed: i64, option: &str) -> String {
     let accepts = format!("{} accepts a difference of {} mm here", dialect.id, millimetres(allowed));
+    let off = radii[0].abs_diff(radii[1]);
+    // What rounding makes; more is another centre.
+    let next = ARC_TOLERANCES.into_iter().find(|(nanos, _)| *nanos >= off).map_or("MM", |(_, text)| text);
     match dialect.option.iter().find(|row| row.name == ARC_TOLERANCE) {
-        Some(row) => format!("{accepts}; if your machine accepts more: `{option} {}=MM`", row.name),
+        Some(row) => format!("{accepts}; if your machine accepts more: `{option} {}={next}`", row.name),
         None => accepts,
     }
 }
