@@ -157,7 +157,7 @@ impl Lower {
         if !plainly_in_range && !in_range(num) {
             // Digits that no machine resolves: posts write them where they have computed in inches.
             let rounded = num.rounded(FINEST).trimmed();
-            if num.scale > FINEST && in_range(rounded) {
+            if self.settings.dialect.block.any_digits && num.scale > FINEST && in_range(rounded) {
                 let written = format!("{}{}", char::from(word.letter), spelled(rounded)).into();
                 out.report(Fault::Rounded { word: src.text(word.span), written }, word.span);
                 return Some(Num { point: true, ..rounded });

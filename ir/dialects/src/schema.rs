@@ -232,6 +232,8 @@ pub struct BlockRules {
     pub end: String,
     /// Whether a letter without a number means zero.
     pub omitted_zero: bool,
+    /// Whether a number may have any digits behind its point: those that no control resolves are rounded, and reported.
+    pub any_digits: bool,
     /// Most G codes in a block; 0 for no limit.
     pub g_codes: u8,
     /// Most M codes in a block; 0 for no limit.
