@@ -52,7 +52,8 @@ impl fmt::Display for MCode {
     }
 }
 
-/// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`.
+/// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`; or a
+/// code that calls one, `M165=drop`.
 ///
 /// # Errors
 /// It is not of this form.
@@ -63,7 +64,9 @@ pub(crate) fn call_left_out(text: &str) -> Result<String, String> {
     let digits = |name: &str| !name.is_empty() && name.bytes().all(|b| b.is_ascii_digit());
     let number = name.strip_prefix(['O', 'o']).filter(|rest| digits(rest)).unwrap_or(name);
     let number = if digits(number) { number.trim_start_matches('0') } else { number };
-    if fits && !number.is_empty() { Ok(number.to_owned()) } else { Err(form()) }
+    let code = name.strip_prefix(['G', 'g', 'M', 'm']).is_some_and(digits);
+    let number = if code { name.to_ascii_uppercase() } else { number.to_owned() };
+    if fits && !number.is_empty() { Ok(number) } else { Err(form()) }
 }
 
 /// Puts what the user has said of M codes and calls into the dictionary of a side.

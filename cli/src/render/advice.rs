@@ -66,7 +66,14 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
         Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 
-        Fault::UnknownCode { code } if is_open(code, at.from) => vec![m_code(code)],
+        Fault::UnknownCode { code } if is_open(code, at.from) => {
+            let mut all = vec![m_code(code)];
+            // Of a control whose machine can have codes that call macros.
+            if at.from.program.macro_b {
+                all.push(format!("if it calls a macro with the words beside it: `--call {code}=drop` leaves both out"));
+            }
+            all
+        }
         Fault::NotSupported { code, .. } if is_open(code, at.from) => vec![m_code(code)],
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]

@@ -8,7 +8,7 @@ use ncc_ir::program::{Call, Op, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::{Value, Word};
+use super::block::{Block, Value, Word};
 use super::frame::Called;
 use super::lower::Lower;
 use super::sort::{Code, Words};
@@ -103,6 +103,23 @@ impl Lower {
             out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
         }
         true
+    }
+
+    /// Whether a block is left out that calls a program by a code of the machine, as the user states of the code.
+    pub(super) fn leaves_coded_call_out(&mut self, block: &Block, out: &mut Batch) -> bool {
+        let names = &self.settings.dialect.program.calls_left_out;
+        if names.is_empty() {
+            return false;
+        }
+        let named = |word: &Word, name: &str| {
+            let Value::Number(digits) = word.value else { return false };
+            let number = name.strip_prefix(char::from(word.letter)).and_then(|number| number.parse().ok());
+            matches!(word.letter, b'G' | b'M') && digits.scale == 0 && number == Some(digits.mantissa)
+        };
+        let mut words = block.words.iter();
+        let found = words.find_map(|word| Some((word, names.iter().find(|name| named(word, name))?)));
+        let found = found.map(|(word, name)| (word.span, name.clone()));
+        found.is_some_and(|(at, name)| self.leaves_call_out(&name, at, out))
     }
 
     /// The end of the main program's text: what returns does not end by itself as well.
