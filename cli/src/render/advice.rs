@@ -70,7 +70,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             let mut all = vec![m_code(code)];
             // Of a control whose machine can have codes that call macros.
             if at.from.program.macro_b {
-                all.push(format!("if it calls a macro with the words beside it: `--call {code}=drop` leaves both out"));
+                all.push(format!(
+                    "if it calls a macro with the words beside it: `--call {code}=drop` leaves both out"
+                ));
             }
             all
         }
@@ -125,10 +127,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             format!("or, if the tool stands somewhere when the program starts: `--start {axis}100`"),
         ],
         Fault::CallUnknown { name } => {
-            let file = match at.from.program.called.first().is_some_and(|form| form.starts_with('O')) {
-                true => format!("O{name}"),
-                false => plain(name),
-            };
+            let numbered = at.from.program.called.first().is_some_and(|form| form.starts_with('O'))
+                && name.bytes().all(|b| b.is_ascii_digit());
+            let file = if numbered { format!("O{name:0>4}") } else { plain(name) };
             vec![
                 format!(
                     "name the folder that has it as {file}: `-I FOLDER`; or put it into this file, after the end"
