@@ -80,6 +80,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
+        Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
+            own("write `G80` before this block: a call or a jump may lead here with a cycle active")
+        }
         Fault::NotSupported { .. } => own("write this place another way, or see to it by hand"),
         Fault::CodesExclude { .. } => {
             own("put them into blocks of their own, in the order in which they shall act")
