@@ -80,6 +80,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
+        Fault::NotSupported { name, .. } if name.starts_with("return in the main program") => vec![
+            "to run it once: delete this block, and end the program with M30".into(),
+            "if another program calls this one: delete the M30, and give it a number of its own".into(),
+        ],
         Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
             own("write `G80` before this block: a call or a jump may lead here with a cycle active")
         }
