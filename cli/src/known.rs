@@ -43,6 +43,8 @@ pub struct Known {
     units: Option<Units>,
     /// What becomes of M codes that dialects do not know.
     m_codes: Vec<MCode>,
+    /// Programs whose calls are left out.
+    calls_left_out: Vec<String>,
     /// Project files; `None` if none counts.
     projects: Option<Arc<Projects>>,
     /// Dictionaries with these put in, each with the address of the one that it was made of.
@@ -133,6 +135,16 @@ impl Known {
     /// What becomes of M codes that dialects do not know.
     pub fn m_codes(&self) -> &[MCode] {
         &self.m_codes
+    }
+
+    /// Says which programs' calls are left out.
+    pub fn leave_calls_out(&mut self, names: &[String]) {
+        self.calls_left_out = names.to_vec();
+    }
+
+    /// Programs whose calls are left out.
+    pub fn calls_left_out(&self) -> &[String] {
+        &self.calls_left_out
     }
 
     /// A dictionary with something put in, made once for each and side; it lives as long as the process.

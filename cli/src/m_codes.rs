@@ -1,4 +1,5 @@
-//! M codes of a machine that its dialect does not have: what becomes of them, as the user says with `--m-code`.
+//! M codes of a machine that its dialect does not have, and calls of programs that are not at hand: what becomes of them,
+//! as the user says with `--m-code` and `--call`.
 //!
 //! Not here: those that a machine's profile names (`ncc_machines`).
 
@@ -51,7 +52,24 @@ impl fmt::Display for MCode {
     }
 }
 
-/// Puts what the user has said of M codes into the dictionary of a side.
+/// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`; or a
+/// code that calls one, `M165=drop`.
+///
+/// # Errors
+/// It is not of this form.
+pub(crate) fn call_left_out(text: &str) -> Result<String, String> {
+    let form = || "write it as RAPORT=drop or 9810=drop".to_owned();
+    let name = text.strip_suffix("=drop").filter(|name| !name.is_empty()).ok_or_else(form)?;
+    let fits = name.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-+.".contains(&b));
+    let digits = |name: &str| !name.is_empty() && name.bytes().all(|b| b.is_ascii_digit());
+    let number = name.strip_prefix(['O', 'o']).filter(|rest| digits(rest)).unwrap_or(name);
+    let number = if digits(number) { number.trim_start_matches('0') } else { number };
+    let code = name.strip_prefix(['G', 'g', 'M', 'm']).is_some_and(digits);
+    let number = if code { name.to_ascii_uppercase() } else { number.to_owned() };
+    if fits && !number.is_empty() { Ok(number) } else { Err(form()) }
+}
+
+/// Puts what the user has said of M codes and calls into the dictionary of a side.
 ///
 /// # Errors
 /// A code that is left out or carried has a meaning in the source's dialect, or the code that is written for it has
@@ -63,7 +81,8 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     };
     let numbers: Vec<(MCode, u16)> =
         known.m_codes().iter().filter_map(|code| Some((*code, own(code)?))).collect();
-    if numbers.is_empty()
+    let calls = if side == Side::From { known.calls_left_out() } else { &[] };
+    if numbers.is_empty() && calls.is_empty()
         || side == Side::To && (settings.dialect.can.flat || settings.dialect.can.everything)
     {
         return Ok(());
@@ -73,6 +92,7 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     }
     let source = settings.dialect;
     settings.dialect = known.derived(source, side, |dialect| {
+        dialect.program.calls_left_out = calls.to_vec();
         for (code, number) in &numbers {
             let means = match code.written {
                 // A derived dictionary lives as long as the process.

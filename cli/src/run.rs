@@ -61,6 +61,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
     }
     known.state_units(cli.units.map(Units::from));
     known.state_m_codes(&cli.m_code);
+    known.leave_calls_out(&cli.call);
     if !cli.no_config {
         known.use_projects();
     }

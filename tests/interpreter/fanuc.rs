@@ -429,7 +429,7 @@ impl Control {
                 self.m.record(What::End);
                 return Ok(Next::End);
             }
-            Some(97) if self.haas => return self.local_call(&words),
+            Some(m) if self.calls_block(m.into(), &words) => return self.local_call(&words),
             Some(98) => return self.call(&words, called.as_deref(), all),
             _ if called.is_some() => return self.m.halt("a name without a call"),
             Some(99) => {

@@ -5,7 +5,7 @@
 //! its feed.
 
 use ncc_ir::arguments::reads;
-use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
+use ncc_ir::canon::{Axis, Fact, FeedMode, Motion, Plane, ReturnLevel};
 use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Target};
@@ -263,6 +263,19 @@ impl Writer {
         Ok(())
     }
 
+    /// A pitch that is said by the feed per revolution has as many digits as that.
+    fn check_pitch(&self, cycle: &Cycle) -> Result<(), Fault> {
+        let feed = cycle.feed.as_ref().map_or(self.force.feed, Expr::literal);
+        let by_feed =
+            matches!(cycle.kind, CycleKind::Tap(_)) && self.force.feed_mode == Some(FeedMode::PerRevolution);
+        match (feed.filter(|_| by_feed), self.codes.feed_word) {
+            (Some(feed), Some(letter)) if number::shape(feed, &letter.format).is_ok_and(|s| s.rounded) => {
+                Err(cannot("a pitch with so many digits"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Calls a held cycle up without a hole, before what relies on it being in force.
     pub(crate) fn call_up_now(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if !self.dialect.cycles.hole_on_definition || self.held.as_ref().is_none_or(|h| h.in_text) {
@@ -291,6 +304,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         self.make_rigid(&held, sink)?;
+        self.check_pitch(&held.cycle)?;
         let mut inserted = Inserted::default();
         let cycle = &held.cycle;
         let coords = at.into_iter().flat_map(|p| p.axes.iter().flatten());

@@ -275,7 +275,12 @@ impl Look<'_> {
         };
         let mut known = Vec::new();
         for row in words.iter().filter_map(row) {
-            for letter in row.blocks.bytes() {
+            let program = row.words.bytes().next();
+            let names_program = row.means == Some(Meaning::Call)
+                && !program.is_some_and(|letter| row.blocks.as_bytes().contains(&letter));
+            let elsewhere = names_program
+                && program.is_some_and(|letter| word(letter).is_some() || computed.contains(&letter));
+            for letter in row.blocks.bytes().filter(|_| !elsewhere) {
                 match word(letter) {
                     Some(w) => {
                         let of_callers =
@@ -295,7 +300,7 @@ impl Look<'_> {
                 self.found.calls.insert((self.scope, p.value));
                 known.push(p.start);
             }
-            if row.means == Some(Meaning::Call) && row.blocks.is_empty() {
+            if names_program {
                 let packed = 10u32.checked_pow(self.dialect.program.packed_call_digits).filter(|p| *p > 1);
                 // As the front-end takes them: the first letter names the program.
                 if let Some(p) = row.words.bytes().next().and_then(word) {
@@ -304,7 +309,8 @@ impl Look<'_> {
                     known.push(p.start);
                 }
                 for letter in [b'Q', b'H'] {
-                    if word(letter).is_some() || computed.contains(&letter) {
+                    let own = !elsewhere && row.blocks.as_bytes().contains(&letter);
+                    if !own && (word(letter).is_some() || computed.contains(&letter)) {
                         let what = format!("a call with {}: it may name a block", letter as char);
                         self.doubt(what, None);
                     }

@@ -13,6 +13,20 @@ use super::words::{Context, mode, plain, plain_upto};
 use crate::m_codes::may_be_stated;
 use crate::review::words::decimal;
 
+/// The option of the source's dialect that states where a point of the machine is, which the target has no word for.
+fn place_option(what: &str, from: &Dialect) -> Option<&'static str> {
+    let option = match what {
+        "a move to a position that is stored in the control" => "stored_position",
+        "a move to this point of the machine" => "further_point",
+        _ => return None,
+    };
+    from.option.iter().any(|row| row.name == option).then_some(option)
+}
+
+/// Tolerances of arcs that are proposed: nanos of a millimetre, and millimetres as they are typed.
+const ARC_TOLERANCES: [(u64, &str); 4] =
+    [(30_000_000, "0.03"), (50_000_000, "0.05"), (100_000_000, "0.1"), (200_000_000, "0.2")];
+
 /// What to do. Empty where the message says it already.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     let from = at.from.id.as_str();
@@ -52,10 +66,26 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
         Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 
-        Fault::UnknownCode { code } if is_open(code, at.from) => vec![m_code(code)],
+        Fault::UnknownCode { code } if is_open(code, at.from) => {
+            let mut all = vec![m_code(code)];
+            // Of a control whose machine can have codes that call macros.
+            if at.from.program.macro_b {
+                all.push(format!(
+                    "if it calls a macro with the words beside it: `--call {code}=drop` leaves both out"
+                ));
+            }
+            all
+        }
         Fault::NotSupported { code, .. } if is_open(code, at.from) => vec![m_code(code)],
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
+        }
+        Fault::NotSupported { name, .. } if name.starts_with("return in the main program") => vec![
+            "to run it once: delete this block, and end the program with M30".into(),
+            "if another program calls this one: delete the M30, and give it a number of its own".into(),
+        ],
+        Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
+            own("write `G80` before this block: a call or a jump may lead here with a cycle active")
         }
         Fault::NotSupported { .. } => own("write this place another way, or see to it by hand"),
         Fault::CodesExclude { .. } => {
@@ -73,7 +103,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             None => own("add the centre (I, J, K)"),
         },
         Fault::ArcCentreAndRadius => own("keep the centre, or the radius"),
-        Fault::ArcEndOffCircle { allowed, .. } => {
+        Fault::ArcEndOffCircle { radii, allowed } => {
             let check = match at.from.arc.centre_absolute {
                 true => {
                     "check the centre: here it is measured from program zero, not from the start of the arc"
@@ -82,14 +112,14 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                     "check the centre: here it is measured from the start of the arc, not from program zero"
                 }
             };
-            vec![check.to_owned(), arc_tolerance(at.from, *allowed, "--from-option")]
+            vec![check.to_owned(), arc_tolerance(at.from, *radii, *allowed, "--from-option")]
         }
         Fault::RefusedCompensated { .. } | Fault::CompensatedThere { .. } => {
             own("move it before the block that switches compensation on, or behind the one that ends it")
         }
-        Fault::ArcRadiiDiffer { allowed, .. } => {
+        Fault::ArcRadiiDiffer { radii, allowed } => {
             let correct = "correct the centre so that both radii are equal";
-            vec![correct.to_owned(), arc_tolerance(at.to, *allowed, "--to-option")]
+            vec![correct.to_owned(), arc_tolerance(at.to, *radii, *allowed, "--to-option")]
         }
         Fault::ArcRadiusTooSmall => own("check the radius, the end point, and where the tool stands before"),
         Fault::NoArc => {
@@ -103,8 +133,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             format!("say the position: an absolute {axis} word before this block"),
             format!("or, if the tool stands somewhere when the program starts: `--start {axis}100`"),
         ],
-        Fault::CallUnknown { .. } => {
-            own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
+        Fault::CallUnknown { name } => {
+            let numbered = at.from.program.called.first().is_some_and(|form| form.starts_with('O'))
+                && name.bytes().all(|b| b.is_ascii_digit());
+            let file = if numbered { format!("O{name:0>4}") } else { plain(name) };
+            vec![
+                format!(
+                    "name the folder that has it as {file}: `-I FOLDER`; or put it into this file, after the end"
+                ),
+                format!("if the call has no effect on the cut, leave it out: `--call {}=drop`", plain(name)),
+            ]
         }
         Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
@@ -292,6 +330,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                     .into(),
             ]
         }
+        Fault::CannotSay { what } if let Some(option) = place_option(what, at.from) => {
+            vec![
+                format!("if that point is the machine's zero: `--from-option {option}=zero`"),
+                "else write the move in machine coordinates, with G53".into(),
+            ]
+        }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
             let option = Behaviour::SpindleAtChange.option();
@@ -399,10 +443,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
 
 /// What a control accepts of the radii of an arc, and how a machine states another tolerance where its dialect has an
 /// option for that.
-fn arc_tolerance(dialect: &Dialect, allowed: i64, option: &str) -> String {
+fn arc_tolerance(dialect: &Dialect, radii: [i64; 2], allowed: i64, option: &str) -> String {
     let accepts = format!("{} accepts a difference of {} mm here", dialect.id, millimetres(allowed));
+    let off = radii[0].abs_diff(radii[1]);
+    // What rounding makes; more is another centre.
+    let next = ARC_TOLERANCES.into_iter().find(|(nanos, _)| *nanos >= off).map_or("MM", |(_, text)| text);
     match dialect.option.iter().find(|row| row.name == ARC_TOLERANCE) {
-        Some(row) => format!("{accepts}; if your machine accepts more: `{option} {}=MM`", row.name),
+        Some(row) => format!("{accepts}; if your machine accepts more: `{option} {}={next}`", row.name),
         None => accepts,
     }
 }

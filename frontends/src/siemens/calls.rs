@@ -228,6 +228,9 @@ impl Lower {
     ) {
         let written = written.to_ascii_uppercase();
         let name = &*procedure_name(&written);
+        if self.leaves_call_out(name, at, out) {
+            return;
+        }
         let times = match (before, after) {
             ([], []) => Some(1),
             ([], [item]) => times(item),
@@ -297,6 +300,16 @@ impl Lower {
         self.stand.forget();
         self.moved = None;
         self.cycled = false;
+    }
+
+    /// Whether a call is left out, as the user states of the program that it names; reported once for each.
+    fn leaves_call_out(&mut self, name: &str, at: Span, out: &mut Batch) -> bool {
+        let names = &self.settings.dialect.program.calls_left_out;
+        let Some(own) = names.iter().find(|own| own.eq_ignore_ascii_case(name)) else { return false };
+        if self.first_time(own) {
+            out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
+        }
+        true
     }
 
     /// A subprogram's position finds the motion of the last move: one that was only said is made a

@@ -378,6 +378,7 @@ impl Lower {
                 let code = Code { name: &row.name, meaning, group, feed_stays: false, feed_mode: None, span };
                 self.add_code(code, row.sure, words, src, out);
             }
+            (_, Some(_), Some(arguments)) if row.empty_brackets && arguments.is_empty() => {}
             (_, Some(refuse), _) => self.not_supported(&row.name, refuse, called.span, out),
             (_, None, Some(_)) => self.not_supported(&row.name, "arguments", called.span, out),
             (None, None, None) => {

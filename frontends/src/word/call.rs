@@ -8,7 +8,7 @@ use ncc_ir::program::{Call, Op, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::{Value, Word};
+use super::block::{Block, Value, Word};
 use super::frame::Called;
 use super::lower::Lower;
 use super::sort::{Code, Words};
@@ -35,6 +35,11 @@ impl Lower {
             return self.call_program(called.text(), times, code.span.to(span), span, out);
         }
         let Some(word) = words.take(program) else {
+            // Where no program is named, blocks of this one may be.
+            if let Some(block) = code.row.blocks.bytes().find_map(|letter| words.take(letter)) {
+                let count = letters.next().and_then(|letter| words.take(letter));
+                return self.local_call(code, &block, count.as_ref(), words, src, out);
+            }
             let (code_text, word) = (code.row.code.as_str().into(), char::from(program).to_string().into());
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
@@ -73,7 +78,7 @@ impl Lower {
     }
 
     fn call_program(&mut self, name: Text, times: u32, block: Span, word: Span, out: &mut Batch) {
-        if self.within_modal(block, out) {
+        if self.leaves_call_out(&name, block, out) || self.within_modal(block, out) {
             return;
         }
         if times == 0 || times > MOST_TIMES {
@@ -86,6 +91,35 @@ impl Lower {
         self.leave_motion(None, out);
         self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new(), shared })), out);
         self.lose_state(out);
+    }
+
+    /// Whether a call is left out, as the user states of the program that it names; reported once for each.
+    pub(super) fn leaves_call_out(&mut self, name: &str, at: Span, out: &mut Batch) -> bool {
+        let names = &self.settings.dialect.program.calls_left_out;
+        let Some(place) = names.iter().position(|own| own == name) else { return false };
+        let reported = self.reported.calls_left_out >> (place & 31) & 1 == 1;
+        if !reported {
+            self.reported.calls_left_out |= 1 << (place & 31);
+            out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
+        }
+        true
+    }
+
+    /// Whether a block is left out that calls a program by a code of the machine, as the user states of the code.
+    pub(super) fn leaves_coded_call_out(&mut self, block: &Block, out: &mut Batch) -> bool {
+        let names = &self.settings.dialect.program.calls_left_out;
+        if names.is_empty() {
+            return false;
+        }
+        let named = |word: &Word, name: &str| {
+            let Value::Number(digits) = word.value else { return false };
+            let number = name.strip_prefix(char::from(word.letter)).and_then(|number| number.parse().ok());
+            matches!(word.letter, b'G' | b'M') && digits.scale == 0 && number == Some(digits.mantissa)
+        };
+        let mut words = block.words.iter();
+        let found = words.find_map(|word| Some((word, names.iter().find(|name| named(word, name))?)));
+        let found = found.map(|(word, name)| (word.span, name.clone()));
+        found.is_some_and(|(at, name)| self.leaves_call_out(&name, at, out))
     }
 
     /// The end of the main program's text: what returns does not end by itself as well.

@@ -5,7 +5,9 @@
 //!
 //! Not here: which expressions there are (`formula`), and what they are worth.
 
-use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Operator, Quantity, RemainderRule};
+use std::collections::BTreeSet;
+
+use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Dialect, Operator, Quantity, RemainderRule};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
@@ -41,6 +43,10 @@ pub(super) struct Computes {
     pub(super) jumps: bool,
     /// Whether there were such blocks before that was known.
     unnamed: bool,
+    /// Numbers of blocks that the text names; `None` if one is named by what is computed.
+    named: Option<BTreeSet<u32>>,
+    /// Numbers of blocks that were read as no jump's.
+    passed: BTreeSet<u32>,
     loops: Vec<Open>,
     /// How many arguments programs are called with, by their names.
     called: Vec<(Text, usize)>,
@@ -77,6 +83,43 @@ struct Open {
 fn has_jumps(text: &[u8]) -> bool {
     let has = |word: &[u8]| text.windows(word.len()).any(|part| part.eq_ignore_ascii_case(word));
     has(b"GOTO") || has(b"]GO") || has(b"] GO")
+}
+
+/// Adds the numbers of blocks that a text may name to those known: what stands behind a jump, and in words that name blocks
+/// beside some code. `None` if one is computed.
+fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32>) -> Option<BTreeSet<u32>> {
+    let letters: BTreeSet<u8> = dialect.code.iter().flat_map(|row| row.blocks.bytes()).collect();
+    let number = dialect.block.number.map_or(0, |c| c as u8);
+    let blanks = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_whitespace()).count();
+    for line in text.split(|b| *b == b'\n') {
+        let calls = line.iter().any(|b| b.eq_ignore_ascii_case(&b'M'));
+        for at in 0..line.len() {
+            let rest = &line[at..];
+            let jump = rest.get(..2).is_some_and(|word| word.eq_ignore_ascii_case(b"GO"));
+            let long = rest.get(2..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TO"));
+            let word = letters.contains(&rest[0].to_ascii_uppercase());
+            let behind = match (jump, long) {
+                (true, true) => &rest[4..],
+                (true, false) => &rest[2..],
+                (false, _) if word => &rest[1..],
+                (false, _) => continue,
+            };
+            let behind = &behind[blanks(behind)..];
+            let named = behind.first().filter(|b| jump && b.eq_ignore_ascii_case(&number));
+            let behind = if named.is_some() { &behind[1 + blanks(&behind[1..])..] } else { behind };
+            let digits = behind.iter().take_while(|b| b.is_ascii_digit()).count();
+            match behind.first() {
+                Some(b'#' | b'[') if jump || calls => return None,
+                Some(_) if digits > 0 => {
+                    let number =
+                        std::str::from_utf8(&behind[..digits]).ok().and_then(|text| text.parse().ok());
+                    all.extend::<Option<u32>>(number);
+                }
+                Some(_) | None => {}
+            }
+        }
+    }
+    Some(all)
 }
 
 /// The name by which jumps know the block of a number.
@@ -121,9 +164,13 @@ impl Lower {
             && (has_jumps(text) || has_returns_to(text, dialect) || has_local_calls(text, dialect))
         {
             self.computes.jumps = true;
+            self.computes.named = Some(BTreeSet::new());
             self.found_variables(out);
             out.whole = true;
             self.refresh();
+        }
+        if self.computes.jumps {
+            self.computes.named = self.computes.named.take().and_then(|all| named_blocks(text, dialect, all));
         }
         let number = self.settings.dialect.block.number.map_or(0, |c| c as u8);
         if !self.computes.jumps {
@@ -166,6 +213,11 @@ impl Lower {
     /// A block with a number that jumps may name.
     pub(super) fn jumped_to(&mut self, block: &Block, out: &mut Batch) {
         let Some(number) = self.now.number.filter(|_| self.computes.jumps) else { return };
+        // Control comes to it from the block before alone.
+        if self.computes.named.as_ref().is_some_and(|named| !named.contains(&number)) {
+            self.computes.passed.insert(number);
+            return;
+        }
         self.lose(block.span, out);
         let calls = self.calls_in_force();
         self.computes.reach.labels.push((number, calls));
@@ -236,7 +288,8 @@ impl Lower {
 
     /// A jump to the block of a number, or of one that is computed; `false` if there can be none (reported).
     pub(super) fn jumps_from(&mut self, code: &str, to: Option<u32>, span: Span, out: &mut Batch) -> bool {
-        if self.computes.unnamed {
+        let passed = &self.computes.passed;
+        if self.computes.unnamed || to.map_or(!passed.is_empty(), |to| passed.contains(&to)) {
             let name = "jump in a text whose first part has numbered blocks, and is long".into();
             self.fault(Fault::NotSupported { code: code.into(), name }, span, out);
             return false;

@@ -181,6 +181,11 @@ impl Lower {
                 let name = "storing where the axes stand in a block with axis words".into();
                 return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
             }
+            // What is stated of it holds for the whole program.
+            Meaning::StorePosition(_) if self.settings.get("stored_position") == "zero" => {
+                let name = "storing a position that is stated to be the machine's zero".into();
+                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            }
             Meaning::StorePosition(place) => Data::Position(place),
             _ => {
                 let letter = code.row.words.bytes().next().unwrap_or(b'Q');

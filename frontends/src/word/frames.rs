@@ -13,6 +13,7 @@ use ncc_ir::program::{Coord, FrameSlot, Op, Point, Slot};
 use ncc_ir::source::Span;
 
 use super::Source;
+use super::block::Value;
 use super::facts::{InForce, Kept};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
@@ -59,7 +60,13 @@ impl Lower {
             self.check_shut(code, out);
         }
         let by_mode = !matches!(code.meaning, Meaning::SetScale | Meaning::ClearMirror);
-        if by_mode && self.state.distance.value() == Some(Distance::Incremental) {
+        // Zeros take the shift back, however other words count.
+        let takes_back = code.meaning == Meaning::SetShift(false)
+            && Axis::ALL
+                .into_iter()
+                .filter_map(|axis| words.get(axis.letter()))
+                .all(|word| matches!(word.value, Value::Number(digits) if digits.mantissa == 0));
+        if by_mode && !takes_back && self.state.distance.value() == Some(Distance::Incremental) {
             return self.no_frame(code, "under incremental coordinates", out);
         }
         if matches!(self.state.cycle, InForce::Active(_)) {

@@ -1,10 +1,10 @@
 //! Calls of blocks of the program itself (96-8000, M97: a subroutine referenced by a line number within the same program,
-//! ended by M99; L how often): they become subprograms, which have their caller's variables.
+//! ended by M99; L how often; `M98 Q` without P of a 30i): they become subprograms, which have their caller's variables.
 //!
 //! They are cut out when the text has been read. Refused by name: blocks that the program also runs into or jumps into,
 //! or out of; such a call in a subprogram, or beside jumps whose number is computed.
 
-use ncc_dialects::{Dialect, Meaning, Quantity};
+use ncc_dialects::{CodeRow, Dialect, Meaning, Quantity};
 use ncc_ir::call_of::so_often;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
@@ -37,9 +37,19 @@ pub(super) fn has_local_calls(text: &[u8], dialect: &Dialect) -> bool {
         let code = row.code.as_bytes();
         memchr::memmem::find_iter(text, &code[1..]).any(|at| {
             let begins = at > 0 && text[at - 1].eq_ignore_ascii_case(&code[0]);
-            begins && text.get(at + code.len() - 1).is_none_or(|b| !b.is_ascii_digit())
+            let rest = &text[at + code.len() - 1..];
+            // A code that names a program too calls a block only where the block is named alone.
+            let named =
+                names_program(row).then(|| rest.trim_ascii_start().first().map(u8::to_ascii_uppercase));
+            let calls = named.is_none_or(|next| next.is_some_and(|b| row.blocks.as_bytes().contains(&b)));
+            begins && calls && rest.first().is_none_or(|b| !b.is_ascii_digit())
         })
     })
+}
+
+/// Whether the first letter of a code's words names a program.
+fn names_program(row: &CodeRow) -> bool {
+    row.words.bytes().next().is_some_and(|letter| !row.blocks.as_bytes().contains(&letter))
 }
 
 impl Lower {

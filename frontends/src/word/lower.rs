@@ -113,6 +113,8 @@ pub(super) struct Reported {
     pub(super) tool_change: bool,
     /// By which of two codes of distance the words of a return are read.
     pub(super) return_distance: bool,
+    /// Calls that are left out, a bit each.
+    pub(super) calls_left_out: u32,
     /// Rows of codes.
     codes: Vec<bool>,
     /// Address letters, a bit each.
@@ -270,10 +272,16 @@ impl Lower {
         codes.clear();
         let mut words = Words { all: &block.words, exprs: &block.exprs, at: [0; 26], left: 0 };
         // A block that is none by its form is not asked for its meaning.
-        let called = self.macro_code(block).filter(|_| !self.now.refused);
-        let by_words =
-            if called.is_none() && !self.now.refused { self.by_words(block, src, out) } else { None };
-        if let Some(code) = &called {
+        let left_out = !self.now.refused && self.leaves_coded_call_out(block, out);
+        let called = self.macro_code(block).filter(|_| !self.now.refused && !left_out);
+        let by_words = if called.is_none() && !self.now.refused && !left_out {
+            self.by_words(block, src, out)
+        } else {
+            None
+        };
+        if left_out {
+            // All its words are arguments.
+        } else if let Some(code) = &called {
             self.macro_call(code, block, src, out);
         } else if let Some(code) = &by_words {
             self.words_call(code, block, src, out);
@@ -282,7 +290,7 @@ impl Lower {
             self.check_tail(block, &codes, out);
             self.refused_under_compensation(&codes, out);
         }
-        if called.is_some() || by_words.is_some() {
+        if called.is_some() || by_words.is_some() || left_out {
             // It is all that its block says.
         } else if !self.now.refused {
             self.jumped_to(block, out);

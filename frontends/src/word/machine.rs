@@ -162,6 +162,13 @@ impl Lower {
             let name = "reference point that is not the machine's zero".into();
             return self.fault(Fault::NotSupported { code: code_text(), name }, code.span, out);
         }
+        // A point whose place is stated is that place, which every control has words for.
+        let stated = match point {
+            ReferencePoint::Stored(_) => self.settings.get("stored_position"),
+            ReferencePoint::Further(_) => self.settings.get("further_point"),
+            ReferencePoint::Home | ReferencePoint::Fixed(_) => "",
+        };
+        let point = if stated == "zero" { ReferencePoint::Home } else { point };
         // From where it stands, an axis goes nowhere first.
         for word in &mut via.axes {
             let stays = |w: &Coord| {

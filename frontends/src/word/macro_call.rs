@@ -176,6 +176,9 @@ impl Lower {
         }
         self.jumped_to(block, out);
         let name: Box<str> = name.to_string().into();
+        if self.leaves_call_out(&name, block.span, out) {
+            return;
+        }
         out.whole = true;
         self.computes.calls(&name, arguments.len());
         let call = Call { name, times, arguments, shared: false };

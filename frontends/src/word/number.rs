@@ -40,6 +40,18 @@ fn centre_open() -> Fault {
     Fault::NotSupported { code: "I J K".into(), name }
 }
 
+/// Digits behind the point that are kept of a length which may be in inches: a millionth of a micrometre is finer than
+/// any control computes.
+const FINEST: u8 = 8;
+
+/// A number in digits.
+fn spelled(num: Num) -> String {
+    let digits = format!("{:0>width$}", num.mantissa.unsigned_abs(), width = usize::from(num.scale) + 1);
+    let (whole, rest) = digits.split_at(digits.len() - usize::from(num.scale));
+    let sign = if num.mantissa < 0 { "-" } else { "" };
+    format!("{sign}{whole}.{rest}")
+}
+
 impl Lower {
     /// Whether a point behind a whole number of this word is read; told, the first time.
     fn point_read(&mut self, word: &Word, src: Source, out: &mut Batch) -> bool {
@@ -141,7 +153,15 @@ impl Lower {
             }
         }
         let plainly_in_range = num.mantissa.unsigned_abs() < 10_000_000 && num.scale <= 8;
-        if !plainly_in_range && (num.nanos(false).is_none() || num.nanos(true).is_none()) {
+        let in_range = |num: Num| num.nanos(false).is_some() && num.nanos(true).is_some();
+        if !plainly_in_range && !in_range(num) {
+            // Digits that no machine resolves: posts write them where they have computed in inches.
+            let rounded = num.rounded(FINEST).trimmed();
+            if self.settings.dialect.block.any_digits && num.scale > FINEST && in_range(rounded) {
+                let written = format!("{}{}", char::from(word.letter), spelled(rounded)).into();
+                out.report(Fault::Rounded { word: src.text(word.span), written }, word.span);
+                return Some(Num { point: true, ..rounded });
+            }
             return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
         }
         Some(num)

@@ -218,6 +218,9 @@ impl Lower {
         out: &mut Batch,
     ) {
         let mut name: Text = label.into();
+        if self.leaves_call_out(&name, span, out) {
+            return;
+        }
         if let Index::Computed(formula) = &decision.label {
             let mut number = formula.expr.clone();
             self.parameters(&mut number, span, out);

@@ -125,13 +125,18 @@ impl Lower {
             match word.letter {
                 b'G' | b'M' => {
                     let m = usize::from(word.letter == b'M');
+                    let known = codes.len();
+                    self.code(at, word, codes, src, out);
+                    // The machine knows what is left out, and how many codes it takes with it.
+                    if codes.get(known).is_some_and(|code| code.meaning == Meaning::LeftOut) {
+                        continue;
+                    }
                     counts[m] = counts[m].saturating_add(1);
                     let limit = if m == 1 { dialect.block.m_codes } else { dialect.block.g_codes };
                     if limit != 0 && counts[m] == limit + 1 {
                         let letter = char::from(word.letter);
                         self.fault(Fault::TooManyCodes { letter, limit }, word.span, out);
                     }
-                    self.code(at, word, codes, src, out);
                 }
                 b'a'..=b'z' => self.comma_word(word, src, out),
                 b'@' | b'^' => self.polar_sign(word, out),

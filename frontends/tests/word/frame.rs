@@ -50,8 +50,11 @@ fn names_and_titles() {
 fn frame_marks() {
     assert_eq!(stmts(&read("fanuc", "% LEADER\nM30\n%\n")), ["ProgramEnd"]);
     assert_eq!(errors("fanuc", "%\nM30\n%\n\nREST 1\nMORE\n"), ["TextAfterEnd at 'REST 1'"]);
-    // All before the first mark is a leader, which the control ignores.
-    assert_eq!(errors("fanuc", "M30\n%\n"), ["OpeningMarkMissing { mark: '%' } at '%'"]);
+    // A mark behind the end needs none before the program; one in the middle of it does.
+    assert_eq!(errors("fanuc", "M30\n%\n"), Vec::<String>::new());
+    assert_eq!(errors("haas", "O1\nM30\n%\n"), Vec::<String>::new());
+    assert_eq!(errors("fanuc", "M30\n%\nG0 X1\n"), ["TextAfterEnd at 'G0 X1'"]);
+    assert!(errors("fanuc", "G21\n%\nM30\n").contains(&"OpeningMarkMissing { mark: '%' } at '%'".to_owned()));
     assert_eq!(errors("fanuc", "(NOTE)\n%\nM30\n%\n"), Vec::<String>::new());
     assert_eq!(errors("mach9", "%\nM2\n"), ["UnexpectedCharacter { found: '%' } at '%'"]);
 }

@@ -53,7 +53,7 @@ pub struct CodeRow {
     pub turns: String,
     /// Letters whose numbers name blocks: of the program that it stands in, and in a return of the one
     /// that has called it, unless returns go on within their own (`returns_within`). In a call they are what is called,
-    /// up to its return. They may be words of a code that is refused.
+    /// up to its return; of a call that names a program, where it names none. They may be words of a code that is refused.
     #[serde(default)]
     pub blocks: String,
     /// Whether the code is one of other machines than the dictionary is about, so that a text which has

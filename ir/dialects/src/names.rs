@@ -35,6 +35,10 @@ pub struct NameRow {
     /// Its modal group, shared with the codes; empty for one-shots and addresses.
     #[serde(default)]
     pub group: String,
+    /// Whether empty brackets behind a word that is refused say nothing: they go back to the basic setting, which is
+    /// in force wherever nothing else has been said.
+    #[serde(default)]
+    pub empty_brackets: bool,
     /// Whether arguments belong to a word without an effect, which go with it as they are written.
     #[serde(default)]
     pub arguments: bool,

@@ -178,6 +178,9 @@ pub struct ProgramRules {
     pub called: Vec<String>,
     /// The extension of files that hold a subprogram alone, without the dot, where the control knows them by it.
     pub sub_extension: Option<String>,
+    /// Programs whose calls are left out, as the user states: no key of a dictionary.
+    #[serde(skip)]
+    pub calls_left_out: Vec<String>,
     /// Who says so.
     pub source: String,
 }
@@ -229,6 +232,8 @@ pub struct BlockRules {
     pub end: String,
     /// Whether a letter without a number means zero.
     pub omitted_zero: bool,
+    /// Whether a number may have any digits behind its point: those that no control resolves are rounded, and reported.
+    pub any_digits: bool,
     /// Most G codes in a block; 0 for no limit.
     pub g_codes: u8,
     /// Most M codes in a block; 0 for no limit.

@@ -110,13 +110,19 @@ impl Control {
         Ok(Next::Block)
     }
 
-    /// M97: P is a block of the same program, L the count.
+    /// A Haas M97: P is a block of the same program; a Fanuc's M98 without P: Q is. L is the count.
     pub(super) fn local_call(&mut self, words: &[Word]) -> Result<Next, Halt> {
         let count = number(words, 'L').map_or(1, |(l, _)| l as u32);
-        match number(words, 'P') {
-            Some((p, _)) => Ok(Next::Local(p as u32, count)),
+        match number(words, if self.haas { 'P' } else { 'Q' }) {
+            Some((block, _)) => Ok(Next::Local(block as u32, count)),
             None => self.m.halt("M97 without P"),
         }
+    }
+
+    /// Whether a code calls a block.
+    pub(super) fn calls_block(&self, code: i64, words: &[Word]) -> bool {
+        let program_unnamed = number(words, 'P').is_none() && number(words, 'Q').is_some();
+        if self.haas { code == 97 } else { code == 98 && program_unnamed }
     }
 
     /// Runs the blocks that it names, from the one with the number to a return.
