@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Dialects with a folder in the corpus.
-pub const DIALECTS: [&str; 7] = ["mach9", "fanuc", "haas", "siemens", "linuxcnc", "canon", "ir"];
+pub const DIALECTS: [&str; 8] = ["mach9", "fanuc", "haas", "siemens", "linuxcnc", "grbl", "canon", "ir"];
 
 /// A program of the corpus.
 #[derive(Clone, Debug)]

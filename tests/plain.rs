@@ -157,6 +157,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
         length: Box::new(move |entry| match entry {
+            _ if lengths.zeroed_by_tool => 0.0,
             // Of the tool that was there at the start, on a control whose tools have lengths.
             u32::MAX => mm(lengths.edge_length(-1, 1)),
             entry => mm(lengths.tool_length(entry)),
@@ -165,7 +166,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         wear: Box::new(move |entry| mm(wears.length_wear(entry))),
         edge_length: Box::new(move |tool, edge| {
             let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
-            mm(edges.edge_length(tool.map_or(-1, own), edge))
+            mm(if edges.zeroed_by_tool { 0 } else { edges.edge_length(tool.map_or(-1, own), edge) })
         }),
         named_tool: Box::new(move |name| {
             let tool = ncc_ir::exec::named_tool(name);
@@ -691,6 +692,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "ir" => interpreter::ir::run(text, setup),
         "siemens" => interpreter::siemens::run(text, setup),
         "linuxcnc" => interpreter::linuxcnc::run(text, setup),
+        "grbl" => interpreter::grbl::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

@@ -1,9 +1,8 @@
 //! A second interpreter: what a program of each dialect makes the machine do.
 //!
-//! It is here to be compared with the compiler, so it shares nothing with it: no dictionary, no
-//! number type, no geometry. It was written from the reference notes alone, reads text line by
-//! line, keeps its state in plain `f64`, and is slow and simple. Where the notes leave a question
-//! open it stops with an error and does not choose.
+//! It is here to be compared with the compiler, so it shares nothing with it: no dictionary, no number type, no
+//! geometry. It was written from the reference notes alone, reads text line by line, keeps its state in plain `f64`, and
+//! is slow and simple. Where the notes leave a question open it stops with an error and does not choose.
 //!
 //! Not here: speed, good messages, anything beyond the scope of the corpus.
 
@@ -11,6 +10,7 @@ mod beside;
 pub mod canon;
 mod corner;
 pub mod fanuc;
+pub mod grbl;
 mod hole;
 pub mod ir;
 pub mod linuxcnc;

@@ -26,7 +26,7 @@ impl Machine {
             ("fanuc" | "haas", true) => {
                 Slots { origin: self.slots.origin, aside: self.slots.aside, ..Slots::default() }
             }
-            ("linuxcnc" | "mach9", true) => Slots {
+            ("linuxcnc" | "mach9" | "grbl", true) => Slots {
                 origin: self.slots.origin,
                 aside: self.slots.aside,
                 local: self.slots.local,

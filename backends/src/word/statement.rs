@@ -140,6 +140,7 @@ impl Writer {
                 let letter = codes.tool;
                 self.number_word(Rank::Tool, letter, tool, "a tool number", span, sink)
             }
+            Op::ChangeTool if self.dialect.can.change_by_hand => self.change_by_hand(span, sink),
             Op::ChangeTool => self.m_code(Rank::ToolChange, codes.change_tool, "a tool change", sink),
             Op::UseToolLengthOffset(entry) => self.length_offset(entry, span, sink),
             Op::StartSpindleClockwise => {
@@ -443,7 +444,8 @@ impl Writer {
     fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let none = entry.literal().is_some_and(|n| n.is_zero());
         if let (true, Some(code)) = (none, self.codes.no_length) {
-            self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
+            let rank = if self.dialect.can.length_alone { Rank::Alone } else { Rank::Offset };
+            self.admit(&Need::new(rank).code(Some(code)), sink)?;
             self.block.code(Part::Mode, &code);
             return Ok(());
         }

@@ -87,10 +87,12 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
         return Guess::Sure(dialect, Evidence::list(&evidence.speaks_for), Vec::new());
     }
     found.retain(|(_, evidence)| !evidence.speaks_for.is_empty());
-    // Where a dialect explains all that one that builds on it explains, it is the plainer reading.
+    // Where a dialect explains all that one that builds on it explains, it is the plainer reading; one that is part of
+    // another leaves the text to that.
     let fits: Vec<(&str, usize)> = found.iter().map(|(d, e)| (d.id.as_str(), e.against.len())).collect();
     let plainer = |d: &Dialect, e: &Evidence| {
-        d.base.as_ref().is_some_and(|base| fits.iter().any(|(id, n)| id == base && *n <= e.against.len()))
+        let fits = |other: &String| fits.iter().any(|(id, n)| id == other && *n <= e.against.len());
+        [&d.base, &d.part_of].into_iter().flatten().any(fits)
     };
     let (others, rest) = found.into_iter().partition(|(dialect, evidence)| plainer(dialect, evidence));
     let (built_on, mut found): (Vec<(&'static Dialect, Evidence)>, Vec<_>) = (others, rest);
@@ -105,7 +107,7 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     match found.first() {
         Some((dialect, evidence)) if clear => {
             let as_well = |(other, own): &&(&'static Dialect, Evidence)| {
-                other.base.as_ref() == Some(&dialect.id)
+                [&other.base, &other.part_of].into_iter().flatten().any(|near| *near == dialect.id)
                     && own.against.len() - usize::from(own.digits) <= evidence.against.len()
             };
             let rivals = built_on.iter().filter(as_well).map(|(other, _)| *other).collect();
@@ -180,6 +182,9 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             }
             Some(_) | None => {}
         }
+    }
+    if code.trim_ascii_start().starts_with(b"/") && dialect.block.skip_levels == 0 {
+        evidence.con(number, "`/` skips no block".to_owned());
     }
     if is_o_word(&code) {
         match dialect.program.o_words {

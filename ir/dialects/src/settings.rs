@@ -54,6 +54,12 @@ pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 /// Value of that option: the block's axes move first.
 pub const AFTER_MOTION: &str = "after-motion";
 
+/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused.
+pub const TOOL_CHANGE: &str = "tool_change";
+
+/// Value of [`TOOL_CHANGE`]: a block of its own that stops the program.
+pub const BY_HAND: &str = "manual";
+
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 
