@@ -27,9 +27,6 @@ use crate::project::Projects;
 /// A dictionary that was made of the one at an address, for one side.
 type Derived = (usize, Side, &'static Dialect);
 
-/// A dictionary that was made of the one at an address, for one side.
-type Derived = (usize, Side, &'static Dialect);
-
 /// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Known {

@@ -289,7 +289,7 @@ impl Writer {
             return Err(cannot("an arc with a third axis"));
         }
         let start = self.residue;
-let full = self.becomes_full(arc);
+        let full = self.becomes_full(arc);
         let arc = &*self.with_end(arc)?;
         let centre = self.centre(arc, span, sink)?;
         let mut need = self.point_need(Need::new(Rank::Motion), &arc.to)?;
