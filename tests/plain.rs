@@ -18,6 +18,7 @@ use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
 use crate::besides::{Unsaid, cuts, switched};
+pub use crate::corners::Corners;
 use crate::interpreter::setup::Counted;
 use crate::interpreter::{
     self, Beside, ByItself, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What,
@@ -118,28 +119,6 @@ pub fn says_arcs(dialect: &str) -> bool {
     matches!(dialect, "siemens" | "ir")
 }
 
-/// What of corners two dialects both have words for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // The names are the meaning.
-pub enum Corners {
-    All,
-    /// Going through one is said as a stop.
-    StopOrRounded,
-    Nothing,
-}
-
-impl Corners {
-    /// Of two dialects.
-    pub fn between(a: &str, b: &str) -> Corners {
-        match [a, b] {
-            // Its corners are always rounded, and it has no words for it.
-            pair if pair.contains(&"mach9") => Corners::Nothing,
-            pair if pair.iter().any(|d| matches!(*d, "fanuc" | "haas" | "siemens")) => Corners::StopOrRounded,
-            _ => Corners::All,
-        }
-    }
-}
-
 impl Tolerance {
     /// Both computed from the same numbers.
     pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6, corners: Corners::All, arcs: true };
@@ -151,8 +130,9 @@ impl Tolerance {
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
     let (points, stored, counts, radii) = (world.clone(), world.clone(), world.clone(), world.clone());
+    let by_hand = world.clone();
     let named = Rc::new(RefCell::new(BTreeMap::new()));
-    let known = named.clone();
+    let (known, called) = (named.clone(), named.clone());
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
@@ -167,6 +147,10 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         edge_length: Box::new(move |tool, edge| {
             let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
             mm(if edges.zeroed_by_tool { 0 } else { edges.edge_length(tool.map_or(-1, own), edge) })
+        }),
+        put_in: Box::new(move |tool| {
+            let own = called.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
+            mm(if by_hand.zeroed_by_tool { by_hand.edge_length(own, 1) } else { 0 })
         }),
         named_tool: Box::new(move |name| {
             let tool = ncc_ir::exec::named_tool(name);

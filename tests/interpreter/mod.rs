@@ -8,6 +8,7 @@
 
 mod beside;
 pub mod canon;
+mod change;
 mod corner;
 pub mod fanuc;
 pub mod grbl;
@@ -203,6 +204,8 @@ pub struct Machine {
     pub setup: Setup,
     /// What the program has put into its tables.
     stored: Stored,
+    /// How far up the operator has moved the zero of Z by the tool that was put in.
+    zero_moved: f64,
     /// Where it stands, machine coordinates.
     pub at: Place,
     /// Where the probe touched last, as the program counted then.
@@ -283,6 +286,7 @@ impl Machine {
             touched_above: None,
             setup,
             stored,
+            zero_moved: 0.0,
             turn: slots.turn(),
             slot_shift: slots.shift(),
             slots,
@@ -652,28 +656,6 @@ impl Machine {
             self.coolant = (false, false);
             self.by_itself.coolant = true;
         }
-    }
-
-    /// The tool change of a Haas: spindle and coolant off, Z to machine zero, then the change (reference guide, M06).
-    pub fn change_up_there(&mut self) -> Result<(), Halt> {
-        self.switch_off();
-        let mut up = self.at;
-        up[2] = 0.0;
-        (self.by_itself.z, self.by_itself.moves) = (true, true);
-        self.traverse(up);
-        self.by_itself.moves = false;
-        self.change_tool()
-    }
-
-    /// The tool change.
-    pub fn change_tool(&mut self) -> Result<(), Halt> {
-        if self.beside.is_some() {
-            return self.halt("a tool change under cutter radius compensation");
-        }
-        let Some(tool) = self.selected else { return self.halt("a tool change and no tool selected") };
-        self.tool = Some(tool);
-        self.record(What::Tool(tool));
-        Ok(())
     }
 }
 

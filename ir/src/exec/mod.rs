@@ -346,7 +346,8 @@ impl Exec {
     /// Computes the frame anew; the machine stays at `here`.
     fn reframe(&mut self, here: [Nanos; AXES]) {
         self.frame = self.world.work_offset(self.modes.work_offset);
-        for (zero, external) in self.frame.iter_mut().zip(self.world.external) {
+        let external = self.external();
+        for (zero, external) in self.frame.iter_mut().zip(external) {
             *zero = zero.wrapping_add(external);
         }
         let turn = self.world.work_turn(self.modes.work_offset);
