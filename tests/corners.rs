@@ -16,7 +16,9 @@ impl Corners {
         match [a, b] {
             // Its corners are always rounded, and it has no words for it.
             pair if pair.contains(&"mach9") || pair.contains(&"grbl") => Corners::Nothing,
-            pair if pair.iter().any(|d| matches!(*d, "fanuc" | "haas" | "siemens")) => Corners::StopOrRounded,
+            pair if pair.iter().any(|d| matches!(*d, "fanuc" | "haas" | "siemens" | "mach3")) => {
+                Corners::StopOrRounded
+            }
             _ => Corners::All,
         }
     }

@@ -220,7 +220,7 @@ fn by_name(tool: i64) -> u32 {
 /// of a dialect's control where a cycle is written out, and holes are left to the level with which it starts.
 pub fn of_dialect(world: World, dialect: &str) -> World {
     let linuxcnc = dialect == "linuxcnc";
-    let by = if linuxcnc { ONE / 1000 * 254 } else { ONE };
+    let by = if linuxcnc || dialect == "mach3" { ONE / 1000 * 254 } else { ONE };
     let level = if linuxcnc { ReturnLevel::Retract } else { ReturnLevel::Initial };
     let power_on = Modes { return_level: Some(level), ..world.power_on };
     behaving(&World { peck_clearance: by, break_lift: by, power_on, ..world }, dialect)
@@ -677,6 +677,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "siemens" => interpreter::siemens::run(text, setup),
         "linuxcnc" => interpreter::linuxcnc::run(text, setup),
         "grbl" => interpreter::grbl::run(text, setup),
+        "mach3" => interpreter::mach3::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

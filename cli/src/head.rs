@@ -123,6 +123,11 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::NextRunTurned => {
             "no rotation, scale or mirror at the start, though the program leaves one".to_owned()
         }
+        Fault::NextRunVariable { name, source, target } => {
+            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
+            let [source, target] = [*source, *target].map(words::kept);
+            format!("the variable {name} is kept {source} on {from}, {target} on {to}")
+        }
         Fault::RoundsFreely => "corners rounded without a tolerance".to_owned(),
         Fault::FeedOnArcs { contour_in_source, .. } => {
             let [to, from] = dialects.map(|dialect| dialect.id.as_str());

@@ -10,6 +10,7 @@ mod worlds;
 
 pub(crate) use facts::stops_differ;
 use facts::{Other, done_by_target, looked_at, tries_facts};
+use twice::Outliving;
 use with_facts::MOST_WITH_FACT;
 pub(crate) use worlds::worlds_of;
 
@@ -114,6 +115,8 @@ pub(crate) struct Verifier {
     fineness: Fineness,
     /// Last place of the source that was executed, for differences without an event.
     last: Span,
+    /// Variables that the source reads before it sets them, where both sides compute.
+    outliving: Vec<Outliving>,
     /// What was not executed, or with values that were made up.
     notes: Vec<Diagnostic>,
 }
@@ -269,6 +272,7 @@ impl Verifier {
             near: job.to.caps().computes.is_some_and(|computes| computes.near),
             functions: job.to.caps().computes.map(|computes| computes.functions).unwrap_or_default(),
             last: Span::default(),
+            outliving: Vec::new(),
             notes: Vec::new(),
         }
     }

@@ -8,6 +8,8 @@
 //!
 //! Not here: which control has which value (the dictionaries), and what is executed (`exec`).
 
+use crate::expr::Var;
+
 /// How much an open fact matters to somebody at the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Concern {
@@ -109,6 +111,21 @@ behaviours! {
     /// A tool length that is called up or cancelled in a block without a word of its axis: the next word is measured
     /// with it, or the axis moves by the difference at once. At a place of the machine no length counts.
     LengthWithoutAxis = "length-without-axis", "tool length in a block without Z", ["waits", "moves"], Machine;
+    /// Common variables at M02 and M30: the next program finds in them what this one has left, or nothing.
+    VariablesAtEnd = "variables-at-end", "common variables at the program end", ["kept", "vacant"], AtEnd;
+    /// The same when the control is switched off. Retentive variables are kept by their name.
+    VariablesWhenOff = "variables-when-off", "common variables when the control is switched off", ["kept", "lost"], AtEnd;
+}
+
+/// How long a control keeps what a program leaves in a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kept {
+    /// Until the program ends.
+    UntilEnd,
+    /// Until the control is switched off.
+    UntilOff,
+    /// For ever.
+    Always,
 }
 
 /// Number of behaviours.
@@ -197,6 +214,17 @@ impl Behaviours {
             others => others >> value & 1 == 1,
         };
         (0..behaviour.values().len() as u8).filter(move |value| *value != usual && can(*value))
+    }
+
+    /// How long a variable is kept.
+    pub fn keeps(&self, var: &Var) -> Kept {
+        match var {
+            Var::Local(_) | Var::System(_) => Kept::UntilEnd,
+            Var::Retentive(_) => Kept::Always,
+            Var::Common(_) if self.does(Behaviour::VariablesAtEnd) => Kept::UntilEnd,
+            Var::Common(_) if self.does(Behaviour::VariablesWhenOff) => Kept::UntilOff,
+            Var::Common(_) => Kept::Always,
+        }
     }
 
     /// The same with another value of one behaviour.

@@ -3,7 +3,7 @@
 //! A [`Fault`] carries data, no prose: the words, labels and advice are rendered by the command
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
-use crate::behaviour::Behaviour;
+use crate::behaviour::{Behaviour, Kept};
 use crate::beside::Unreachable;
 use crate::canon::Axis;
 use crate::maps::Numbered;
@@ -329,6 +329,9 @@ faults! {
     NextRunShifted { axis: Axis, source: i64, target: i64 } = 327, verdict(Verdict::Assumed);
     /// The same of a rotation, a scale or a mirror.
     NextRunTurned = 328, verdict(Verdict::Assumed);
+    /// The program reads a variable before it sets it, and one control keeps its value longer than the other: for how long
+    /// each does.
+    NextRunVariable { name: Box<str>, source: Kept, target: Kept } = 343, verdict(Verdict::Assumed);
     /// Plain rounding of corners has no bound on the target's control, and one on the source's.
     RoundsFreely = 329, verdict(Verdict::Assumed);
     /// An arc under cutter compensation on which F counts otherwise in the output: whether it counts along the contour in the
@@ -340,7 +343,7 @@ faults! {
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
     /// A tool's length left out for a control whose tools are changed by hand: the operator sets the zero of Z by it.
-    LengthByHand { tool: u32 } = 343, verdict(Verdict::Assumed);
+    LengthByHand { tool: u32 } = 345, verdict(Verdict::Assumed);
     /// The program looks like something else than a milling program, and the user says that it is one; in
     /// which line the sign stands that decides.
     AssumedMilling { looks_like: Box<str>, line: u64 } = 350, verdict(Verdict::Assumed);

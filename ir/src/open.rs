@@ -14,6 +14,18 @@ use crate::system::System;
 
 /// Local variables of the main procedure, and those that all procedures see, each with the first place that reads it.
 pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
+    looked_through(program).open
+}
+
+/// Of the [`open_variables`], those that all procedures see, which outlive a run of the program; each with the first
+/// place that reads it, and whether the program sets it too, so that its next run finds what this one has left.
+pub fn outliving_variables(program: &Program) -> Vec<(Var, Span, bool)> {
+    let Look { open, set, .. } = looked_through(program);
+    let outliving = open.into_iter().filter(|(var, _)| !matches!(var, Var::Local(_)));
+    outliving.map(|(var, at)| (var.clone(), at, set.contains(&var))).collect()
+}
+
+fn looked_through(program: &Program) -> Look {
     let mut look = Look::default();
     // What a call gives is set before it is read.
     let parameters = program.procedures.iter().flat_map(|procedure| &procedure.parameters);
@@ -22,7 +34,7 @@ pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
         look.main = at == 0;
         look.body(&procedure.body);
     }
-    look.open
+    look
 }
 
 /// What a program asks that a machine's set-up answers ([`System::is_of_the_machine`]), each with the first place that

@@ -66,6 +66,7 @@ impl Fault {
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }
             | Fault::NextRunTurned
+            | Fault::NextRunVariable { .. }
             | Fault::RoundsFreely
             | Fault::AssumedMilling { .. }
             | Fault::FeedAtUnits { .. }

@@ -34,23 +34,22 @@ pub fn run_haas(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
 
 fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
     let programs = programs(&characters(text));
-    let modes = setup.power_on;
     let mut control = Control {
-        m: Machine::new(setup),
-        motion: modes.motion,
+        motion: setup.power_on.motion,
         cycle: None,
         kept: Kept::default(),
         by_point: [None; 6],
         initial: 0.0,
         initial_known: false,
-        return_initial: modes.return_initial,
+        return_initial: setup.power_on.return_initial,
         depth: 0,
         on: None,
         rigid: false,
         polar: None,
         radius: None,
         lead: None,
-        variables: Variables::of(haas),
+        variables: Variables::found(haas, &setup.left),
+        m: Machine::new(setup),
         steps: 0,
         haas,
         modal: None,
@@ -65,6 +64,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
     if !control.program(main, &programs)? {
         control.m.record(What::TextEnd);
     }
+    control.m.stored.variables = control.variables.left();
     control.m.with_corners()
 }
 

@@ -25,8 +25,8 @@ const DEEPEST: u32 = 10;
 pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     let programs = programs(&characters(text));
     let modes = setup.power_on;
+    let m = Machine::new(setup);
     let mut control = Control {
-        m: Machine::new(setup),
         motion: None,
         absolute_centre: false,
         shift_numbers: None,
@@ -34,13 +34,15 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         initial: None,
         kept: Kept::default(),
         depth: 0,
-        parameters: Parameters::default(),
+        parameters: Parameters::found(&m.stored.variables),
         repeats: Vec::new(),
+        m,
     };
     let main = programs.first().map_or(&[][..], |p| &p.lines[..]);
     if !matches!(control.program(main, &programs)?, Next::End) {
         control.m.record(What::TextEnd);
     }
+    control.m.stored.variables = control.parameters.shared;
     Ok(control.m)
 }
 

@@ -34,7 +34,6 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     (m.tool, m.feeds.arcs) = (modes.tool, ArcFeed::Contour);
     let mut control = Control {
         units: &units,
-        m,
         motion: None,
         frame: Frame::NONE,
         suppressed: false,
@@ -49,14 +48,16 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         angle: None,
         floating: false,
         depth: 0,
-        variables: Variables::default(),
+        variables: Variables::found(&m.stored.variables),
         bounds: BTreeMap::new(),
         steps: 0,
+        m,
     };
     let Some(main) = units.iter().find(|unit| unit.main) else { return control.m.halt("no main program") };
     if control.blocks(main, 0, main.blocks.len())? != Next::End {
         control.m.record(What::TextEnd);
     }
+    control.m.stored.variables = control.variables.r;
     control.m.with_corners()
 }
 

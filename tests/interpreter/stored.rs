@@ -19,6 +19,8 @@ pub(super) struct Stored {
     /// Radii that the program has put into the table; `None` is what nobody knows any more.
     radii: BTreeMap<u32, Option<f64>>,
     aside: [f64; 2],
+    /// Values of variables with a number that all programs share, as far as they are known.
+    pub(super) variables: BTreeMap<u32, f64>,
 }
 
 impl Stored {
@@ -29,7 +31,8 @@ impl Stored {
 
     /// Whether a program has put anything into the tables.
     pub(super) fn holds(&self) -> bool {
-        !(self.zeros.is_empty() && self.turns.is_empty() && self.lengths.is_empty() && self.radii.is_empty())
+        let tables = self.zeros.len() + self.turns.len() + self.lengths.len() + self.radii.len();
+        tables + self.variables.len() != 0
     }
 
     /// What an entry puts a tool aside; none where no program has said so.

@@ -8,6 +8,7 @@ use ncc_ir::world::World;
 use ncc_tests::besides;
 use ncc_tests::corpus::Program;
 use ncc_tests::expect::Failures;
+use ncc_tests::interpreter::next_run::Left;
 use ncc_tests::interpreter::{Machine, Setup};
 use ncc_tests::plain::{self, Plain, Tolerance};
 use ncc_tests::translate::{job, translate};
@@ -125,6 +126,68 @@ fn the_next_run_is_the_same_or_told() {
             (None | Some(323), Err(fault)) => failures.add(&what, format!("{fault}\n{written}")),
             (Some(327), Ok(_)) => failures.add(&what, "the runs are alike".to_owned()),
             _ => {}
+        }
+    }
+    failures.finish();
+}
+
+/// From, to, blocks behind the head, the variable that they read first, and its value then.
+const COUNTERS: &[(&str, &str, &str, u32, f64)] = &[
+    ("fanuc", "haas", "#500=#500+1. / G01 X[#500*2.] F100.", 500, 3.0),
+    ("fanuc", "siemens", "#500=#500+1. / G01 X#500 F100.", 500, 3.0),
+    ("fanuc", "linuxcnc", "#500=#500+1. / G01 X#500 F100.", 500, 3.0),
+    ("fanuc", "linuxcnc", "IF[#110GT5.]GOTO 20 / G01 X#110 F100. / N20 #110=#110+4.", 110, 3.0),
+    ("haas", "fanuc", "WHILE[#501LT6.]DO1 / G01 X#501 F100. / #501=#501+1. / END1 / #501=1.", 501, 4.0),
+    ("siemens", "fanuc", "R101=R101+1 / G1 X=R101 F100", 101, 3.0),
+    ("siemens", "linuxcnc", "IF R101>3 GOTOF DONE / G1 X=R101 F100 / DONE: R101=R101+1", 101, 3.0),
+    ("linuxcnc", "haas", "#150=[#150+1] / G1 X#150 F100", 150, 3.0),
+];
+
+/// A program that goes on from what its last run has left in a variable: three runs of the second interpreter, one
+/// after the other, move alike, and not as the first.
+#[test]
+fn counters_go_on_alike() {
+    let mut failures = Failures::default();
+    for (from, to, blocks, number, value) in COUNTERS {
+        let head = if *from == "siemens" { HEAD_S } else { HEAD };
+        let end = if *from == "linuxcnc" { " / M5 / M2" } else { " / M30" };
+        let number_of = if matches!(*from, "fanuc" | "haas") { "O1 / " } else { "" };
+        let source = format!("{number_of}{head}{blocks}{end}\n").replace(" / ", "\n");
+        let what = format!("{from} to {to}: {blocks}");
+        let (outcome, text) = translate(&job(from, to, "part.nc"), source.as_bytes());
+        if outcome.release.is_err() {
+            failures.add(&what, "not translated".to_owned());
+            continue;
+        }
+        let world = plain::of_dialect(plain::world(1), from);
+        let mut runs = Vec::new();
+        for (dialect, text) in [(*from, source.as_bytes()), (to, &text)] {
+            let mut left = Left::variable(*number, *value);
+            for _ in 0..3 {
+                let setup = Setup { left, ..plain::setup(&world, 0) };
+                match plain::second(dialect, text, setup) {
+                    Ok(done) => {
+                        left = done.left(dialect);
+                        let start = world.start.map(|n| n as f64 / 1e9);
+                        runs.push(besides::without_way_up(plain::of_machine(&done, start)));
+                    }
+                    Err(fault) => {
+                        failures.add(&what, format!("{dialect}: {fault}\n{}", String::from_utf8_lossy(text)));
+                        break;
+                    }
+                }
+            }
+        }
+        let [a1, a2, a3, b1, b2, b3] = &runs[..] else { continue };
+        for (source, output) in [(a1, b1), (a2, b2), (a3, b3)] {
+            if let Err(fault) = plain::compare(source, output, Tolerance::ROUNDED) {
+                failures.add(&what, fault);
+            }
+        }
+        if plain::compare(a1, a2, Tolerance::ROUNDED).is_ok()
+            && plain::compare(a2, a3, Tolerance::ROUNDED).is_ok()
+        {
+            failures.add(&what, "all runs are alike".to_owned());
         }
     }
     failures.finish();

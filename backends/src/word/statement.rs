@@ -1,6 +1,6 @@
 //! One statement: which words say it, and where they stand in the block.
 
-use ncc_dialects::{COMPUTED_DWELL, Meaning};
+use ncc_dialects::{COMPUTED_DWELL, DWELL_UNIT, Meaning};
 use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
@@ -487,6 +487,7 @@ impl Writer {
 
     fn dwell(&mut self, seconds: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let (code, dwell) = self.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        self.rely(DWELL_UNIT, span, sink);
         // What is computed is rounded as its own word does it.
         let computed = milliseconds(seconds).is_some() && !dwell.milliseconds;
         let other = self.codes.dwells.iter().find(|word| computed && word.milliseconds);

@@ -40,6 +40,10 @@ struct Evidence {
     codes: bool,
     /// Whether a block with words was met.
     begun: bool,
+    /// Whether the end of the program was met.
+    ended: bool,
+    /// Whether a line of `%` was met.
+    marked: bool,
     /// Whether the program's number has other digits than the control writes: a custom alone.
     digits: bool,
     speaks_for: BTreeMap<String, usize>,
@@ -161,7 +165,13 @@ fn canon_line(number: usize, line: &[u8], evidence: &mut Evidence) {
 fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, evidence: &mut Evidence) {
     let frame = dialect.program.frame.as_bytes();
     if line == b"%" {
+        let alone = evidence.begun && !std::mem::replace(&mut evidence.marked, true);
         match frame == line {
+            false if dialect.program.ignored == "%" => {}
+            // Such a control reads from there, if the program has no end of its own.
+            true if alone && dialect.program.mark_behind_end && !evidence.ended => {
+                evidence.con(number, "`%` behind the program alone".to_owned());
+            }
             true => evidence.pro(number, "`%` before and after the program".to_owned()),
             false => evidence.con(number, "`%` is not written".to_owned()),
         }
@@ -288,7 +298,8 @@ fn word_of(
                 evidence.con(line, format!("`{word}` is for other machines"));
             }
             Some(Some(Meaning::UseLengthUnits(_))) => evidence.pro(line, format!("`{word}` says the unit")),
-            Some(Some(_)) => {
+            Some(Some(meaning)) => {
+                evidence.ended |= meaning == Meaning::ProgramEnd;
                 if !std::mem::replace(&mut evidence.codes, true) {
                     evidence.pro(line, format!("`{word}` is one of its codes"));
                 }

@@ -60,11 +60,23 @@ pub(super) fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -
         speed: DIGITS,
     };
     let mut comparison = Comparison::new(resolution, [0; AXES]);
+    if let Some(turned) = rounded_aside(listing) {
+        comparison.measure(turned);
+    }
     comparison.see(Seen { modes: 0, in_rapids: false, merges: false, path: false, advice: 0 });
     comparison.advance(&mut source, &mut read, true).map_err(|found| {
         let at = found.source.as_ref().map_or(last, |event| event.span);
         differs(difference::describe(&found), at)
     })
+}
+
+/// How far rounding moves a place along the machine's axes, in nanos, where an offset is turned: half a unit of the last
+/// digit along each of the turned axes, so at most its square root of two times along one of the machine's.
+fn rounded_aside(listing: &str) -> Option<Nanos> {
+    let turned = |line: &str| line.starts_with("SET_XY_ROTATION(") && line != "SET_XY_ROTATION(0.0000)";
+    let half = ONE / Nanos::pow(10, u32::from(DIGITS)) / 2;
+    let half = if listing.contains("CANON_UNITS_INCHES") { half * 254 / 10 } else { half };
+    listing.lines().any(turned).then_some(half * 1_415 / 1_000)
 }
 
 /// The events of a program on a control with its machine's table of tools and no other, from zero.

@@ -163,6 +163,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NextRunShifted { .. } | Fault::NextRunTurned => {
             own("cancel it in the source before its end, or state it at its start")
         }
+        Fault::NextRunVariable { .. } => {
+            own("set the variable before the program reads it, or at the start of each shift by hand")
+        }
         Fault::RoundsFreely => own(
             "state how far corners lie from the path on the source's machine, `--from-option path_tolerance=0.02`, or program a tolerance",
         ),

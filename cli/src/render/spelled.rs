@@ -1,5 +1,7 @@
 //! Pieces of messages that are spelled from values: characters, what was found, radii, the path of a return.
 
+use ncc_ir::behaviour::{Behaviour, Kept};
+
 use super::numbers::millimetres;
 use super::words::{plain, plain_upto, quoted};
 
@@ -34,5 +36,22 @@ pub fn return_path(words: &str, zero: bool, absolute: bool) -> String {
         (true, _) => format!("by way of {words} of the part"),
         (false, true) => "from where it stands".to_owned(),
         (false, false) => format!("by {words} from where it stands"),
+    }
+}
+
+/// What begins otherwise in the next run, where an open fact of the program's end decides it.
+pub(super) fn next_run(behaviour: Behaviour) -> &'static str {
+    match behaviour {
+        Behaviour::VariablesAtEnd | Behaviour::VariablesWhenOff => "the next run reads other values",
+        _ => "the next run begins in another place",
+    }
+}
+
+/// How long a variable is kept.
+pub fn kept(kept: Kept) -> &'static str {
+    match kept {
+        Kept::UntilEnd => "until the program ends",
+        Kept::UntilOff => "until it is switched off",
+        Kept::Always => "for ever",
     }
 }

@@ -4,8 +4,8 @@
 //! is in `advice`, the background on the fault's page in `pages/`.
 
 use super::numbers::{millimetres, rotary_turn, signed};
-pub use super::spelled::return_path;
-use super::spelled::{character, found_words, radii_of};
+use super::spelled::{character, found_words, next_run, radii_of};
+pub use super::spelled::{kept, return_path};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
@@ -218,7 +218,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::OpenBehaviour { behaviour, source, other, .. } => {
             let cut = match behaviour.concern() {
-                Concern::AtEnd => "the next run begins in another place",
+                Concern::AtEnd => next_run(*behaviour),
                 Concern::Machine | Concern::Nothing => "another cut",
             };
             let control = if *source { from } else { to };
@@ -243,6 +243,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::NextRunTurned => (
             "check at the machine: the next run begins in another frame".into(),
             "one control keeps a rotation, scale or mirror at the end of the program, the other does not".into(),
+        ),
+        Fault::NextRunVariable { name, source, target } => (
+            format!("check at the machine: the next run reads another value of the variable {name}"),
+            format!("{from} keeps it {}, {to} {}", kept(*source), kept(*target)),
         ),
         Fault::FeedAtUnits { before, now } => (
             match before == now {

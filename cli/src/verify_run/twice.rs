@@ -3,10 +3,15 @@
 //! What a program leaves in force at its end, and relies on before it says it itself, makes another program of its next
 //! run. The executor knows both (`ncc_ir::exec`, `left`), so that the second run is not executed.
 
-use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
+use ncc_ir::behaviour::{Behaviour, Behaviours, Concern, Kept};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::Again;
+use ncc_ir::expr::Var;
+use ncc_ir::open::outliving_variables;
+use ncc_ir::passes::variables::Renamed;
+use ncc_ir::program::Program;
+use ncc_ir::source::Span;
 
 use super::facts::Other;
 use super::{Run, Verifier};
@@ -14,22 +19,59 @@ use super::{Run, Verifier};
 /// How far apart two starts count as one, nanos: what rounding to the digits of a control and turning leave.
 const NEAR: u64 = 1_000_000;
 
+/// A variable that the source reads before it sets it, and that outlives its run.
+#[derive(Debug)]
+pub(crate) struct Outliving {
+    /// What each side calls it.
+    sides: [Var; 2],
+    /// The first place that reads it.
+    at: Span,
+    /// Whether the program sets it too: then its next run reads what this one has left.
+    set: bool,
+}
+
+/// The variables of a program that outlive its run, with what the output calls them.
+pub(super) fn outliving(source: &Program, renamed: &Renamed) -> Vec<Outliving> {
+    let of = |(var, at, set): (Var, Span, bool)| {
+        let there = renamed.target(&var).clone();
+        Outliving { sides: [var, there], at, set }
+    };
+    outliving_variables(source).into_iter().map(of).collect()
+}
+
+impl Outliving {
+    /// Whether one control keeps it longer than the other. What comes from elsewhere must be kept by the target as long
+    /// as by the source; what the program leaves itself, no longer either.
+    fn apart(&self, [from, to]: [Behaviours; 2]) -> Option<Fault> {
+        let [source, target] = [from.keeps(&self.sides[0]), to.keeps(&self.sides[1])];
+        let apart = if self.set { source != target } else { source == Kept::Always && target < source };
+        let name = self.sides[0].name();
+        apart.then(|| Fault::NextRunVariable { name: name.into(), source, target })
+    }
+}
+
 impl Verifier {
     /// Tells where the next run of source and output would not begin alike, once both have ended.
     pub(super) fn compare_next_runs(&mut self) {
+        let Some(first) = self.runs.first() else { return };
+        let behaviours = [*first.source.behaviours(), *first.target.behaviours()];
         let leaves = |run: &&Run| run.source.leaves_slots() || run.target.leaves_slots();
         let runs: Vec<&Run> = self.runs.iter().filter(leaves).collect();
-        let Some(first) = runs.first() else { return };
-        let behaviours = [*first.source.behaviours(), *first.target.behaviours()];
+        if runs.is_empty() && self.outliving.is_empty() {
+            return;
+        }
         let last = self.last;
         // With another setting of the block-skip switches a program may leave something else.
-        let first_apart = |behaviours| {
+        let first_apart = |behaviours, usual: bool| {
             let told = |run: &&Run| Some((apart(run, behaviours)?, run.source.filled_at().unwrap_or(last)));
-            runs.iter().find_map(told)
+            let variable = |one: &Outliving| Some((one.apart(behaviours)?, one.at));
+            // Of a variable that others set, it is told anyway that it must be given.
+            let of_concern = self.outliving.iter().filter(|one| usual || one.set);
+            runs.iter().find_map(told).or_else(|| of_concern.filter_map(variable).next())
         };
         let mut notes = Vec::new();
         let mut found = Vec::new();
-        if let Some((fault, at)) = first_apart(behaviours) {
+        if let Some((fault, at)) = first_apart(behaviours, true) {
             notes.push(Diagnostic::new(fault, at));
         } else {
             for (behaviour, source) in self.open_at_end() {
@@ -37,7 +79,7 @@ impl Verifier {
                     let mut other = behaviours;
                     let side = &mut other[usize::from(!source)];
                     *side = side.with(behaviour, value);
-                    let told = first_apart(other);
+                    let told = first_apart(other, false);
                     found.extend(told.map(|(_, at)| (Other::Behaviour { behaviour, source, value }, at)));
                 }
             }

@@ -21,6 +21,7 @@ use crate::given::Given as Stated;
 
 use super::facts::{Other, tries_facts};
 use super::forks::{Forks, Shown};
+use super::twice::outliving;
 use super::{Run, Stop, Verifier, different, levels, unreadable};
 
 /// Events that are made on each side before they are compared.
@@ -297,6 +298,7 @@ impl Verifier {
             given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
         }
         if computes {
+            self.outliving = outliving(source, &given.renamed);
             given.near = self.near && !compares_nearly(source);
             let there = self.there(given);
             given.other_readings = READINGS.map(|taken| otherwise(source, taken, there, u32::MAX));

@@ -10,6 +10,7 @@ mod diff;
 mod files;
 mod fmt;
 mod given;
+mod linuxcnc_cases;
 mod machines;
 mod messages;
 mod milling;

@@ -3,7 +3,7 @@
 //!
 //! Moves, cycles and calls have files of their own.
 
-use ncc_dialects::{CHANGE_IN_BLOCK, Meaning, Quantity};
+use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, Meaning, Quantity};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -387,6 +387,7 @@ impl Lower {
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
+                self.option(DWELL_UNIT, code.span, out);
                 match self.amount(&word, quantity, words, src, out) {
                     Some(value) => Op::Dwell(value),
                     None => return,

@@ -10,7 +10,7 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::Value;
+use super::block::{Value, Word};
 use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
@@ -318,7 +318,10 @@ impl Lower {
         for (place, letter) in self.roles.centre.into_iter().enumerate() {
             // The word along the normal is left, and blamed as one that nothing uses.
             if matches!(plane, Fact::Known(p) if p.axes().2 as usize == place) {
-                if rules.centre_outside_ignored {
+                let zero = |word: Word| matches!(word.value, Value::Number(n) if n.mantissa == 0);
+                if rules.centre_outside_ignored
+                    || rules.centre_outside_zero && words.get(letter).is_some_and(zero)
+                {
                     words.take(letter);
                 }
                 continue;

@@ -149,6 +149,8 @@ pub struct ProgramRules {
     pub zero_unnumbered: bool,
     /// Whether a mark behind the end of a program counts for nothing where none stands before it.
     pub mark_behind_end: bool,
+    /// A line that counts for nothing wherever it stands, such as `%`; empty for none. It is not written.
+    pub ignored: String,
     /// Whether a call writes the number with the least digits as well, because it is a name.
     pub padded_calls: bool,
     /// Least digits of a written program number.
@@ -417,6 +419,8 @@ pub struct ArcRules {
     pub end_needed: bool,
     /// Whether a word of the centre along the third axis is passed over; else it is refused as one without use.
     pub centre_outside_ignored: bool,
+    /// The same of such a word that is zero (`K0` in the XY plane).
+    pub centre_outside_zero: bool,
     /// Letter of the number of turns, the first one, full or not, counted.
     pub turns: Option<char>,
     /// Whether a centre from program zero needs both its words; else one that is missing is zero.

@@ -332,7 +332,8 @@ impl SideEffects {
             if *state == Switch::Off {
                 continue;
             }
-            let source_stops = self.source.surely(behaviour);
+            // Where the source's control leaves it open, its usual value counts.
+            let source_stops = self.source.does(behaviour);
             // Where Z goes home in words, the spindle stops in words before that.
             let target_stops = self.target.surely(behaviour) && !(both == CHANGE && self.goes_home());
             let state = if at == 0 { &mut self.spindle } else { &mut self.coolant };

@@ -44,6 +44,11 @@ impl Renamed {
         self.pairs.iter().find(|(_, new)| new == target).map(|(old, _)| old)
     }
 
+    /// What the target calls one of the source's variables.
+    pub fn target<'v>(&'v self, source: &'v Var) -> &'v Var {
+        self.pairs.iter().find(|(old, _)| old == source).map_or(source, |(_, new)| new)
+    }
+
     /// Whether what the target reads and has not set is something, never nothing.
     pub fn filled(&self) -> bool {
         self.filled

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use formula::{Formula, Worth};
 
+use super::super::next_run::Left;
 use super::super::{Halt, What};
 use super::programs::{Program, TEXT};
 use super::{Control, Next, Word};
@@ -56,9 +57,15 @@ impl Default for Variables {
 }
 
 impl Variables {
-    /// Those of a Haas, or of a Fanuc.
-    pub(super) fn of(haas: bool) -> Variables {
-        Variables { haas, ..Variables::default() }
+    /// Those that a program finds on a Haas, or on a Fanuc.
+    pub(super) fn found(haas: bool, left: &Left) -> Variables {
+        let shared = left.stored.variables.iter().map(|(number, value)| (*number, Some(*value))).collect();
+        Variables { haas, shared, ..Variables::default() }
+    }
+
+    /// What it leaves in those that all programs share.
+    pub(super) fn left(&self) -> BTreeMap<u32, f64> {
+        self.shared.iter().filter_map(|(number, value)| Some((*number, (*value)?))).collect()
     }
 
     fn read(&self, number: u32) -> Result<Option<f64>, String> {

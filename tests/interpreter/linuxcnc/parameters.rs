@@ -19,14 +19,15 @@ pub(super) struct Level {
 #[derive(Clone, Debug)]
 pub(super) struct Parameters {
     pub(super) levels: Vec<Level>,
-    shared: BTreeMap<u32, f64>,
+    pub(super) shared: BTreeMap<u32, f64>,
     pub(super) global: BTreeMap<String, f64>,
 }
 
-impl Default for Parameters {
-    fn default() -> Parameters {
+impl Parameters {
+    /// Those that a program finds.
+    pub(super) fn found(shared: &BTreeMap<u32, f64>) -> Parameters {
         let global = BTreeMap::from([("_VALUE".to_owned(), 0.0), ("_VALUE_RETURNED".to_owned(), 0.0)]);
-        Parameters { levels: vec![Level::default()], shared: BTreeMap::new(), global }
+        Parameters { levels: vec![Level::default()], shared: shared.clone(), global }
     }
 }
 

@@ -74,16 +74,10 @@ pub(super) struct Known {
 /// All variables.
 #[derive(Clone, Debug)]
 pub(super) struct Variables {
-    r: BTreeMap<u32, f64>,
+    pub(super) r: BTreeMap<u32, f64>,
     /// Of each program that is open, the innermost last.
     own: Vec<BTreeMap<String, Variable>>,
     pub(super) known: Known,
-}
-
-impl Default for Variables {
-    fn default() -> Variables {
-        Variables { r: BTreeMap::new(), own: vec![BTreeMap::new()], known: Known::default() }
-    }
 }
 
 /// A fraction of one half and more goes up.
@@ -105,7 +99,18 @@ fn kept(kind: Option<Kind>, value: &Worth) -> Result<Worth, String> {
     })
 }
 
+impl Default for Variables {
+    fn default() -> Variables {
+        Variables { r: BTreeMap::new(), own: vec![BTreeMap::new()], known: Known::default() }
+    }
+}
+
 impl Variables {
+    /// Those that a program finds.
+    pub(super) fn found(r: &BTreeMap<u32, f64>) -> Variables {
+        Variables { r: r.clone(), ..Variables::default() }
+    }
+
     pub(super) fn has(&self, name: &str) -> bool {
         self.innermost().contains_key(name)
     }

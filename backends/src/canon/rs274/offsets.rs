@@ -64,7 +64,7 @@ impl Printer<'_> {
         let offsets = self.exec.stated_entry(entry).ok_or_else(unknown)?;
         let [x, y, z] = offsets.map(|nanos| nanos as f64 / ONE as f64 / 25.4);
         let rest = "0.0000 0.0000 0.0000 0.0000 0.0000 0.0000";
-        let first = self.tables.radii.keys().next() == Some(&entry);
+        let first = self.tables.lengths.keys().chain(self.tables.radii.keys()).min() == Some(&entry);
         let loaded = match self.at.tool {
             Some(tool) => tool == i64::from(entry),
             None => first,
