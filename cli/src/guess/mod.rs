@@ -225,6 +225,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
     }
     let mut at = 0;
     let mut alone = 0;
+    let (mut centre, mut arc) = (0u8, true);
     while at < code.len() {
         let letter = code[at].to_ascii_uppercase();
         let from = at;
@@ -252,10 +253,20 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             evidence.con(number, format!("words behind `{}`", word.trim()));
         }
         word_of(dialect, number, letter, value, &word, from == 0, evidence);
+        match letter {
+            b'I'..=b'K' if digits > 0 => centre |= 1 << (letter - b'I'),
+            b'G' => arc &= tenths(value).is_some_and(|code| code <= 30),
+            _ => {}
+        }
         if calls_a_macro(dialect, letter, value) {
             // Any letter is an argument.
             return;
         }
+    }
+    // An arc has two centre words in every plane; few controls pass over a third.
+    let rules = &dialect.arc;
+    if centre == 0b111 && arc && !(rules.centre_outside_zero || rules.centre_outside_ignored) {
+        evidence.con(number, "`I`, `J` and `K` in one arc".to_owned());
     }
 }
 
