@@ -123,10 +123,10 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::NextRunTurned => {
             "no rotation, scale or mirror at the start, though the program leaves one".to_owned()
         }
-        Fault::NextRunVariable { name, source, target } => {
+        Fault::NextRunVariables { names, source, target } => {
             let [to, from] = dialects.map(|dialect| dialect.id.as_str());
             let [source, target] = [*source, *target].map(words::kept);
-            format!("the variable {name} is kept {source} on {from}, {target} on {to}")
+            format!("{} kept {source} on {from}, {target} on {to}", words::variables(names))
         }
         Fault::RoundsFreely => "corners rounded without a tolerance".to_owned(),
         Fault::FeedOnArcs { contour_in_source, .. } => {

@@ -329,9 +329,9 @@ faults! {
     NextRunShifted { axis: Axis, source: i64, target: i64 } = 327, verdict(Verdict::Assumed);
     /// The same of a rotation, a scale or a mirror.
     NextRunTurned = 328, verdict(Verdict::Assumed);
-    /// The program reads a variable before it sets it, and one control keeps its value longer than the other: for how long
-    /// each does.
-    NextRunVariable { name: Box<str>, source: Kept, target: Kept } = 343, verdict(Verdict::Assumed);
+    /// The program reads variables before it sets them, and one control keeps their values longer than the other: for how
+    /// long each does.
+    NextRunVariables { names: Box<[Box<str>]>, source: Kept, target: Kept } = 343, verdict(Verdict::Assumed);
     /// Plain rounding of corners has no bound on the target's control, and one on the source's.
     RoundsFreely = 329, verdict(Verdict::Assumed);
     /// An arc under cutter compensation on which F counts otherwise in the output: whether it counts along the contour in the

@@ -66,7 +66,7 @@ impl Fault {
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }
             | Fault::NextRunTurned
-            | Fault::NextRunVariable { .. }
+            | Fault::NextRunVariables { .. }
             | Fault::RoundsFreely
             | Fault::AssumedMilling { .. }
             | Fault::FeedAtUnits { .. }

@@ -445,6 +445,7 @@ impl Comparison {
                     Some(_) if switched_by_control(a, b) => s += 1,
                     Some(_) if switched_by_control(b, a) => t += 1,
                     Some(_) if self.optional_stops && self.at_optional_stop(a, b) => t += 1,
+                    Some(_) if self.passed.off_already(a, b) => s += 1,
                     Some(_) if b.state.by_control & by_control::MOVE != 0 => {
                         // Only the target's control goes there: up, before it changes the tool.
                         self.target_at = b.end;

@@ -128,7 +128,8 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         // Tables count in the control's own unit.
-        if self.words.tracker.modes.units == Some(Units::Inch) || self.inches {
+        let units = self.words.tracker.modes.units.or(self.words.assumed.units);
+        if units == Some(Units::Inch) || self.inches {
             return Err(cannot("values of tables where lengths do not count in millimetres"));
         }
         if let Expr::Node(_) = value {

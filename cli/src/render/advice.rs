@@ -163,7 +163,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NextRunShifted { .. } | Fault::NextRunTurned => {
             own("cancel it in the source before its end, or state it at its start")
         }
-        Fault::NextRunVariable { .. } => {
+        Fault::NextRunVariables { .. } => {
             own("set the variable before the program reads it, or at the start of each shift by hand")
         }
         Fault::RoundsFreely => own(

@@ -55,3 +55,8 @@ pub fn kept(kept: Kept) -> &'static str {
         Kept::Always => "for ever",
     }
 }
+
+/// Variables by their names.
+pub fn variables(names: &[Box<str>]) -> String {
+    format!("{} {}", super::words::plural(names.len() as u64, "variable"), names.join(", "))
+}

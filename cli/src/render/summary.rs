@@ -327,7 +327,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::PathAtStart { .. }
         | Fault::NextRunShifted { .. }
         | Fault::NextRunTurned
-        | Fault::NextRunVariable { .. }
+        | Fault::NextRunVariables { .. }
         | Fault::RoundsFreely
         | Fault::OptionalStopDiffers
         | Fault::AssumedEdge { .. }

@@ -5,7 +5,7 @@
 
 use super::numbers::{millimetres, rotary_turn, signed};
 use super::spelled::{character, found_words, next_run, radii_of};
-pub use super::spelled::{kept, return_path};
+pub use super::spelled::{kept, return_path, variables};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
@@ -244,8 +244,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "check at the machine: the next run begins in another frame".into(),
             "one control keeps a rotation, scale or mirror at the end of the program, the other does not".into(),
         ),
-        Fault::NextRunVariable { name, source, target } => (
-            format!("check at the machine: the next run reads another value of the variable {name}"),
+        Fault::NextRunVariables { names, source, target } => (
+            format!("check at the machine: the next run reads another value of the {}", variables(names)),
             format!("{from} keeps it {}, {to} {}", kept(*source), kept(*target)),
         ),
         Fault::FeedAtUnits { before, now } => (

@@ -40,14 +40,33 @@ pub(super) fn outliving(source: &Program, renamed: &Renamed) -> Vec<Outliving> {
 }
 
 impl Outliving {
-    /// Whether one control keeps it longer than the other. What comes from elsewhere must be kept by the target as long
-    /// as by the source; what the program leaves itself, no longer either.
-    fn apart(&self, [from, to]: [Behaviours; 2]) -> Option<Fault> {
+    /// For how long source and target keep it, if that is not alike. What comes from elsewhere must be kept by the target
+    /// as long as by the source; what the program leaves itself, no longer either.
+    fn apart(&self, [from, to]: [Behaviours; 2]) -> Option<[Kept; 2]> {
         let [source, target] = [from.keeps(&self.sides[0]), to.keeps(&self.sides[1])];
         let apart = if self.set { source != target } else { source == Kept::Always && target < source };
-        let name = self.sides[0].name();
-        apart.then(|| Fault::NextRunVariable { name: name.into(), source, target })
+        apart.then_some([source, target])
     }
+}
+
+/// Variables that are not kept alike, those together that each side keeps as long.
+fn variables_apart<'o>(
+    all: impl Iterator<Item = &'o Outliving>,
+    behaviours: [Behaviours; 2],
+) -> Vec<(Fault, Span)> {
+    let mut groups: Vec<([Kept; 2], Vec<Box<str>>, Span)> = Vec::new();
+    for one in all {
+        let Some(kept) = one.apart(behaviours) else { continue };
+        let name = one.sides[0].name().into();
+        match groups.iter_mut().find(|group| group.0 == kept) {
+            Some((_, names, _)) => names.push(name),
+            None => groups.push((kept, vec![name], one.at)),
+        }
+    }
+    let fault = |([source, target], names, at): ([Kept; 2], Vec<Box<str>>, Span)| {
+        (Fault::NextRunVariables { names: names.into(), source, target }, at)
+    };
+    groups.into_iter().map(fault).collect()
 }
 
 impl Verifier {
@@ -62,28 +81,27 @@ impl Verifier {
         }
         let last = self.last;
         // With another setting of the block-skip switches a program may leave something else.
-        let first_apart = |behaviours, usual: bool| {
+        let slots = |behaviours| {
             let told = |run: &&Run| Some((apart(run, behaviours)?, run.source.filled_at().unwrap_or(last)));
-            let variable = |one: &Outliving| Some((one.apart(behaviours)?, one.at));
-            // Of a variable that others set, it is told anyway that it must be given.
-            let of_concern = self.outliving.iter().filter(|one| usual || one.set);
-            runs.iter().find_map(told).or_else(|| of_concern.filter_map(variable).next())
+            runs.iter().find_map(told)
         };
-        let mut notes = Vec::new();
+        let usual = (slots(behaviours), variables_apart(self.outliving.iter(), behaviours));
+        // Of a variable that others set, it is told anyway that it must be given.
+        let variables = |behaviours| variables_apart(self.outliving.iter().filter(|one| one.set), behaviours);
         let mut found = Vec::new();
-        if let Some((fault, at)) = first_apart(behaviours, true) {
-            notes.push(Diagnostic::new(fault, at));
-        } else {
-            for (behaviour, source) in self.open_at_end() {
-                for value in self.other_values(behaviour, source) {
-                    let mut other = behaviours;
-                    let side = &mut other[usize::from(!source)];
-                    *side = side.with(behaviour, value);
-                    let told = first_apart(other, false);
-                    found.extend(told.map(|(_, at)| (Other::Behaviour { behaviour, source, value }, at)));
-                }
+        for (behaviour, source) in self.open_at_end() {
+            for value in self.other_values(behaviour, source) {
+                let mut other = behaviours;
+                let side = &mut other[usize::from(!source)];
+                *side = side.with(behaviour, value);
+                let told = if usual.0.is_none() { slots(other) } else { None };
+                let told =
+                    told.or_else(|| variables(other).into_iter().next().filter(|_| usual.1.is_empty()));
+                found.extend(told.map(|(_, at)| (Other::Behaviour { behaviour, source, value }, at)));
             }
         }
+        let mut notes =
+            usual.0.into_iter().chain(usual.1).map(|(fault, at)| Diagnostic::new(fault, at)).collect();
         self.notes.append(&mut notes);
         self.matters.append(&mut found);
     }

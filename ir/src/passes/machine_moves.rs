@@ -80,6 +80,11 @@ fn take(
     diags: &mut Vec<Diagnostic>,
 ) {
     let caps = &target.caps;
+    // The point by which a return goes is measured with the length.
+    let by_z = matches!(&stmt.op, Op::GoToReference(reference) if reference.via.get(Axis::Z).is_some());
+    if by_z {
+        length_again(&mut stmt, state, made);
+    }
     match &stmt.op {
         Op::Probe(probe) if !caps.probes[Caps::probe(*probe)] => {
             let what = match (probe.away, probe.error) {
@@ -158,13 +163,7 @@ fn take(
             state.lost = None;
         }
         op if walk.commands_z(op) || matches!(op, Op::StartCycle(_) | Op::Pattern(_) | flow!()) => {
-            if let Some(entry) = state.put_off.take() {
-                let mut again = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(i64::from(entry))));
-                (again.skip, again.joined) = (stmt.skip, stmt.joined);
-                again.number = stmt.number.take();
-                stmt.joined = true;
-                made.push(again);
-            }
+            length_again(&mut stmt, state, made);
             if let Some(span) = state.lost.take() {
                 let what = "a return to a point of the machine behind which Z moves by a length that is not \
                             said anew";
@@ -175,6 +174,16 @@ fn take(
     }
     walk.step(&stmt);
     made.push(stmt);
+}
+
+/// Says the length anew that was put off, before a statement that needs it.
+fn length_again(stmt: &mut Stmt, state: &mut State, made: &mut Rebuild) {
+    let Some(entry) = state.put_off.take() else { return };
+    let mut again = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(i64::from(entry))));
+    (again.skip, again.joined) = (stmt.skip, stmt.joined);
+    again.number = stmt.number.take();
+    stmt.joined = true;
+    made.push(again);
 }
 
 /// Which moves to the machine's zero the target says with the word that sets a tilted plane in their block: along

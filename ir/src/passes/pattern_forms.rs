@@ -27,6 +27,8 @@ struct Here<'h> {
     caps: &'h Caps,
     axes: [Axis; 2],
     decimals: u8,
+    /// Digits of an angle.
+    angle_decimals: u8,
     unit: Unit,
 }
 
@@ -36,7 +38,8 @@ pub(super) fn fit(walk: &Walk, pattern: &Pattern, plane: Plane, target: &Target)
     let (first, second, _) = plane.axes();
     let unit = walk.unit();
     let decimals = target.decimals_in(unit);
-    let here = Here { walk, caps: &target.caps, axes: [first, second], decimals, unit };
+    let angle_decimals = target.decimals_in(Unit::Degree);
+    let here = Here { walk, caps: &target.caps, axes: [first, second], decimals, angle_decimals, unit };
     if here.says(pattern) {
         return Some(vec![pattern.clone()]);
     }
@@ -53,7 +56,9 @@ pub(super) fn fit(walk: &Walk, pattern: &Pattern, plane: Plane, target: &Target)
 pub(super) fn says_computed(pattern: &Pattern, plane: Plane, caps: &Caps) -> bool {
     let (first, second, _) = plane.axes();
     let walk = Walk::new(Tracker::unknown());
-    Here { walk: &walk, caps, axes: [first, second], decimals: 9, unit: walk.unit() }.says(pattern)
+    let (decimals, angle_decimals) = (9, 9);
+    let here = Here { walk: &walk, caps, axes: [first, second], decimals, angle_decimals, unit: walk.unit() };
+    here.says(pattern)
 }
 
 impl Here<'_> {
@@ -176,7 +181,7 @@ impl Here<'_> {
         let turn = 4 * QUARTER;
         let angle = (nanos + 2 * QUARTER).rem_euclid(turn) - 2 * QUARTER;
         let angle = if angle == -2 * QUARTER { 2 * QUARTER } else { angle };
-        Num::from_nanos(angle, 9, Unit::Degree).into()
+        rounded(angle, self.angle_decimals, Unit::Degree).into()
     }
 
     /// The words of a place.
@@ -188,7 +193,7 @@ impl Here<'_> {
     fn starts(&self, said: Option<&[Coord; 2]>, place: [Nanos; 2]) -> Vec<Option<[Coord; 2]>> {
         let mut starts = Vec::with_capacity(2);
         if self.caps.pattern_start || self.caps.circle_polar.is_some() {
-            let stands = || [0, 1].map(|i| at(place[i], self.axes[i], self.unit));
+            let stands = || self.words(place);
             // An increment would count from where the form before has left the tool.
             let in_force = self.walk.at.modes.distance;
             let said = said.filter(|words| words.iter().all(|w| is_absolute(w, in_force)));
@@ -258,7 +263,7 @@ impl Here<'_> {
             First::Polar { .. } => First::At(self.words(place)),
             First::At(_) => {
                 let angle = (y.atan2(x).to_degrees() * ONE as f64).round() as Nanos;
-                let angle = Num::from_nanos(angle, self.decimals, Unit::Degree);
+                let angle = Num::from_nanos(angle, self.angle_decimals, Unit::Degree);
                 First::Polar { radius: self.length(x.hypot(y).round() as Nanos), angle: angle.into() }
             }
         };

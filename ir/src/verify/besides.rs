@@ -12,7 +12,7 @@
 //! Not here: what the controls do (`exec::at_codes`).
 
 use crate::canon::{AXES, Axis, Spindle};
-use crate::exec::{Event, Kind, State, by_control};
+use crate::exec::{Event, Kind, State, by_control, cuts};
 use crate::num::Nanos;
 
 /// What the source had where the target's control switched or moved by itself: this much alone is passed over.
@@ -22,6 +22,8 @@ pub(super) struct Passed {
     spindle: Option<Spindle>,
     /// Z in machine coordinates.
     z: Option<Nanos>,
+    /// Whether coolant is off since, and nothing was cut.
+    dry: bool,
 }
 
 impl Passed {
@@ -33,6 +35,8 @@ impl Passed {
         } else if switches(&a.kind) || self.spindle.is_none() {
             self.spindle = Some(a.state.spindle);
         }
+        let off = !(b.state.flood || b.state.mist);
+        self.dry = off && (by_target & by_control::COOLANT != 0 || self.dry && !cuts(&a.kind));
         if b.state.by_control & by_control::Z == 0 {
             self.z = None;
         } else if a.kind == Kind::ToolChange || self.z.is_none() {
@@ -44,6 +48,13 @@ impl Passed {
     pub(super) fn unsaid(&self, a: &Event, bits: u8) -> u8 {
         let said = !switches(&a.kind) && self.spindle.is_some_and(|was| was != a.state.spindle);
         if said { bits & !by_control::SPINDLE } else { bits }
+    }
+
+    /// Whether a word of the source switches coolant off that the target's control has switched off already.
+    pub(super) fn off_already(&self, a: &Event, b: &Event) -> bool {
+        a.kind == Kind::Coolant
+            && self.dry
+            && ![a, b].iter().any(|event| event.state.flood || event.state.mist)
     }
 
     /// Whether the source's Z has moved since the target's control took Z away.
