@@ -3,6 +3,7 @@
 
 use ncc::job::Job;
 use ncc_dialects::builtin;
+use ncc_ir::world::World;
 
 use crate::plain::{Happening, Plain};
 
@@ -100,6 +101,13 @@ pub fn as_shown(list: Vec<Plain>, dialect: &str) -> Vec<Plain> {
         _ => true,
     };
     list.iter().enumerate().filter(shown).map(|(_, event)| *event).collect()
+}
+
+/// A world in which two programs are compared, in which the operator sets the zero of Z by each tool where one of the two
+/// controls has no other way.
+pub fn zeroed(world: World, dialects: [&str; 2]) -> World {
+    let by_hand = |id: &str| ncc_dialects::builtin(id).is_some_and(|dialect| dialect.can.change_by_hand);
+    World { zeroed_by_tool: dialects.into_iter().any(by_hand), ..world }
 }
 
 /// The same as if the control stayed where the program has put it: what it does by itself for a tool change is undone, as

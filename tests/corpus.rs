@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Dialects with a folder in the corpus.
-pub const DIALECTS: [&str; 7] = ["mach9", "fanuc", "haas", "siemens", "linuxcnc", "canon", "ir"];
+pub const DIALECTS: [&str; 9] =
+    ["mach9", "fanuc", "haas", "siemens", "linuxcnc", "grbl", "mach3", "canon", "ir"];
 
 /// A program of the corpus.
 #[derive(Clone, Debug)]

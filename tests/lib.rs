@@ -4,6 +4,7 @@
 //! Not here: tests (`suite/`), and anything that the compiler itself uses.
 
 pub mod besides;
+pub mod corners;
 pub mod corpus;
 pub mod expect;
 pub mod interpreter;

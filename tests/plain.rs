@@ -18,6 +18,7 @@ use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
 use crate::besides::{Unsaid, cuts, switched};
+pub use crate::corners::Corners;
 use crate::interpreter::setup::Counted;
 use crate::interpreter::{
     self, Beside, ByItself, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What,
@@ -118,28 +119,6 @@ pub fn says_arcs(dialect: &str) -> bool {
     matches!(dialect, "siemens" | "ir")
 }
 
-/// What of corners two dialects both have words for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // The names are the meaning.
-pub enum Corners {
-    All,
-    /// Going through one is said as a stop.
-    StopOrRounded,
-    Nothing,
-}
-
-impl Corners {
-    /// Of two dialects.
-    pub fn between(a: &str, b: &str) -> Corners {
-        match [a, b] {
-            // Its corners are always rounded, and it has no words for it.
-            pair if pair.contains(&"mach9") => Corners::Nothing,
-            pair if pair.iter().any(|d| matches!(*d, "fanuc" | "haas" | "siemens")) => Corners::StopOrRounded,
-            _ => Corners::All,
-        }
-    }
-}
-
 impl Tolerance {
     /// Both computed from the same numbers.
     pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6, corners: Corners::All, arcs: true };
@@ -151,12 +130,14 @@ impl Tolerance {
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
     let (points, stored, counts, radii) = (world.clone(), world.clone(), world.clone(), world.clone());
+    let by_hand = world.clone();
     let named = Rc::new(RefCell::new(BTreeMap::new()));
-    let known = named.clone();
+    let (known, called) = (named.clone(), named.clone());
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
         length: Box::new(move |entry| match entry {
+            _ if lengths.zeroed_by_tool => 0.0,
             // Of the tool that was there at the start, on a control whose tools have lengths.
             u32::MAX => mm(lengths.edge_length(-1, 1)),
             entry => mm(lengths.tool_length(entry)),
@@ -165,7 +146,11 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         wear: Box::new(move |entry| mm(wears.length_wear(entry))),
         edge_length: Box::new(move |tool, edge| {
             let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
-            mm(edges.edge_length(tool.map_or(-1, own), edge))
+            mm(if edges.zeroed_by_tool { 0 } else { edges.edge_length(tool.map_or(-1, own), edge) })
+        }),
+        put_in: Box::new(move |tool| {
+            let own = called.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
+            mm(if by_hand.zeroed_by_tool { by_hand.edge_length(own, 1) } else { 0 })
         }),
         named_tool: Box::new(move |name| {
             let tool = ncc_ir::exec::named_tool(name);
@@ -235,7 +220,7 @@ fn by_name(tool: i64) -> u32 {
 /// of a dialect's control where a cycle is written out, and holes are left to the level with which it starts.
 pub fn of_dialect(world: World, dialect: &str) -> World {
     let linuxcnc = dialect == "linuxcnc";
-    let by = if linuxcnc { ONE / 1000 * 254 } else { ONE };
+    let by = if linuxcnc || dialect == "mach3" { ONE / 1000 * 254 } else { ONE };
     let level = if linuxcnc { ReturnLevel::Retract } else { ReturnLevel::Initial };
     let power_on = Modes { return_level: Some(level), ..world.power_on };
     behaving(&World { peck_clearance: by, break_lift: by, power_on, ..world }, dialect)
@@ -691,6 +676,8 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "ir" => interpreter::ir::run(text, setup),
         "siemens" => interpreter::siemens::run(text, setup),
         "linuxcnc" => interpreter::linuxcnc::run(text, setup),
+        "grbl" => interpreter::grbl::run(text, setup),
+        "mach3" => interpreter::mach3::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

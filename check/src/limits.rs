@@ -21,6 +21,8 @@ pub struct Limits {
     pub rapid_plane: Option<Nanos>,
     /// Work offsets and lengths.
     pub tables: Tables,
+    /// Whether the operator sets the zero of Z by each tool, so that no length is called up.
+    pub no_lengths: bool,
 }
 
 /// What was not checked, and why.

@@ -137,6 +137,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             };
             format!("F on arcs under cutter compensation: {source} on {from}, {target} on {to}")
         }
+        Fault::LengthByHand { tool } => format!("the zero of Z is set by tool {tool} when it is put in"),
         Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),

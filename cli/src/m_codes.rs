@@ -114,6 +114,10 @@ pub(crate) fn may_be_stated(row: Option<&CodeRow>) -> bool {
 /// A code that has a meaning cannot have another one; in the target, one that its dialect refuses does something too.
 fn at_odds(code: &MCode, number: u16, side: Side, dialect: &Dialect) -> Result<(), Problem> {
     let Some(row) = dialect.code_row(b'M', u32::from(number) * 10) else { return Ok(()) };
+    if side == Side::From && code.written.is_none() && row.means == Some(Meaning::OptionalProgramStop) {
+        // With its switch off it does nothing.
+        return Ok(());
+    }
     let (id, name) = (&dialect.id, &row.code);
     let does = match (row.means, &row.refuse) {
         (Some(Meaning::MachineFunction(function)), _) => function.to_owned(),

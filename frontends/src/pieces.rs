@@ -96,6 +96,11 @@ impl Lines {
                 let mark = dialect.program.frame.as_bytes();
                 match () {
                     () if self.closed => LineIs::Outside,
+                    () if !dialect.program.ignored.is_empty()
+                        && text.starts_with(dialect.program.ignored.as_bytes()) =>
+                    {
+                        LineIs::Frame
+                    }
                     () if !mark.is_empty() && text.starts_with(mark) => {
                         self.closed = std::mem::replace(&mut self.opened, true);
                         LineIs::Frame

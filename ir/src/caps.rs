@@ -215,6 +215,8 @@ pub struct Caps {
     pub frames_shut: bool,
     /// How it always takes corners, where it has no word for that.
     pub only_path: Option<PathMode>,
+    /// A tool is changed by hand, and the operator sets the zero of Z by it: no length of a tool is known.
+    pub change_by_hand: bool,
     /// An exact stop of one move.
     pub exact_stop: bool,
     /// Advice that it has words for, each with its value.

@@ -342,6 +342,8 @@ faults! {
     FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
+    /// A tool's length left out for a control whose tools are changed by hand: the operator sets the zero of Z by it.
+    LengthByHand { tool: u32 } = 345, verdict(Verdict::Assumed);
     /// The program looks like something else than a milling program, and the user says that it is one; in
     /// which line the sign stands that decides.
     AssumedMilling { looks_like: Box<str>, line: u64 } = 350, verdict(Verdict::Assumed);

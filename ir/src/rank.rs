@@ -61,6 +61,7 @@ impl Fault {
             | Fault::StartedAgain { .. }
             | Fault::OpenBehaviour { .. }
             | Fault::MovedAtChange
+            | Fault::LengthByHand { .. }
             | Fault::FeedOnArcs { .. }
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }

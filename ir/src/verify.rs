@@ -661,6 +661,8 @@ impl Comparison {
         }
         let switches = by_control::SPINDLE | by_control::COOLANT;
         let around = if self.optional_stops { self.around_optional_stop(a, b) } else { 0 };
+        // A code that switches coolant says what flows from there on.
+        let switches = if a.kind == Kind::Coolant { by_control::SPINDLE } else { switches };
         let same = match self.passed.unsaid(a, by_target & switches | around) {
             0 => self.same_state(&a.state, &b.state),
             _ if cuts(&b.kind) => self.same_state(&a.state, &b.state),

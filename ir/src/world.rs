@@ -37,6 +37,9 @@ pub struct World {
     /// Whether the length of the tool in the spindle is that of the last tool change, and none before the first,
     /// whatever number the program has set for it since: so on a control that only plays its machine.
     pub length_by_change: bool,
+    /// Whether the operator sets the zero of Z by each tool that is put in: it goes up by the tool's length at the change.
+    /// The length of the tool in the spindle is nothing then, and that of another one is what it was.
+    pub zeroed_by_tool: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
     /// Which arcs the control accepts.
@@ -182,6 +185,7 @@ impl World {
             peck_clearance: 0,
             backs_off: 0,
             length_by_change: false,
+            zeroed_by_tool: false,
             feed_ends_with_mode: false,
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),

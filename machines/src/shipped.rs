@@ -13,6 +13,10 @@ const SHIPPED: &[&str] = &[
     include_str!("../data/haas-vf2.toml"),
     include_str!("../data/sinumerik-vmc.toml"),
     include_str!("../data/linuxcnc-mill.toml"),
+    include_str!("../data/grbl-router.toml"),
+    include_str!("../data/grbl-engraver.toml"),
+    include_str!("../data/mach3-router.toml"),
+    include_str!("../data/uccnc-mill.toml"),
 ];
 
 static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(|| {

@@ -1,19 +1,21 @@
 //! A second interpreter: what a program of each dialect makes the machine do.
 //!
-//! It is here to be compared with the compiler, so it shares nothing with it: no dictionary, no
-//! number type, no geometry. It was written from the reference notes alone, reads text line by
-//! line, keeps its state in plain `f64`, and is slow and simple. Where the notes leave a question
-//! open it stops with an error and does not choose.
+//! It is here to be compared with the compiler, so it shares nothing with it: no dictionary, no number type, no
+//! geometry. It was written from the reference notes alone, reads text line by line, keeps its state in plain `f64`, and
+//! is slow and simple. Where the notes leave a question open it stops with an error and does not choose.
 //!
 //! Not here: speed, good messages, anything beyond the scope of the corpus.
 
 mod beside;
 pub mod canon;
+mod change;
 mod corner;
 pub mod fanuc;
+pub mod grbl;
 mod hole;
 pub mod ir;
 pub mod linuxcnc;
+pub mod mach3;
 pub mod mach9;
 pub mod next_run;
 mod pace;
@@ -203,6 +205,8 @@ pub struct Machine {
     pub setup: Setup,
     /// What the program has put into its tables.
     stored: Stored,
+    /// How far up the operator has moved the zero of Z by the tool that was put in.
+    zero_moved: f64,
     /// Where it stands, machine coordinates.
     pub at: Place,
     /// Where the probe touched last, as the program counted then.
@@ -283,6 +287,7 @@ impl Machine {
             touched_above: None,
             setup,
             stored,
+            zero_moved: 0.0,
             turn: slots.turn(),
             slot_shift: slots.shift(),
             slots,
@@ -652,28 +657,6 @@ impl Machine {
             self.coolant = (false, false);
             self.by_itself.coolant = true;
         }
-    }
-
-    /// The tool change of a Haas: spindle and coolant off, Z to machine zero, then the change (reference guide, M06).
-    pub fn change_up_there(&mut self) -> Result<(), Halt> {
-        self.switch_off();
-        let mut up = self.at;
-        up[2] = 0.0;
-        (self.by_itself.z, self.by_itself.moves) = (true, true);
-        self.traverse(up);
-        self.by_itself.moves = false;
-        self.change_tool()
-    }
-
-    /// The tool change.
-    pub fn change_tool(&mut self) -> Result<(), Halt> {
-        if self.beside.is_some() {
-            return self.halt("a tool change under cutter radius compensation");
-        }
-        let Some(tool) = self.selected else { return self.halt("a tool change and no tool selected") };
-        self.tool = Some(tool);
-        self.record(What::Tool(tool));
-        Ok(())
     }
 }
 

@@ -37,7 +37,7 @@ impl Machine {
             ("fanuc" | "haas", true) => {
                 Slots { origin: self.slots.origin, aside: self.slots.aside, ..Slots::default() }
             }
-            ("linuxcnc" | "mach9", true) => Slots {
+            ("linuxcnc" | "mach9" | "grbl" | "mach3", true) => Slots {
                 origin: self.slots.origin,
                 aside: self.slots.aside,
                 local: self.slots.local,

@@ -18,6 +18,8 @@ pub struct Setup {
     /// Length of an edge of a tool, on a control whose tools have edges; `None` is a tool that was
     /// in the spindle at power-on and that nothing is known of. Edge 0 is none.
     pub edge_length: Box<dyn Fn(Option<u32>, u32) -> f64>,
+    /// How far up the operator moves the zero of Z when a tool is put in, where tools are changed by hand.
+    pub put_in: Box<dyn Fn(u32) -> f64>,
     /// A number for a tool with a name, which no tool has that is called by number.
     pub named_tool: Box<dyn Fn(&str) -> u32>,
     /// Block-skip switches, by level; place 0 is not used, place 10 is a Sinumerik's `/1`.
@@ -124,6 +126,7 @@ impl Setup {
             wear: Box::new(|_| 0.0),
             named_tool: Box::new(|_| 1 << 31),
             edge_length: Box::new(|_, _| 0.0),
+            put_in: Box::new(|_| 0.0),
             skip: [false; 11],
             peck_clearance: 1.0,
             break_lift: 1.0,

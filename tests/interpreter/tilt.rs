@@ -37,7 +37,8 @@ impl Machine {
     pub(super) fn apart(&self, axis: usize) -> f64 {
         let kinematics = &self.setup.kinematics;
         let of = |on: bool, by: [f64; 3]| if on && axis < 3 { by[axis] } else { 0.0 };
-        of(self.tip, kinematics.tip) + of(self.plane_set, kinematics.plane)
+        let by_hand = if axis == 2 { self.zero_moved } else { 0.0 };
+        of(self.tip, kinematics.tip) + of(self.plane_set, kinematics.plane) + by_hand
     }
 
     fn bare(&self) -> bool {

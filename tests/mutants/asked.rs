@@ -1,7 +1,7 @@
 //! Which mutants are asked for, and the work side by side.
 //!
 //! `NCC_ALL_MUTANTS=1` is every mutant instead of a seeded sample; `NCC_MUTANTS_OF=fanuc/dome,bolt` is the programs
-//! whose folder and file say any of these.
+//! whose folder and file say any of these, `NCC_MUTANTS_TO=grbl,canon` the targets.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -20,6 +20,12 @@ pub(crate) fn of() -> String {
 /// Whether a program is asked for.
 pub(crate) fn asked(program: &Program) -> bool {
     of().split(',').any(|name| format!("{}/{}", program.dialect, program.file).contains(name))
+}
+
+/// Whether a target is asked for.
+pub(crate) fn asked_to(target: &str) -> bool {
+    let all = std::env::var("NCC_MUTANTS_TO").unwrap_or_default();
+    all.is_empty() || all.split(',').any(|name| name == target)
 }
 
 /// Does each piece of work once, on as many threads as the machine runs at a time.

@@ -7,6 +7,7 @@
 
 use std::cell::OnceCell;
 
+use ncc_tests::besides;
 use ncc_tests::corpus::Program;
 use ncc_tests::interpreter::{PowerOn, Setup};
 use ncc_tests::plain::{self, Corners, Plain, Tolerance};
@@ -77,7 +78,7 @@ pub(crate) fn class(emitted: &Emitted, mutant: &Mutant) -> Result<&'static str, 
             "a cycle's word that is in force, or that makes no hole"
         }
         (Change::Sign | Change::Digit, Is::Letter(b'X' | b'Y' | b'Z'))
-            if block_before(text, mutant.at.start).windows(3).any(|w| w == b"G52") =>
+            if block_before(text, mutant.at.start).windows(3).any(|w| w == b"G52" || w == b"G92") =>
         {
             "a shift that is taken back before anything moves"
         }
@@ -125,6 +126,7 @@ pub(crate) fn rounded(
     let within = Tolerance { place: half, feed: half, corners, arcs: plain::says_arcs(emitted.dialect) };
     for seed in [0, 1, 2] {
         let world = plain::of_dialect(plain::world(seed), source.dialect);
+        let world = besides::zeroed(world, [source.dialect, emitted.dialect]);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0b10, 0x7fe] {
             let list = |dialect: &str, text: &[u8], only: Option<u16>| {

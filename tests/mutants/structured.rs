@@ -227,7 +227,7 @@ fn makes_the_same(from: &str, source: &[u8], to: &str, text: &[u8]) -> Result<()
     let within =
         Tolerance { corners: Corners::between(from, to), arcs: plain::says_arcs(to), ..Tolerance::ROUNDED };
     for world in [0, 1, 2].map(plain::world) {
-        let world = plain::of_dialect(world, from);
+        let world = besides::zeroed(plain::of_dialect(world, from), [from, to]);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let run = |dialect: &str, text: &[u8]| {

@@ -9,6 +9,7 @@
 //! `UPDATE_EXPECT=1` fills empty blocks by translation and writes the `kept:` line anew.
 
 use ncc::rewrite::pass;
+use ncc_tests::besides;
 use ncc_tests::corpus;
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::interpreter::{Event, Machine, What};
@@ -131,6 +132,7 @@ fn same(from: &str, left: &str, to: &str, right: &[u8]) -> Result<(), String> {
     let within =
         Tolerance { corners: Corners::between(from, to), arcs: plain::says_arcs(to), ..Tolerance::ROUNDED };
     for world in [0, 1, 2].map(plain::world) {
+        let world = besides::zeroed(world, [from, to]);
         let start = world.start.map(|n| n as f64 / 1e9);
         let list = |machine: &Machine| plain::of_machine(machine, start);
         let a = plain::second(from, left.as_bytes(), plain::setup(&world, 0))?;

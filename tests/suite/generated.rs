@@ -15,6 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use ncc::job::{Failure, Job};
 use ncc_ir::world::World;
+use ncc_tests::besides;
 use ncc_tests::corpus::DIALECTS;
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
@@ -95,7 +96,11 @@ struct Source {
 impl Source {
     /// What the second interpreter does with a text.
     fn second(&self, dialect: &str, text: &[u8]) -> Result<Vec<Plain>, String> {
-        let machine = plain::second(dialect, text, plain::setup(&self.world, 0))?;
+        self.second_in(&self.world, dialect, text)
+    }
+
+    fn second_in(&self, world: &World, dialect: &str, text: &[u8]) -> Result<Vec<Plain>, String> {
+        let machine = plain::second(dialect, text, plain::setup(world, 0))?;
         Ok(plain::of_machine(&machine, self.start()))
     }
 
@@ -105,6 +110,16 @@ impl Source {
         let setup = Setup { last_digits_up: true, ..plain::setup(&self.world, 0) };
         let other = plain::second(self.from, self.text.as_bytes(), setup);
         other.is_ok_and(|other| same_way(moves, &plain::of_machine(&other, self.start()), within).is_err())
+    }
+
+    /// What it is held to in a target: its own moves, with the zero of Z set by each tool where that control has no other
+    /// way.
+    fn held_to(&self, moves: &[Plain], to: &str) -> Result<Vec<Plain>, String> {
+        let world = besides::zeroed(self.world.clone(), [self.from, to]);
+        if !world.zeroed_by_tool {
+            return Ok(moves.to_vec());
+        }
+        self.second_in(&world, self.from, self.text.as_bytes())
     }
 
     fn start(&self) -> [f64; 6] {
@@ -210,8 +225,12 @@ impl Judge {
                 if to == "linuxcnc" {
                     translate::keep(&format!("{} {how}", source.name), &output);
                 }
-                let fault = match source.second(to, &output) {
-                    Ok(moved) => same_way(moves, &moved, source.within(to)).err(),
+                let world = besides::zeroed(source.world.clone(), [source.from, to]);
+                let fault = match source.second_in(&world, to, &output) {
+                    Ok(moved) => match source.held_to(moves, to) {
+                        Ok(own) => same_way(&own, &moved, source.within(to)).err(),
+                        Err(why) => Some(why),
+                    },
                     Err(why) if OPEN.iter().any(|open| why.contains(open)) => return self.open += 1,
                     Err(why) => Some(why),
                 };

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use ncc::job::{Failure, Job, Outcome};
-use ncc_dialects::{Family, builtin};
+use ncc_dialects::{Family, Meaning, builtin};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Fault, Gravity, ModeName};
@@ -67,12 +67,15 @@ fn spelled() -> impl Iterator<Item = &'static str> {
     SPELLED.into_iter().filter(|d| DIALECTS.contains(d))
 }
 
-/// Whether a dialect has words for all of a sketch: mist is an option that not every control has.
+/// Whether a dialect has words for all of a sketch: not every control has mist, optional stops and block skip.
 fn takes(dialect: &str, text: &str) -> bool {
-    let mist = text.lines().any(|line| line.split(' ').any(|word| matches!(word, "M7" | "M07")));
-    let says = builtin(dialect)
-        .is_some_and(|d| d.family != Family::Word || d.code_for(ncc_dialects::Meaning::MistOn).is_some());
-    says || !mist
+    let Some(d) = builtin(dialect).filter(|d| d.family == Family::Word) else { return true };
+    let says = |words: [&str; 2]| text.lines().any(|line| line.split(' ').any(|word| words.contains(&word)));
+    let code = |words, meaning| !says(words) || d.code_for(meaning).is_some();
+    let skips = text.lines().any(|line| line.starts_with('/'));
+    code(["M7", "M07"], Meaning::MistOn)
+        && code(["M1", "M01"], Meaning::OptionalProgramStop)
+        && (!skips || d.caps.skip_levels > 0)
 }
 
 /// What a sketch is does not depend on its spelling.
@@ -97,10 +100,12 @@ fn spellings_agree() {
 fn random_programs_through_every_pair() {
     law(60, pieces(), |pieces| {
         let start = plain::world(1).start.map(|n| n as f64 / 1e9);
-        let run = |dialect: &str, text: &str| {
-            let machine = plain::second(dialect, text.as_bytes(), plain::setup(&plain::world(1), 0))?;
+        let run_with = |dialect: &str, text: &str, other: &str| {
+            let world = besides::zeroed(plain::world(1), [dialect, other]);
+            let machine = plain::second(dialect, text.as_bytes(), plain::setup(&world, 0))?;
             Ok::<_, String>(plain::of_machine(&machine, start))
         };
+        let run = |dialect: &str, text: &str| run_with(dialect, text, dialect);
         let sources: Vec<_> = spelled().map(|dialect| (dialect, spell(&pieces, dialect))).collect();
         let moves = run("mach9", &sources[0].1)?;
         for (from, text) in &sources {
@@ -109,8 +114,9 @@ fn random_programs_through_every_pair() {
             for to in DIALECTS.into_iter().filter(|to| takes(to, text)) {
                 let written = released(from, to, text)?;
                 // What a code does besides its name is the source's own control's.
-                let own = run(from, text)?;
-                let same = run(to, &written).and_then(|made| plain::compare(&own, &made, Tolerance::ROUNDED));
+                let own = run_with(from, text, to)?;
+                let same = run_with(to, &written, from)
+                    .and_then(|made| plain::compare(&own, &made, Tolerance::ROUNDED));
                 same.map_err(|e| format!("{from} to {to}: {e}\n{text}\n{written}"))?;
             }
         }
@@ -151,7 +157,7 @@ fn there_and_back() {
             let text = spell(&pieces, from);
             for through in DIALECTS.into_iter().filter(|d| *d != from && takes(d, &text)) {
                 let back = released_by(&job_back(through, from, "law"), &released(from, through, &text)?)?;
-                same_cut(from, text.as_bytes(), back.as_bytes())
+                same_cut_at(from, text.as_bytes(), back.as_bytes(), None, (Corners::All, true), through)
                     .map_err(|e| format!("{from}→{through}→{from}: {e}\n{text}\n{back}"))?;
             }
         }
@@ -169,19 +175,15 @@ fn only(there: &Outcome, through: &str) -> Option<u16> {
     named.filter(|_| silent)
 }
 
-/// Whether two programs of a dialect make the same cut.
-fn same_cut(dialect: &str, a: &[u8], b: &[u8]) -> Result<(), String> {
-    same_cut_at((dialect, dialect), a, b, None, (Corners::All, true))
-}
-
-/// The same, where `only` is the work offset that the second program knows as its first, and so much of
-/// corners, and of what F counts on arcs, could be said on the way.
+/// Whether two programs of a dialect make the same cut, where `only` is the work offset that the second program knows as
+/// its first, and so much of corners, and of what F counts on arcs, could be said on the way.
 fn same_cut_at(
-    (dialect, through): (&str, &str),
+    dialect: &str,
     a: &[u8],
     b: &[u8],
     only: Option<u16>,
     (corners, arcs): (Corners, bool),
+    through: &str,
 ) -> Result<(), String> {
     let (a, mut b) = (translate::read(dialect, a)?, translate::read(dialect, b)?);
     let mut stmts = a.procedures.iter().flat_map(|p| &p.body);
@@ -197,7 +199,7 @@ fn same_cut_at(
         }
     }
     for seed in [1, 2] {
-        let world = plain::of_dialect(plain::world(seed), dialect);
+        let world = besides::zeroed(plain::of_dialect(plain::world(seed), dialect), [dialect, through]);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let list = |p| Ok::<_, String>(plain::of_events(&translate::execute(p, &world, skip)?, start));
@@ -245,7 +247,7 @@ fn the_corpus_there_and_back() {
                     done += 1;
                     let said = (Corners::between(from, through), plain::says_arcs(through));
                     let result =
-                        same_cut_at((from, through), &program.text, &returned, only(&there, through), said);
+                        same_cut_at(from, &program.text, &returned, only(&there, through), said, through);
                     failures.check(
                         &what,
                         result.map_err(|e| format!("{e}\n{}", String::from_utf8_lossy(&returned))),

@@ -20,6 +20,7 @@ use ncc_ir::exec::{Event, Kind};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Comparison, Pair, Resolution};
 use ncc_ir::world::World;
+use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::{execute, job, read, translate};
@@ -96,7 +97,7 @@ fn pairs(job: &Job, source: &[u8], output: &[u8]) -> Result<Vec<Pair>, String> {
         length_offset: Some(0),
         no_origin_shift: Some(true),
     };
-    let world = World::generate(1, &usual);
+    let world = besides::zeroed(World::generate(1, &usual), [&job.from.dialect.id, &job.to.dialect.id]);
     let of = |behaviours| World { behaviours, ..world.clone() };
     let (mut a, mut b): (Vec<Event>, Vec<Event>) =
         (execute(&a, &of(job.source_behaviours()), 0)?, execute(&b, &of(job.target_behaviours()), 0)?);

@@ -167,7 +167,7 @@ fn second_opinion(
     // A feed in inches has three digits.
     let within = Tolerance { corners, arcs: plain::says_arcs(to), feed: 0.015, ..Tolerance::ROUNDED };
     for seed in [0, 1] {
-        let world = plain::of_dialect(plain::world(seed), from);
+        let world = besides::zeroed(plain::of_dialect(plain::world(seed), from), [from, to]);
         let start = world.start.map(|n| n as f64 / 1e9);
         let list = |dialect: &str, text: &[u8], only: Option<u16>| {
             let mut setup = plain::setup(&world, 0);

@@ -169,6 +169,21 @@ impl Block {
         self.letters & bit(letter) != 0
     }
 
+    /// Takes a word out that stands in it alone.
+    pub(crate) fn drop_alone(&mut self, letter: u8) {
+        let tail = Part::Tail as usize;
+        let others = self.parts.iter().enumerate().any(|(part, text)| part != tail && !text.is_empty());
+        if self.letters == bit(letter) && (self.g, self.m) == (0, 0) && !others {
+            self.parts[tail].clear();
+            (self.letters, self.rank) = (0, None);
+        }
+    }
+
+    /// How many characters its words have, without blanks.
+    pub(crate) fn bare_length(&self) -> usize {
+        self.parts.iter().flatten().filter(|byte| **byte != b' ').count()
+    }
+
     /// Whether a code of these modal groups stands in it.
     pub(crate) fn says(&self, groups: u64) -> bool {
         self.groups & groups != 0

@@ -8,6 +8,7 @@
 
 mod alarm;
 pub(crate) mod block;
+mod by_hand;
 mod call_of;
 mod code_of;
 pub(crate) mod codes;
@@ -562,6 +563,7 @@ impl Writer {
             to.push(letter as u8);
             to.extend_from_slice(number.to_string().as_bytes());
         }
+        let bare = to.len() - start + self.block.bare_length();
         self.block.write(to, number.is_some());
         let length = to.len() - start;
         to.extend_from_slice(self.eol);
@@ -570,6 +572,10 @@ impl Writer {
         if most > 0 && length > most as usize {
             let fault = cannot_compute(format!("a block of more than {most} characters"));
             sink.report(fault, self.block.at);
+        }
+        let most = self.dialect.block.longest_bare;
+        if most > 0 && bare > most as usize {
+            sink.report(modes::cannot(format!("a block of more than {most} characters")), self.block.at);
         }
     }
 
@@ -586,6 +592,7 @@ impl Writer {
         let level = level?;
         match (rules.skip.as_str(), level) {
             ("", _) => None,
+            _ if rules.skip_levels == 0 => None,
             (mark, 1) => Some((mark, None)),
             (mark, 2..=9) if level <= rules.skip_levels => Some((mark, Some(level))),
             // Where the plain mark is the digit 0, the digit 1 is a level of its own.

@@ -158,6 +158,8 @@ impl Writer {
                 Some(code) => Ok(Some(code)),
                 // Where the level is fixed, the cycle itself carries it.
                 None if self.dialect.cycles.return_level.is_some() => Ok(None),
+                // Where there are no cycles, nothing returns.
+                None if self.dialect.caps.cycles.is_empty() => Ok(None),
                 // Where every call of a cycle states its plane, there is none.
                 None if self.dialect.states_return_planes() => Ok(None),
                 None => Err(cannot("the return level of cycles")),

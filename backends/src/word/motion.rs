@@ -3,6 +3,8 @@
 //! Axis words are exactly those of the statement. An arc's centre is written in the dialect's own
 //! form, computed where it has to be from where the written text itself puts the tool.
 
+use std::borrow::Cow;
+
 use ncc_dialects::NameMeaning;
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, FeedMode, Motion, Units};
 use ncc_ir::diag::Fault;
@@ -288,6 +290,7 @@ impl Writer {
         }
         let start = self.residue;
         let full = self.becomes_full(arc);
+        let arc = &*self.with_end(arc)?;
         let centre = self.centre(arc, span, sink)?;
         let mut need = self.point_need(Need::new(Rank::Motion), &arc.to)?;
         for (letter, _) in centre.iter().flatten() {
@@ -312,6 +315,33 @@ impl Writer {
         }
         self.put_corner();
         if full { Ok(()) } else { self.check_vanished(arc, start) }
+    }
+
+    /// An arc with a word of its end in its plane, for a control that needs one: a full circle ends where it starts.
+    fn with_end<'a>(&self, arc: &'a Arc) -> Result<Cow<'a, Arc>, Fault> {
+        let plane = arc.plane.known().or(self.force.plane);
+        let Some((first, second, _)) =
+            plane.map(|plane| plane.axes()).filter(|_| self.dialect.arc.end_needed)
+        else {
+            return Ok(Cow::Borrowed(arc));
+        };
+        if arc.to.get(first).is_some() || arc.to.get(second).is_some() {
+            return Ok(Cow::Borrowed(arc));
+        }
+        let (Some(distance), Some(letter)) = (self.force.distance, self.codes.axes[first as usize]) else {
+            return Err(cannot("a full circle where the distance mode is not known"));
+        };
+        let value = match (distance, self.force.units) {
+            (Distance::Incremental, _) => Num::int(0, Unit::Entry),
+            (Distance::Absolute, Some(units)) => {
+                let unit = if units == Units::Inch { Unit::Inch } else { Unit::Mm };
+                number::from_nanos(self.stands(first)?, &letter.format, unit)
+            }
+            (Distance::Absolute, None) => return Err(cannot("a full circle in a unit that is not known")),
+        };
+        let mut arc = arc.clone();
+        arc.to.set(first, Coord { value: Expr::Num(value), distance: Fact::Known(distance) });
+        Ok(Cow::Owned(arc))
     }
 
     /// Whether an arc has a word for a linear axis outside its plane.

@@ -1,6 +1,6 @@
 //! One statement: which words say it, and where they stand in the block.
 
-use ncc_dialects::{COMPUTED_DWELL, Meaning};
+use ncc_dialects::{COMPUTED_DWELL, DWELL_UNIT, Meaning};
 use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
@@ -140,6 +140,7 @@ impl Writer {
                 let letter = codes.tool;
                 self.number_word(Rank::Tool, letter, tool, "a tool number", span, sink)
             }
+            Op::ChangeTool if self.dialect.can.change_by_hand => self.change_by_hand(span, sink),
             Op::ChangeTool => self.m_code(Rank::ToolChange, codes.change_tool, "a tool change", sink),
             Op::UseToolLengthOffset(entry) => self.length_offset(entry, span, sink),
             Op::StartSpindleClockwise => {
@@ -443,7 +444,8 @@ impl Writer {
     fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let none = entry.literal().is_some_and(|n| n.is_zero());
         if let (true, Some(code)) = (none, self.codes.no_length) {
-            self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
+            let rank = if self.dialect.can.length_alone { Rank::Alone } else { Rank::Offset };
+            self.admit(&Need::new(rank).code(Some(code)), sink)?;
             self.block.code(Part::Mode, &code);
             return Ok(());
         }
@@ -485,6 +487,7 @@ impl Writer {
 
     fn dwell(&mut self, seconds: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let (code, dwell) = self.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        self.rely(DWELL_UNIT, span, sink);
         // What is computed is rounded as its own word does it.
         let computed = milliseconds(seconds).is_some() && !dwell.milliseconds;
         let other = self.codes.dwells.iter().find(|word| computed && word.milliseconds);

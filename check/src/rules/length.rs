@@ -12,6 +12,7 @@ pub(crate) fn changed(checker: &mut Checker, event: &Event) {
     // Without a tool there is nothing to measure.
     checker.seen.length = match event.state.tool {
         0 => Length::Fine,
+        _ if checker.limits.no_lengths => Length::Fine,
         _ => Length::Missing(event.span),
     };
 }

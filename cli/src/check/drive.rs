@@ -109,7 +109,8 @@ struct Drive<'d> {
 }
 
 impl<'d> Drive<'d> {
-    fn new(job: &'d Job, limits: Limits, skip: u16) -> Drive<'d> {
+    fn new(job: &'d Job, mut limits: Limits, skip: u16) -> Drive<'d> {
+        limits.no_lengths = job.from.dialect.can.change_by_hand;
         let mut world = worlds(job, clearances(job)).swap_remove(0);
         world.tables = limits.tables.clone();
         let mut exec = Exec::new(&world, skip);

@@ -188,5 +188,6 @@ fn limits(args: &Check, profile: Option<&Profile>) -> Limits {
         max_speed: machine.spindle_max.map(nanos),
         rapid_plane: args.rapid_plane,
         tables: profile.tables(),
+        no_lengths: false,
     }
 }

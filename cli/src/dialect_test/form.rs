@@ -49,7 +49,7 @@ fn skips(bench: &Bench, rows: &mut Vec<Row>) {
     if rules.skip.is_empty() {
         return;
     }
-    for level in 1..=rules.skip_levels.clamp(1, 10) {
+    for level in 1..=rules.skip_levels.min(10) {
         let said = Said::new(format!("/{level} said STRAIGHT_TRAVERSE(X 10mm)"));
         rows.push(bench.both_ways(&said).row("form", format!("block skip {level}"), !rules.skip_unsure));
     }

@@ -40,6 +40,10 @@ struct Evidence {
     codes: bool,
     /// Whether a block with words was met.
     begun: bool,
+    /// Whether the end of the program was met.
+    ended: bool,
+    /// Whether a line of `%` was met.
+    marked: bool,
     /// Whether the program's number has other digits than the control writes: a custom alone.
     digits: bool,
     speaks_for: BTreeMap<String, usize>,
@@ -87,10 +91,12 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
         return Guess::Sure(dialect, Evidence::list(&evidence.speaks_for), Vec::new());
     }
     found.retain(|(_, evidence)| !evidence.speaks_for.is_empty());
-    // Where a dialect explains all that one that builds on it explains, it is the plainer reading.
+    // Where a dialect explains all that one that builds on it explains, it is the plainer reading; one that is part of
+    // another leaves the text to that.
     let fits: Vec<(&str, usize)> = found.iter().map(|(d, e)| (d.id.as_str(), e.against.len())).collect();
     let plainer = |d: &Dialect, e: &Evidence| {
-        d.base.as_ref().is_some_and(|base| fits.iter().any(|(id, n)| id == base && *n <= e.against.len()))
+        let fits = |other: &String| fits.iter().any(|(id, n)| id == other && *n <= e.against.len());
+        [&d.base, &d.part_of].into_iter().flatten().any(fits)
     };
     let (others, rest) = found.into_iter().partition(|(dialect, evidence)| plainer(dialect, evidence));
     let (built_on, mut found): (Vec<(&'static Dialect, Evidence)>, Vec<_>) = (others, rest);
@@ -105,7 +111,7 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     match found.first() {
         Some((dialect, evidence)) if clear => {
             let as_well = |(other, own): &&(&'static Dialect, Evidence)| {
-                other.base.as_ref() == Some(&dialect.id)
+                [&other.base, &other.part_of].into_iter().flatten().any(|near| *near == dialect.id)
                     && own.against.len() - usize::from(own.digits) <= evidence.against.len()
             };
             let rivals = built_on.iter().filter(as_well).map(|(other, _)| *other).collect();
@@ -159,7 +165,13 @@ fn canon_line(number: usize, line: &[u8], evidence: &mut Evidence) {
 fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, evidence: &mut Evidence) {
     let frame = dialect.program.frame.as_bytes();
     if line == b"%" {
+        let alone = evidence.begun && !std::mem::replace(&mut evidence.marked, true);
         match frame == line {
+            false if dialect.program.ignored == "%" => {}
+            // Such a control reads from there, if the program has no end of its own.
+            true if alone && dialect.program.mark_behind_end && !evidence.ended => {
+                evidence.con(number, "`%` behind the program alone".to_owned());
+            }
             true => evidence.pro(number, "`%` before and after the program".to_owned()),
             false => evidence.con(number, "`%` is not written".to_owned()),
         }
@@ -180,6 +192,9 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             }
             Some(_) | None => {}
         }
+    }
+    if code.trim_ascii_start().starts_with(b"/") && dialect.block.skip_levels == 0 {
+        evidence.con(number, "`/` skips no block".to_owned());
     }
     if is_o_word(&code) {
         match dialect.program.o_words {
@@ -210,6 +225,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
     }
     let mut at = 0;
     let mut alone = 0;
+    let (mut centre, mut arc) = (0u8, true);
     while at < code.len() {
         let letter = code[at].to_ascii_uppercase();
         let from = at;
@@ -237,10 +253,20 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             evidence.con(number, format!("words behind `{}`", word.trim()));
         }
         word_of(dialect, number, letter, value, &word, from == 0, evidence);
+        match letter {
+            b'I'..=b'K' if digits > 0 => centre |= 1 << (letter - b'I'),
+            b'G' => arc &= tenths(value).is_some_and(|code| code <= 30),
+            _ => {}
+        }
         if calls_a_macro(dialect, letter, value) {
             // Any letter is an argument.
             return;
         }
+    }
+    // An arc has two centre words in every plane; few controls pass over a third.
+    let rules = &dialect.arc;
+    if centre == 0b111 && arc && !(rules.centre_outside_zero || rules.centre_outside_ignored) {
+        evidence.con(number, "`I`, `J` and `K` in one arc".to_owned());
     }
 }
 
@@ -283,7 +309,8 @@ fn word_of(
                 evidence.con(line, format!("`{word}` is for other machines"));
             }
             Some(Some(Meaning::UseLengthUnits(_))) => evidence.pro(line, format!("`{word}` says the unit")),
-            Some(Some(_)) => {
+            Some(Some(meaning)) => {
+                evidence.ended |= meaning == Meaning::ProgramEnd;
                 if !std::mem::replace(&mut evidence.codes, true) {
                     evidence.pro(line, format!("`{word}` is one of its codes"));
                 }

@@ -17,7 +17,8 @@ use std::io::{self, SeekFrom};
 use codespan_reporting::term::termcolor::WriteColor;
 
 use ncc_dialects::{
-    CALCULATOR, DECIMAL_POINT, Dialect, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, Settings,
+    ARC_CENTRES, CALCULATOR, DECIMAL_POINT, Dialect, FROM_START, FROM_ZERO, RETURN_DISTANCE, RETURN_FIRST,
+    RETURN_LAST, Settings,
 };
 use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::behaviour::Behaviour;
@@ -66,6 +67,8 @@ pub enum Fact {
     Units,
     /// What a number without a decimal point counts.
     DecimalPoint,
+    /// From where the words of an arc's centre are measured.
+    Centres,
     /// How far an absolute word turns a rotary axis. An error of the translation, which asks it too.
     RotaryTurn,
     /// By which of two codes of distance the words of a return to a reference point are read.
@@ -81,6 +84,7 @@ impl Fact {
             Fact::Control => 330,
             Fact::Units => 301,
             Fact::DecimalPoint => 303,
+            Fact::Centres => 307,
             Fact::ToolChange => 336,
             Fact::ReturnPath => 337,
             Fact::RotaryTurn => 522,
@@ -388,6 +392,17 @@ fn of_diagnostic(job: &Job, diagnostic: &Diagnostic) -> Option<Candidate> {
             let shown = [*named, *waiting].map(|tool| Shown::Made(Made::Tool(i64::from(tool))));
             of_option(job, Fact::ToolChange, diagnostic.span, TOOL_WITH_CHANGE, [*first, *second], shown)
         }
+        Fault::AssumedOption { option, .. } if **option == *ARC_CENTRES => {
+            let values = [FROM_START, FROM_ZERO];
+            of_option(
+                job,
+                Fact::Centres,
+                diagnostic.span,
+                ARC_CENTRES,
+                values,
+                [Shown::Nothing, Shown::Nothing],
+            )
+        }
         _ => None,
     }
 }
@@ -400,7 +415,12 @@ fn decide(
     sound: bool,
 ) -> io::Result<Option<Question>> {
     let length = match candidate.fact {
-        Fact::Control | Fact::Units | Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => MICROMETRE,
+        Fact::Control
+        | Fact::Units
+        | Fact::Centres
+        | Fact::ReturnPath
+        | Fact::ToolChange
+        | Fact::RotaryTurn => MICROMETRE,
         Fact::DecimalPoint => TENTH,
     };
     let cuts = matches!(candidate.fact, Fact::Control | Fact::ToolChange);
@@ -410,6 +430,11 @@ fn decide(
         Fact::Units | Fact::DecimalPoint | Fact::ToolChange | Fact::RotaryTurn => {
             race(jobs, source, measure, PLAIN, watch)?
         }
+        // Where the radii of its arcs fit one reading alone, the text itself has said it; the other is refused there.
+        Fact::Centres => match race(jobs, source, measure, PLAIN, watch)? {
+            Finish::Apart(difference) if matches!(difference.made[1], Made::Refused(_)) => return Ok(None),
+            other => other,
+        },
         // In the plain world the zero of the part is that of the machine.
         Fact::ReturnPath => race(jobs, source, measure, GENERATED, watch)?,
         // Lengths and offsets are nothing in the plain world, in which numbers can be shown.
@@ -428,7 +453,7 @@ fn decide(
         Finish::Same => return Ok(None),
         Finish::Apart(difference) => match candidate.fact {
             Fact::DecimalPoint => in_words(candidate, &difference),
-            Fact::Control | Fact::Units => (difference.at, difference.made.map(made)),
+            Fact::Control | Fact::Units | Fact::Centres => (difference.at, difference.made.map(made)),
             Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => (candidate.span, candidate.shown()),
         },
         Finish::Unknown(bare) => match candidate.fact {
@@ -443,6 +468,7 @@ fn decide(
             Fact::Control
             | Fact::Units
             | Fact::DecimalPoint
+            | Fact::Centres
             | Fact::ReturnPath
             | Fact::ToolChange
             | Fact::RotaryTurn => {

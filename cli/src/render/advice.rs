@@ -214,6 +214,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("look at F on outer arcs: the contour is cut faster there, and slower on inner ones")
         }
         Fault::FeedOnArcs { .. } => own("look at F on inner arcs: the contour is cut slower there"),
+        Fault::LengthByHand { .. } => {
+            own("touch off with this tool before the program goes on, and check its first move along Z")
+        }
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {
@@ -335,6 +338,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 format!("if that point is the machine's zero: `--from-option {option}=zero`"),
                 "else write the move in machine coordinates, with G53".into(),
             ]
+        }
+        Fault::CannotSay { what } if &**what == "an optional stop" => {
+            own("`--m-code M1=drop` leaves it out: the program never stops there, as with the switch off")
+        }
+        Fault::CannotSay { what } if what.starts_with("a tool change by hand, which") => {
+            own("`--to-option tool_change=manual` writes a block that stops the program for it")
         }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");

@@ -188,6 +188,7 @@ fn headline(question: &Question, text: &str) -> String {
             [Shown::Turn(axis, by), Shown::Turn(_, or)] => rotary_turn(*axis, *by, *or),
             _ => "how far does a rotary axis turn here?".to_owned(),
         },
+        (Fact::Centres, ..) => "arc centres (I J K): from the start of the arc or from zero?".to_owned(),
         (Fact::Units | Fact::Control, ..) => "mm or inch? The program never states its unit".to_owned(),
     }
 }

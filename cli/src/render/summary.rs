@@ -322,6 +322,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::OpenBehaviour { .. }
         | Fault::FeedAtUnits { .. }
         | Fault::MovedAtChange
+        | Fault::LengthByHand { .. }
         | Fault::FeedOnArcs { .. }
         | Fault::PathAtStart { .. }
         | Fault::NextRunShifted { .. }

@@ -270,6 +270,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
                 false => format!("F counts at the tool centre on {from}, along the contour on {to}"),
             },
         ),
+        Fault::LengthByHand { tool } => (
+            format!("check at the machine: set the zero of Z by tool {tool} when it is put in"),
+            format!("{to} has no tool lengths; the change is by hand"),
+        ),
         Fault::MovedAtChange => (
             "check at the machine: this tool change takes Z to machine zero".into(),
             format!("{to} goes there by itself, {from} does not"),

@@ -650,6 +650,7 @@ fn world(plan: &Plan) -> World {
         peck_clearance: value(PECK_CLEARANCE),
         backs_off: 0,
         length_by_change: false,
+        zeroed_by_tool: false,
         behaviours: job.from.behaviours(),
         increments: job.from.fine_increments(),
         optional_stop: false,

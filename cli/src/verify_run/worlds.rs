@@ -33,6 +33,9 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     target.refused_compensated = job.to.dialect.caps.refused_compensated;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
+    // Where tools are put in by hand on one side, the operator sets the zero of Z by each.
+    source.zeroed_by_tool = job.from.dialect.can.change_by_hand || job.to.dialect.can.change_by_hand;
+    target.zeroed_by_tool = source.zeroed_by_tool;
     let named = &target.renaming.tool_names;
     source.tables.named_lengths =
         named.iter().map(|(n, name)| (named_tool(name), target.edge_length(i64::from(*n), 1))).collect();

@@ -22,7 +22,7 @@ fn machines_are_listed_shown_and_tested() {
     let mut arguments = vec!["machines", "test"];
     arguments.extend(ids);
     let tested = ncc(folder.path(), &arguments).exits(0).out;
-    assert!(!tested.contains("failed") && tested.matches("passed").count() == 15, "{tested}");
+    assert!(!tested.contains("failed") && tested.matches("passed").count() == 27, "{tested}");
     let codes = "[[m_code]]\ncode = \"M70\"\nfunction = \"air-on\"\n[[m_code]]\ncode = \"M71\"\nfunction = \"air-off\"\n";
     std::fs::write(folder.path().join("shop.toml"), format!("{SHOP}{codes}")).unwrap();
     let tested = ncc(folder.path(), &["machines", "test", "shop.toml"]).exits(0).out;

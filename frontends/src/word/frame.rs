@@ -59,6 +59,8 @@ impl Called {
 pub(super) struct Frame {
     /// Line that stands before and after the program; empty for none.
     mark: &'static str,
+    /// Line that counts for nothing; empty for none.
+    ignored: &'static str,
     /// Letter of the program number and the sign that may stand for it; 0 for none.
     number: [u8; 2],
     title: bool,
@@ -93,6 +95,7 @@ impl Frame {
         let sign = |c: Option<char>| c.map_or(0, |c| c as u8);
         Frame {
             mark: &program.frame,
+            ignored: &program.ignored,
             number: [sign(program.number), sign(program.number_also)],
             title: program.title,
             named: program.names,
@@ -129,6 +132,10 @@ impl Reader {
         }
         if self.frame.closed {
             return text.is_empty() || self.text_after_end(span, out);
+        }
+        let ignored = self.frame.ignored.as_bytes();
+        if !ignored.is_empty() && text.starts_with(ignored) {
+            return true;
         }
         let mark = self.frame.mark.as_bytes();
         if mark.is_empty() || !text.starts_with(mark) {

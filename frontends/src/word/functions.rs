@@ -3,7 +3,7 @@
 //!
 //! Moves, cycles and calls have files of their own.
 
-use ncc_dialects::{CHANGE_IN_BLOCK, Meaning, Quantity};
+use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, Meaning, Quantity};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -29,6 +29,10 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
+        if self.change_by_hand(codes, words, block.span, src, out) {
+            return;
+        }
+        self.length_alone(codes, words, out);
         let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
         if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
             self.option(CHANGE_IN_BLOCK, change.span, out);
@@ -306,7 +310,7 @@ impl Lower {
     }
 
     /// Speed and tool words.
-    fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+    pub(super) fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(word) = words.take(self.roles.speed)
             && let Some(value) = self.amount(&word, Quantity::Speed, words, src, out)
         {
@@ -383,6 +387,7 @@ impl Lower {
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
+                self.option(DWELL_UNIT, code.span, out);
                 match self.amount(&word, quantity, words, src, out) {
                     Some(value) => Op::Dwell(value),
                     None => return,

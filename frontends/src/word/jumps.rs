@@ -13,14 +13,17 @@ use crate::Flow;
 pub(crate) fn jumps(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
     let program = &settings.dialect.program;
     let signs = Signs::new(settings.dialect);
-    let frame = program.frame.as_bytes();
+    let (frame, ignored) = (program.frame.as_bytes(), program.ignored.as_bytes());
     let mut comments = Vec::new();
     let mut base = 0u32;
     for line in text.split_inclusive(|b| *b == b'\n') {
         let start = base;
         base += line.len() as u32;
         let line = line.trim_ascii_end();
-        if line.is_empty() || (!frame.is_empty() && line.starts_with(frame)) {
+        if line.is_empty()
+            || (!ignored.is_empty() && line.starts_with(ignored))
+            || (!frame.is_empty() && line.starts_with(frame))
+        {
             continue;
         }
         let mut from = 0;

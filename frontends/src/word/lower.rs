@@ -181,6 +181,18 @@ pub(super) struct Now {
     pub(super) return_distance: Option<Distance>,
 }
 
+/// How many characters of a line count, where blanks and comments do not.
+fn bare_length(line: &[u8]) -> usize {
+    let mut remark = false;
+    let counts = |byte: &&u8| {
+        remark |= **byte == b'(';
+        let counts = !remark && !byte.is_ascii_whitespace();
+        remark &= **byte != b')';
+        counts
+    };
+    line.iter().take_while(|byte| **byte != b';').filter(counts).count()
+}
+
 impl Now {
     /// The state of a block in front of which so many statements stand.
     pub(super) fn at(mark: usize) -> Now {
@@ -264,6 +276,10 @@ impl Lower {
         }
         for (fault, span) in &block.faults {
             out.report(fault.clone(), *span);
+        }
+        let limit = self.settings.dialect.block.longest_bare;
+        if limit > 0 && bare_length(src.bytes(block.span)) > limit as usize {
+            self.fault(Fault::BlockTooLong { limit }, block.span, out);
         }
         if block.skip != 0 {
             self.check_skip(block, out);
@@ -377,7 +393,11 @@ impl Lower {
 
     fn check_skip(&mut self, block: &Block, out: &mut Batch) {
         let rules = &self.settings.dialect.block;
-        if block.skip > rules.skip_levels {
+        if rules.skip_levels == 0 {
+            let code = rules.skip.as_str().into();
+            let name = "block skip: this control has no switch for it and executes the block always".into();
+            self.fault(Fault::NotSupported { code, name }, block.span, out);
+        } else if block.skip > rules.skip_levels {
             let code = format!("/{}", block.skip).into();
             self.fault(Fault::NotSupported { code, name: "block-skip level".into() }, block.span, out);
         }

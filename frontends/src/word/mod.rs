@@ -13,6 +13,7 @@
 
 mod again;
 pub(crate) mod block;
+mod by_hand;
 mod call;
 mod call_of;
 pub(crate) mod code_of;
@@ -106,6 +107,8 @@ pub struct Reader {
     block: Block,
     /// Longest block, in bytes.
     longest: usize,
+    /// Longest line of which the characters need not be counted.
+    uncounted: usize,
     /// Text of blocks that may be executed again.
     kept: again::Kept,
 }
@@ -115,12 +118,17 @@ impl Reader {
     /// from the dictionary and reported; without, it stays open and nothing is reported of it.
     pub fn new(settings: Settings, assume: bool) -> Reader {
         let dialect = settings.dialect;
+        let longest = match dialect.block.longest {
+            0 => LONGEST,
+            longest => (longest as usize).min(LONGEST),
+        };
         Reader {
             signs: Signs::new(dialect),
             frame: Frame::new(dialect),
-            longest: match dialect.block.longest {
-                0 => LONGEST,
-                longest => (longest as usize).min(LONGEST),
+            longest,
+            uncounted: match dialect.block.longest_bare {
+                0 => longest,
+                bare => (bare as usize).min(longest),
             },
             lower: Lower::new(settings, assume),
             block: Block::default(),
@@ -171,13 +179,13 @@ impl Reader {
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
             let open = !self.frame.closed && !self.lower.ended;
-            if open && let Some(end) = self.lower.fast_line(text, at, base, self.longest, out) {
+            if open && let Some(end) = self.lower.fast_line(text, at, base, self.uncounted, out) {
                 at = end + 1;
                 continue;
             }
             if open
                 && let Some(end) = plain::read(text, at, base, &mut self.block.words)
-                && end - at <= self.longest
+                && end - at <= self.uncounted
             {
                 self.plain_block(at, end, src, out);
                 at = end + 1;

@@ -10,7 +10,7 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::Value;
+use super::block::{Value, Word};
 use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
@@ -302,12 +302,28 @@ impl Lower {
                 self.fault(Fault::NotSupported { code, name }, block, out);
             }
         }
+        if let (Fact::Known(plane), true, false) = (plane, rules.end_needed, self.now.failed) {
+            let (first, second, _) = plane.axes();
+            if to.get(first).is_none() && to.get(second).is_none() {
+                let row = self.settings.dialect.code_for(Meaning::ArcFeed(turn));
+                let code = row.map_or("", |row| row.code.as_str()).into();
+                let word =
+                    format!("{} or {}", char::from(first.letter()), char::from(second.letter())).into();
+                return self.fault(Fault::WordMissing { code, word }, block, out);
+            }
+        }
         let turns = self.turns(words, src, out);
         let radius = words.take(self.roles.radius);
         let mut centre = [None, None, None];
         for (place, letter) in self.roles.centre.into_iter().enumerate() {
             // The word along the normal is left, and blamed as one that nothing uses.
             if matches!(plane, Fact::Known(p) if p.axes().2 as usize == place) {
+                let zero = |word: Word| matches!(word.value, Value::Number(n) if n.mantissa == 0);
+                if rules.centre_outside_ignored
+                    || rules.centre_outside_zero && words.get(letter).is_some_and(zero)
+                {
+                    words.take(letter);
+                }
                 continue;
             }
             if let Some(word) = words.take(letter) {

@@ -3,7 +3,7 @@
 //! A number without a decimal point is read by the dialect's rule, and a rule that is in doubt is
 //! reported once for each kind of quantity. Nothing is rounded.
 
-use ncc_dialects::{Bare, DECIMAL_POINT, PointRule, Quantity};
+use ncc_dialects::{ARC_CENTRES, Bare, DECIMAL_POINT, FROM_START, FROM_ZERO, PointRule, Quantity};
 use ncc_ir::canon::{Fact, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
@@ -175,11 +175,14 @@ impl Lower {
         };
         match self.state.centre {
             Know::Said(from) | Know::Taken(from) => Some(from),
-            Know::Unsaid => Some(row.value.into()),
+            Know::Unsaid => Some(self.centre_at_start(row.value.into(), at, out)),
             // Open here, but if the whole text says no other, it is what was said on every way to here, or else that at
             // power-on.
             Know::Lost | Know::Open | Know::Callers => {
-                let from = self.state.centre_before.unwrap_or(row.value.into());
+                let from = match self.state.centre_before {
+                    Some(from) => from,
+                    None => self.centre_at_start(row.value.into(), at, out),
+                };
                 let seen = &mut self.centre_seen;
                 if seen.said.iter().any(|said| *said != from) {
                     return self.refuse(centre_open(), at, out);
@@ -189,6 +192,15 @@ impl Lower {
                 }
                 Some(from)
             }
+        }
+    }
+
+    /// From where they are measured by a program that has not said it.
+    fn centre_at_start(&mut self, usual: CentreFrom, at: Span, out: &mut Batch) -> CentreFrom {
+        match self.option(ARC_CENTRES, at, out) {
+            FROM_ZERO => CentreFrom::Zero,
+            FROM_START => CentreFrom::Start,
+            _ => usual,
         }
     }
 

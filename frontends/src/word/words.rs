@@ -11,7 +11,8 @@ use crate::Word;
 pub(crate) fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
     let line = line.trim_ascii_end();
     let frame = dialect.program.frame.as_bytes();
-    if !frame.is_empty() && line.starts_with(frame) {
+    let ignored = dialect.program.ignored.as_bytes();
+    if !ignored.is_empty() && line.starts_with(ignored) || !frame.is_empty() && line.starts_with(frame) {
         return;
     }
     let signs = Signs::new(dialect);

@@ -327,6 +327,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         path_in_rapids: everything || dialect.name_with(NameRole::RoundingInRapids).is_some(),
         frames_shut: dialect.can.frames_shut,
         only_path: dialect.can.only_path.map(Into::into),
+        change_by_hand: dialect.can.change_by_hand,
         exact_stop: everything || dialect.can.flat || says(Meaning::ExactStop),
         advice: AdviceKind::ALL
             .iter()

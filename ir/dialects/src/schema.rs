@@ -30,6 +30,10 @@ pub struct Dialect {
     /// The dialect that it builds on: what this file does not say is as that one has it.
     #[serde(default)]
     pub base: Option<String>,
+    /// A dialect of which this one is about a part: a text that both explain is taken for one of that, and where the two
+    /// readings differ the user is asked.
+    #[serde(default)]
+    pub part_of: Option<String>,
     /// Which reader and writer it has; the base's, if it builds on one.
     pub family: Family,
     /// Usual file extensions, the first one for writing; without the dot.
@@ -145,6 +149,8 @@ pub struct ProgramRules {
     pub zero_unnumbered: bool,
     /// Whether a mark behind the end of a program counts for nothing where none stands before it.
     pub mark_behind_end: bool,
+    /// A line that counts for nothing wherever it stands, such as `%`; empty for none. It is not written.
+    pub ignored: String,
     /// Whether a call writes the number with the least digits as well, because it is a name.
     pub padded_calls: bool,
     /// Least digits of a written program number.
@@ -263,6 +269,8 @@ pub struct BlockRules {
     pub skip_unsure: bool,
     /// Longest block when reading, in bytes.
     pub longest: u32,
+    /// Most characters of a block without blanks and comments, of a control that counts these; 0 for no such limit.
+    pub longest_bare: u32,
     /// Who says so.
     pub source: String,
 }
@@ -412,6 +420,12 @@ pub struct ArcRules {
     pub centre_absolute: bool,
     /// Whether a third axis makes a helix.
     pub helix: bool,
+    /// Whether an arc must have a word of its end in its plane, so that a full circle has one too.
+    pub end_needed: bool,
+    /// Whether a word of the centre along the third axis is passed over; else it is refused as one without use.
+    pub centre_outside_ignored: bool,
+    /// The same of such a word that is zero (`K0` in the XY plane).
+    pub centre_outside_zero: bool,
     /// Letter of the number of turns, the first one, full or not, counted.
     pub turns: Option<char>,
     /// Whether a centre from program zero needs both its words; else one that is missing is zero.
@@ -533,6 +547,12 @@ pub struct Can {
     pub inherits_motion: bool,
     /// How corners are always taken, if there is no word for it.
     pub only_path: Option<PathName>,
+    /// A length, and its end, are commands of axes: neither a move nor the word of another axis stands beside them.
+    pub length_alone: bool,
+    /// A tool is changed by hand, where the option `tool_change` is `manual`: a block of its own stops the spindle,
+    /// switches coolant off, goes to machine zero along Z, names the tool and stops the program. The control knows no
+    /// lengths of tools: the operator sets the zero of Z by the tool that is put in.
+    pub change_by_hand: bool,
     /// No other zero may be set while a rotation, factors or a mirror are in force, and no mirror inside
     /// a rotation or factors.
     pub frames_shut: bool,

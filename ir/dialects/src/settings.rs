@@ -54,6 +54,25 @@ pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 /// Value of that option: the block's axes move first.
 pub const AFTER_MOTION: &str = "after-motion";
 
+/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused.
+pub const TOOL_CHANGE: &str = "tool_change";
+
+/// Value of [`TOOL_CHANGE`]: a block of its own that stops the program.
+pub const BY_HAND: &str = "manual";
+
+/// Option of a dictionary: from where the words of an arc's centre are measured where the program has not said it, from
+/// the `start` of the arc or from program `zero`.
+pub const ARC_CENTRES: &str = "arc_centres";
+
+/// Value of [`ARC_CENTRES`]: the start of the arc.
+pub const FROM_START: &str = "start";
+
+/// Value of [`ARC_CENTRES`]: program zero.
+pub const FROM_ZERO: &str = "zero";
+
+/// Option of a dictionary: what the words of dwells count, `seconds` or `milliseconds`.
+pub const DWELL_UNIT: &str = "dwell_unit";
+
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 
@@ -138,6 +157,9 @@ impl Settings {
             return Err(SettingError::NoValue { option: option.to_owned(), values: row.values.clone() });
         }
         self.chosen.insert(option.to_owned(), value.to_owned());
+        if option == DWELL_UNIT && value == "milliseconds" {
+            self.dialect = in_milliseconds(self.dialect);
+        }
         Ok(())
     }
 
@@ -288,6 +310,31 @@ impl Settings {
     pub fn is_chosen(&self, option: &str) -> bool {
         self.chosen.contains_key(option)
     }
+}
+
+/// A dictionary of which all dwells in seconds count milliseconds. Each is made once and lives as long as the process.
+fn in_milliseconds(dialect: &'static Dialect) -> &'static Dialect {
+    static MADE: Mutex<Vec<(&'static Dialect, &'static Dialect)>> = Mutex::new(Vec::new());
+    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, derived)) = made.iter().find(|(own, _)| std::ptr::eq(*own, dialect)) {
+        return derived;
+    }
+    let mut derived = dialect.clone();
+    let count = |quantity: &mut Quantity| {
+        if *quantity == Quantity::Seconds {
+            *quantity = Quantity::Milliseconds;
+        }
+    };
+    for row in &mut derived.code {
+        row.dwell.iter_mut().for_each(|word| count(&mut word.quantity));
+    }
+    for row in &mut derived.cycle {
+        row.dwell.iter_mut().for_each(|word| count(&mut word.quantity));
+    }
+    derived.address.iter_mut().for_each(|row| count(&mut row.quantity));
+    let derived: &'static Dialect = Box::leak(Box::new(derived));
+    made.push((dialect, derived));
+    derived
 }
 
 /// A dictionary of which the units at power-on are stated. Each is made once and lives as long as the process.

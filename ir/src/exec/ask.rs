@@ -150,7 +150,7 @@ impl Exec {
             System::ExternalOffset(axis) => {
                 // A control may count a shift of the program's own among it.
                 let own = self.slots.is_some() || self.modes.shifted || self.has_program_frames();
-                (!own).then(|| self.counted(self.world.external[*axis as usize], *axis, None))
+                (!own).then(|| self.counted(self.external()[*axis as usize], *axis, None))
             }
             System::WorkTurn(number) => Some(self.counted(self.world.work_turn(*number), Axis::C, None)),
             System::WorkOffsetNumber => Some(f64::from(self.modes.work_offset)),

@@ -189,6 +189,10 @@ impl Exec {
         self.state.tool = self.tool_of_change();
         self.changed_to = self.state.tool;
         let emitted = self.emit(Kind::ToolChange, span, out);
+        if self.world.zeroed_by_tool {
+            // Z is called something else now, so that a program that says it moves.
+            self.reframe(self.machine());
+        }
         if self.state.by_control & by_control::Z == 0 {
             if self.state.by_control & by_control::SPINDLE != 0 {
                 self.state.by_control |= by_control::SPINDLE_AT_CHANGE;
@@ -197,6 +201,22 @@ impl Exec {
             self.said_by_program(by_control::SPINDLE);
         }
         emitted
+    }
+
+    /// How far the operator has moved the zero of Z for the tool that was put in; nothing where nobody does.
+    pub(super) fn put_in(&self) -> Nanos {
+        match self.world.zeroed_by_tool && self.changed_to != -1 {
+            true => self.world.edge_length(self.changed_to, 1),
+            false => 0,
+        }
+    }
+
+    /// What counts in every work offset besides its own zero: the machine's external offset, and how far the operator has
+    /// moved the zero of Z.
+    pub(super) fn external(&self) -> [Nanos; AXES] {
+        let mut external = self.world.external;
+        external[Z] = external[Z].wrapping_add(self.put_in());
+        external
     }
 
     /// A tool change, before its event: the control may take Z to machine zero, where it stays.

@@ -237,6 +237,7 @@ impl Exec {
             && other.centre_path.is_none()
             && self.feed == other.feed
             && self.selected == other.selected
+            && self.put_in() == other.put_in()
             && self.state == other.state
             && self.speed_watched == other.speed_watched
             && self.corner.is_none()

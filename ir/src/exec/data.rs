@@ -200,7 +200,7 @@ impl Exec {
                 for (axis, word) in words.iter().enumerate() {
                     let Some(word) = word else { continue };
                     let value = self.value(word, span)?;
-                    let beside = self.tool_offset()[axis].wrapping_add(self.world.external[axis]);
+                    let beside = self.tool_offset()[axis].wrapping_add(self.external()[axis]);
                     let sum = match mode {
                         DataMode::Set => Some(value),
                         DataMode::Add => zero[axis].checked_add(value),

@@ -470,6 +470,17 @@ impl Exec {
         }
     }
 
+    /// A length that is called up: none, if it is that of the tool in the spindle and the operator has set the zero of Z
+    /// by that.
+    pub(super) fn as_zeroed(&self, length: Length) -> Length {
+        let own = match length {
+            Length::Entry(entry) => i64::from(entry) == self.state.tool,
+            Length::Edge(tool, edge) => edge == 1 && tool == self.state.tool,
+            Length::Value(_) => false,
+        };
+        if self.world.zeroed_by_tool && own { Length::Entry(0) } else { length }
+    }
+
     /// The length of an edge: one and the same thing has one name only.
     pub(super) fn edge(&self, edge: u32) -> Length {
         let tool = if self.world.length_by_change { self.changed_to } else { self.state.tool };

@@ -346,7 +346,8 @@ impl Exec {
     /// Computes the frame anew; the machine stays at `here`.
     fn reframe(&mut self, here: [Nanos; AXES]) {
         self.frame = self.world.work_offset(self.modes.work_offset);
-        for (zero, external) in self.frame.iter_mut().zip(self.world.external) {
+        let external = self.external();
+        for (zero, external) in self.frame.iter_mut().zip(external) {
             *zero = zero.wrapping_add(external);
         }
         let turn = self.world.work_turn(self.modes.work_offset);
@@ -643,13 +644,13 @@ impl Exec {
                 let Ok(entry) = entry else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
-                self.call_up(Length::Entry(entry), span)?;
+                self.call_up(self.as_zeroed(Length::Entry(entry)), span)?;
             }
             Op::UseToolEdge { edge, .. } => {
                 let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
-                self.call_up(self.edge(edge), span)?;
+                self.call_up(self.as_zeroed(self.edge(edge)), span)?;
             }
             Op::StartSpindleClockwise => self.turn_spindle(Spindle::Clockwise, span, out)?,
             Op::StartSpindleCounterclockwise => self.turn_spindle(Spindle::Counterclockwise, span, out)?,

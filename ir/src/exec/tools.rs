@@ -241,7 +241,7 @@ impl Exec {
             None => (self.modes.work_offset, self.unplace(&bare)),
             Some(number) => {
                 let zero = self.world.work_offset(number);
-                let external = self.world.external;
+                let external = self.external();
                 let from: [Nanos; AXES] = std::array::from_fn(|axis| {
                     here[axis].wrapping_sub(zero[axis]).wrapping_sub(external[axis])
                 });

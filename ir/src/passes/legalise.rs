@@ -22,10 +22,10 @@ use super::{
     Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
     cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, frame_increments, known_facts,
-    length_axis, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
-    path_control, polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways, skip_levels,
-    specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
-    tool_change, tool_edge, work_offset, z_after_change,
+    length_axis, length_by_hand, machine_moves, number_names, offset_with_z, one_distance, one_move,
+    origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways,
+    skip_levels, specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads,
+    tool_axis, tool_change, tool_edge, work_offset, z_after_change,
 };
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Distance, Modes};
@@ -82,6 +82,7 @@ pub struct Legaliser {
     at_once: at_once::State,
     increments: frame_increments::State,
     length_axis: length_axis::State,
+    by_hand: length_by_hand::State,
     rotary: rotary_turns::State,
     z_left: z_after_change::State,
 }
@@ -150,6 +151,7 @@ impl Legaliser {
             at_once: at_once::State::new(caps),
             increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
             length_axis: length_axis::State::default(),
+            by_hand: length_by_hand::State::default(),
             rotary: rotary_turns::State::default(),
             z_left: z_after_change::State::default(),
         }
@@ -389,7 +391,7 @@ impl Legaliser {
         if self.at_once.is_busy() {
             needs |= AT_ONCE;
         }
-        if self.edge.is_busy() {
+        if self.edge.is_busy() || self.target.caps.change_by_hand && self.by_hand.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
         }
         if self.axis.is_busy() && stmts.iter().any(|stmt| tool_axis::is_length(&stmt.op)) {
@@ -523,6 +525,9 @@ impl Legaliser {
         }
         if needs & (EDGE | TABLE) != 0 {
             tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
+        }
+        if needs & TABLE != 0 && self.target.caps.change_by_hand {
+            length_by_hand::over(stmts, &mut start.clone(), &mut self.by_hand, diags);
         }
         if needs & TOOL_AXIS != 0 {
             tool_axis::over(stmts, &mut start.clone(), &mut self.axis, &self.target, diags);

@@ -46,6 +46,7 @@ mod known_answers;
 pub mod known_facts;
 mod legalise;
 mod length_axis;
+mod length_by_hand;
 mod length_moves;
 pub mod machine_cuts;
 pub mod machine_moves;

@@ -86,7 +86,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(EVERY, !caps.flat);
     needs(CALL, caps.calls);
     needs(EDGE, caps.tool_edges != Some(false));
-    needs(TABLE, caps.tool_edges != Some(true));
+    needs(TABLE, caps.tool_edges != Some(true) && !caps.change_by_hand);
     needs(RADIUS, caps.radii == Radii::ALL);
     needs(TOOL_AXIS, caps.tip == TipForm::Any && caps.tilt == TiltForm::Any);
     needs(FRAME, caps.says_all_frames());

@@ -17,6 +17,7 @@
 //!
 //! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
 
+mod again;
 mod arc_feed;
 mod beside;
 mod insert;
@@ -298,6 +299,10 @@ impl SideEffects {
             Op::StartCutterRadiusCompensation { .. } => {
                 self.state_arc_feed(&mut stmt.joined, stmt.span, made, diags);
             }
+            op @ (Op::FloodOn | Op::MistOn) => {
+                let op = op.clone();
+                self.other_coolant_before(&op, &stmt, made, diags);
+            }
             op if cuts(op) => {
                 let label = matches!(op, Op::Label(_));
                 self.again_before(made, &mut stmt.joined, diags, (stmt.span, label));
@@ -327,7 +332,8 @@ impl SideEffects {
             if *state == Switch::Off {
                 continue;
             }
-            let source_stops = self.source.surely(behaviour);
+            // Where the source's control leaves it open, its usual value counts.
+            let source_stops = self.source.does(behaviour);
             // Where Z goes home in words, the spindle stops in words before that.
             let target_stops = self.target.surely(behaviour) && !(both == CHANGE && self.goes_home());
             let state = if at == 0 { &mut self.spindle } else { &mut self.coolant };
@@ -426,37 +432,6 @@ impl SideEffects {
             insert(made, stmt, at, vec![home]);
         }
         self.z_home |= (source || target) && stmt.skip.is_none();
-    }
-
-    /// Starts again what the target's control alone has switched off, before a block that cuts.
-    fn again_before(
-        &mut self,
-        made: &mut Vec<Stmt>,
-        joined: &mut bool,
-        diags: &mut Vec<Diagnostic>,
-        (span, label): (Span, bool),
-    ) {
-        // A label alone cuts nothing.
-        if let Some(at) = self.lost_stop.take_if(|_| !label) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: OPTIONAL_STOP.into() }, at));
-        }
-        if self.again.iter().all(Option::is_none) {
-            return;
-        }
-        let mut at = made.len();
-        if *joined {
-            at = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
-        }
-        let mut new = Vec::new();
-        for (behaviour, ops) in self.again.iter_mut().filter_map(Option::take) {
-            diags.push(Diagnostic::new(Fault::StartedAgain { behaviour }, span));
-            new.extend(ops.into_iter().map(|op| Stmt::new(span, op)));
-        }
-        for (place, stmt) in new.iter_mut().enumerate() {
-            stmt.joined = place > 0;
-        }
-        // The block keeps its number and its jump target at the first of its statements.
-        made.splice(at..at, new);
     }
 
     /// The length of the tool before a statement that moves Z, and after one that goes to a place of the machine.

@@ -70,8 +70,13 @@ impl Control {
             4109 => self.m.feed.map(|feed| feed / self.unit()),
             4119 => self.m.speed.filter(|_| !self.m.surface),
             4120 => self.m.selected.map(f64::from),
-            // What counts in all work offsets is nothing in the worlds in which it runs; a Haas's G52 is among it.
-            5201..=5203 => (!self.haas || self.m.slots.shift() == [0.0; 6]).then_some(0.0),
+            // What counts in all work offsets is nothing in the worlds in which it runs, but for the zero of Z that the
+            // operator has moved; a Haas's G52 is among it.
+            5201..=5203 => (!self.haas || self.m.slots.shift() == [0.0; 6]).then_some(if number == 5203 {
+                self.m.zero_moved / self.unit()
+            } else {
+                0.0
+            }),
             _ => {
                 let (offset, axis) = zero(number)?;
                 Some(self.m.zero_of(offset)[axis] / self.unit())

@@ -28,7 +28,7 @@ const DECREASING: &str = "pecks are folded where all but the first and the last 
 const IN_ONE_GO: &str = "a hole that is made in one go is drilled";
 
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 23] = [
+const LOST: [(&str, &str, &str); 25] = [
     ("haas/decreasing-pecks.nc", "cycle drill-peck of 1", DECREASING),
     ("haas/decreasing-pecks.nc", "cycle drill-peck of 2", DECREASING),
     ("haas/decreasing-pecks.nc", "cycle drill-break of 2", DECREASING),
@@ -42,6 +42,8 @@ const LOST: [(&str, &str, &str); 23] = [
     ("fanuc/g86.nc", "cycle bore-stop of 2", STOPPED),
     ("siemens/boring-stop.mpf", "cycle bore-stop of 1", STOPPED),
     ("linuxcnc/g86.ngc", "cycle bore-stop of 2", STOPPED),
+    ("mach3/bores.tap", "cycle bore-stop of 2", STOPPED),
+    ("mach3/bores.tap", "cycle bore of 2", "its feed out goes on beyond R, as none is read that way"),
     (
         "linuxcnc/g89-initial.ngc",
         "cycle bore of 2",

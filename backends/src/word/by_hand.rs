@@ -1,0 +1,59 @@
+//! A tool change by hand, of a control that has none.
+//!
+//! ```text
+//! T3 M06      →      M5 M9 G53 G0 Z0 T3 M0 (TOOL 3)
+//! ```
+//!
+//! One block does it all: the spindle and the coolant are off before Z goes up, and the program stops behind that. The
+//! reader takes exactly this block for a change.
+//!
+//! Not here: the spindle that starts again behind it (`passes::side_effects`), and the length of the tool, which no
+//! program knows (`passes::length_by_hand`).
+
+use ncc_dialects::{BY_HAND, TOOL_CHANGE};
+use ncc_ir::canon::{Axis, Motion};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::modes::cannot;
+use super::{Sink, Writer};
+
+impl Writer {
+    /// Writes a change to the tool that is selected.
+    ///
+    /// # Errors
+    /// The option refuses it, or the tool's number is not known.
+    pub(super) fn change_by_hand(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        self.rely(TOOL_CHANGE, span, sink);
+        if self.settings.get(TOOL_CHANGE) != BY_HAND {
+            return Err(cannot("a tool change by hand, which the option tool_change refuses"));
+        }
+        let tool = self.tracker.selected.filter(|tool| *tool >= 0);
+        let tool = tool.ok_or_else(|| cannot("a tool change by hand to a tool that is not known"))?;
+        let (codes, z) = (&self.codes, self.codes.axes[Axis::Z as usize]);
+        let all = [codes.spindle_stop, codes.coolant_off, codes.machine[0], codes.traverse, codes.stop];
+        let ([Some(off), Some(dry), Some(machine), Some(rapid), Some(stop)], Some(z), Some(letter)) =
+            (all, z, codes.tool)
+        else {
+            return Err(cannot("a tool change"));
+        };
+        let number = self.number(&letter, &Expr::int(tool), span, sink)?;
+        let zero = self.number(&z, &Expr::int(0), span, sink)?;
+        // A tool word of its own says no more.
+        self.block.drop_alone(letter.letter);
+        let need = all.into_iter().fold(Need::new(Rank::Alone), Need::code);
+        self.admit(&need.letter(z.letter).letter(letter.letter), sink)?;
+        for code in [off, dry, machine, rapid] {
+            self.block.code(Part::Mode, &code);
+        }
+        self.block.word(Part::Axes, z.letter, zero);
+        self.block.word(Part::Tail, letter.letter, number);
+        self.block.code(Part::Tail, &stop);
+        self.comment(&format!("TOOL {tool}"), span, sink);
+        self.force.motion = Some(Motion::Traverse);
+        self.residue[Axis::Z as usize] = 0;
+        Ok(())
+    }
+}

@@ -1,0 +1,21 @@
+(exported by a cad program, post grbl)
+(begin preamble)
+N10 G17 G90
+N20 G21
+(begin operation: profile)
+(path: profile)
+N30 G0 Z6.000
+N40 G0 X-3.000 Y10.000
+N50 M3 S15000
+N60 G1 X-3.000 Y10.000 Z-2.000 F180.000
+N70 G1 X-3.000 Y0.000 Z-2.000 F720.000
+N80 G3 X0.000 Y-3.000 Z-2.000 I3.000 J0.000 K0.000 F720.000
+N90 G1 X40.000 Y-3.000 Z-2.000
+N100 G3 X43.000 Y0.000 Z-2.000 I0.000 J3.000 K0.000
+N110 G1 X43.000 Y10.000 Z-2.000
+N120 G0 Z6.000
+(finish operation: profile)
+(begin postamble)
+N130 M5
+N140 G17 G90
+N150 M2

@@ -1,0 +1,23 @@
+; flat cutter, then a drill, both put in by hand
+G21 G90 G94 G17 G54
+M5 M9 G53 G0 Z0 T1 M0 (6 mm flat)
+S10000 M3
+G4 P3
+G0 X0 Y0
+Z5
+G1 Z-1.5 F200
+X40 F700
+Y25
+X0
+Y0
+G0 Z5
+M5 M9 G53 G0 Z0 T2 M0 (3 mm drill)
+S6000 M3
+G4 P3
+G0 X20 Y12.5
+G0 Z5
+G1 Z-8 F80
+G0 Z5
+M5
+G53 G0 Z0
+M30

@@ -1,0 +1,33 @@
+; six holes 3.2 mm, written out by the post
+G90 G94
+G17
+G21
+T1
+S8000 M3
+G54
+G0 X10 Y10
+Z15
+Z2
+G1 Z-6 F100
+G0 Z2
+X30
+G1 Z-6
+G0 Z2
+X50
+G1 Z-6
+G0 Z2
+Y30
+G1 Z-3
+G0 Z0.5
+Z-2.5
+G1 Z-6
+G0 Z2
+X30
+G1 Z-6
+G4 P0.25
+G0 Z2
+X10
+G1 Z-6
+G0 Z15
+M5
+M30

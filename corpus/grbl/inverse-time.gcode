@@ -1,0 +1,13 @@
+; a move in each of which F says its time
+G21 G90 G17
+G0 X0 Y0 Z2
+M3 S10000
+G93
+G1 X10 Y0 Z1.5 F40
+X20 Y1 Z1 F38
+G2 X26 Y-5 I0 J-6 F25
+G94
+G1 X30 F500
+G0 Z10
+M5
+M30

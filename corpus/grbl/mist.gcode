@@ -1,0 +1,22 @@
+(aluminium, mist on, the spindle the other way for one cut)
+G21 G90 G17 G94 G40 G61 G91.1
+G80
+G0 X0 Y0
+G0 Z5
+M4 S6000
+M7
+G1 Z-0.5 F60
+X15 F200
+M9
+M5
+M1
+G0 Z5
+M3 S12000
+M8
+G0 Y6
+G1 Z-0.5 F60
+X0 F200
+G0 Z20
+M9
+M5
+M30

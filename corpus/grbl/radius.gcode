@@ -1,0 +1,19 @@
+; rounded plate, arcs by radius, one of them the long way
+G21 G90 G17 G94
+G0 Z5
+G0 X0 Y5
+M3 S12000
+G1 Z-1 F120
+G2 X5 Y10 R5 F450
+G1 X35
+G2 X40 Y5 R5
+G2 X35 Y0 R5
+G1 X5
+G2 X0 Y5 R5
+G0 Z5
+G0 X60 Y5
+G1 Z-1 F120
+G3 X55 Y0 R-5 F300
+G0 Z5
+M5
+M30

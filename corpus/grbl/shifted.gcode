@@ -1,0 +1,18 @@
+(two equal slots from one text, the zero shifted between)
+G21 G90 G17 G94 G54
+G92.1
+G0 Z5
+G0 X0 Y0
+M3 S9000
+G1 Z-1 F100
+X25 F400
+G0 Z5
+G0 X0 Y40
+G92 X0 Y0
+G1 Z-1 F100
+X25 F400
+G0 Z5
+G0 X0 Y0
+G92.1
+M5
+M30

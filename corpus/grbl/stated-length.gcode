@@ -1,0 +1,20 @@
+(the length of the second tool is stated, measured before)
+G21 G90 G17 G94 G54
+G49
+G0 X0 Y0
+M3 S9000
+G0 Z10
+G1 Z-1 F100
+X12 F300
+G0 Z10
+M5
+M0
+G43.1 Z8.25
+M3 S9000
+G0 Z10
+G1 Z-1 F100
+X0 F300
+G0 Z10
+M5
+G49
+M30

@@ -1,0 +1,17 @@
+; relief cut in increments
+G21 G17 G94
+G90 G0 X0 Y0
+Z4
+S8000 M3
+G91
+G1 Z-4.5 F100
+X10 F500
+Y2
+X-10
+Y2
+X10
+G0 Z4.5
+G90
+G0 X0 Y0
+M5
+M2

@@ -1,0 +1,17 @@
+(the places of G28 and G30 are stored, and used)
+G21 G90 G17 G94 G54
+G53 G0 Z0
+G53 G0 X-10 Y-20
+G28.1
+G53 G1 X-30 F800
+G30.1
+G0 X0 Y0
+Z3
+M3 S7000
+G1 Z-0.4 F90
+X20 F250
+G0 Z3
+G30 Z12
+M5
+G28
+M2

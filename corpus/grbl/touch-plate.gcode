@@ -1,0 +1,23 @@
+(zero of Z by a plate of 12.5 mm, then a face)
+G21 G90 G17 G94 G54
+G0 Z40
+G91
+G38.2 Z-30 F60
+G0 Z1
+G38.3 Z-2 F15
+G38.4 Z3 F15
+G38.5 Z2 F30
+G90
+G10 L20 P1 Z12.5
+G0 Z25
+M0 (take the plate away)
+M3 S11000
+G0 X-5 Y0
+Z2
+G1 Z-0.3 F120
+X60 F900
+Y8
+X-5
+G0 Z25
+M5
+M30
