@@ -44,7 +44,7 @@ pub(super) fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -
     source.retain(|event| !matches!(event.kind, Kind::Message(_)) || !is_printed(text, event.span));
     let last = source.last().map_or(Span::default(), |event| event.span);
     let differs = |what: String, at: Span| Diagnostic::new(Fault::NotTheSame { difference: what.into() }, at);
-    let mut read = match Listed::default().events(listing) {
+    let read = match Listed::default().events(listing) {
         Ok(events) => events,
         Err(line) => {
             return Err(differs(format!("the listing has a line that is no call of it: {line}"), last));
@@ -60,23 +60,22 @@ pub(super) fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -
         speed: DIGITS,
     };
     let mut comparison = Comparison::new(resolution, [0; AXES]);
-    if let Some(turned) = rounded_aside(listing) {
-        comparison.measure(turned);
-    }
     comparison.see(Seen { modes: 0, in_rapids: false, merges: false, path: false, advice: 0 });
-    comparison.advance(&mut source, &mut read, true).map_err(|found| {
-        let at = found.source.as_ref().map_or(last, |event| event.span);
-        differs(difference::describe(&found), at)
-    })
-}
-
-/// How far rounding moves a place along the machine's axes, in nanos, where an offset is turned: half a unit of the last
-/// digit along each of the turned axes, so at most its square root of two times along one of the machine's.
-fn rounded_aside(listing: &str) -> Option<Nanos> {
-    let turned = |line: &str| line.starts_with("SET_XY_ROTATION(") && line != "SET_XY_ROTATION(0.0000)";
-    let half = ONE / Nanos::pow(10, u32::from(DIGITS)) / 2;
-    let half = if listing.contains("CANON_UNITS_INCHES") { half * 254 / 10 } else { half };
-    listing.lines().any(turned).then_some(half * 1_415 / 1_000)
+    let mut rest = read.into_iter().peekable();
+    let mut piece = Vec::new();
+    loop {
+        let within = rest.peek().map_or(0, |(_, within)| *within);
+        comparison.measure(within);
+        piece.extend(std::iter::from_fn(|| Some(rest.next_if(|(_, own)| *own == within)?.0)));
+        let over = rest.peek().is_none();
+        comparison.advance(&mut source, &mut piece, over).map_err(|found| {
+            let at = found.source.as_ref().map_or(last, |event| event.span);
+            differs(difference::describe(&found), at)
+        })?;
+        if over {
+            return Ok(());
+        }
+    }
 }
 
 /// The events of a program on a control with its machine's table of tools and no other, from zero.
@@ -136,7 +135,10 @@ struct Listed {
     shift: [Nanos; AXES],
     /// Offsets of the tool in force.
     tool: [Nanos; 3],
-    events: Vec<Event>,
+    /// Each with how far rounding moves it along the machine's axes, nanos of a millimetre, where that is more than half a
+    /// unit of the last digit: where an offset is turned, by half a unit along each of the turned axes, so by at most its
+    /// square root of two times along one of the machine's.
+    events: Vec<(Event, Nanos)>,
 }
 
 impl Listed {
@@ -144,7 +146,7 @@ impl Listed {
     ///
     /// # Errors
     /// A line that is no call of one.
-    fn events(mut self, listing: &str) -> Result<Vec<Event>, String> {
+    fn events(mut self, listing: &str) -> Result<Vec<(Event, Nanos)>, String> {
         let lines: Vec<&str> = listing.lines().collect();
         let end = lines.iter().rposition(|line| *line == "PROGRAM_END()");
         // What belongs to the end begins where the first work offset is taken again.
@@ -161,7 +163,10 @@ impl Listed {
 
     fn event(&mut self, kind: Kind, rate: Nanos) {
         let (end, state, inch) = (self.at, self.state, self.inch);
-        self.events.push(Event { kind, end, rate, state, inch, span: Span::default() });
+        let half = ONE / Nanos::pow(10, u32::from(DIGITS)) / 2;
+        let half = if inch { half * 254 / 10 } else { half };
+        let aside = if self.turn == 0 { 0 } else { half * 1_415 / 1_000 };
+        self.events.push((Event { kind, end, rate, state, inch, span: Span::default() }, aside));
     }
 
     fn line(&mut self, line: &str, behind: &[&str]) -> Option<()> {
