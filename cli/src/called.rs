@@ -101,7 +101,7 @@ pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> 
         return Ok(());
     }
     let kept = || -> io::Result<fs::File> {
-        let mut file = tempfile::tempfile()?;
+        let mut file = crate::scratch::file()?;
         file.write_all(&whole)?;
         file.seek(SeekFrom::Start(0))?;
         Ok(file)

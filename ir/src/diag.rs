@@ -179,6 +179,8 @@ faults! {
     NoProgramEnd = 110, Warning;
     /// Text after the end of the program.
     TextAfterEnd = 111, Warning;
+    /// Text before the mark that opens the program, which the control does not read.
+    TextBeforeStart { mark: Box<str> } = 114, Warning;
 
     /// Blocks before the only mark of the text: a control takes them for a leader and skips them.
     OpeningMarkMissing { mark: Box<str> } = 112, Error;

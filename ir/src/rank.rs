@@ -77,6 +77,7 @@ impl Fault {
             // Warnings.
             | Fault::NoProgramEnd
             | Fault::TextAfterEnd
+            | Fault::TextBeforeStart { .. }
             | Fault::ComparedLast { .. }
             | Fault::SkipSettingsSampled { .. }
             | Fault::VariableGiven { .. }

@@ -8,6 +8,7 @@ use ncc_ir::rank::Rank;
 use serde::Serialize;
 
 use super::human::{Loudness, choose, told};
+use super::source::visible;
 use super::{About, Place, Told};
 
 /// A diagnostic, as it stands in a line of `--format json` and in a report.
@@ -140,6 +141,18 @@ pub fn entries(about: &mut About, diagnostics: &[Diagnostic], loudness: Loudness
 /// # Errors
 /// Writing.
 pub fn line(out: &mut dyn Write, object: &impl Serialize) -> io::Result<()> {
-    serde_json::to_writer(&mut *out, object)?;
+    let text = serde_json::to_string(object)?;
+    // serde_json escapes the control characters below the blank alone; the others stand in strings too.
+    match text.contains(|c: char| visible(c) != c) {
+        false => out.write_all(text.as_bytes())?,
+        true => {
+            for c in text.chars() {
+                match visible(c) == c {
+                    true => write!(out, "{c}")?,
+                    false => write!(out, "\\u{:04x}", c as u32)?,
+                }
+            }
+        }
+    }
     out.write_all(b"\n")
 }

@@ -408,6 +408,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::Syntax { .. }
         | Fault::NoProgramEnd
         | Fault::TextAfterEnd
+        | Fault::TextBeforeStart { .. }
         | Fault::ComparedLast { .. }
         | Fault::OpeningMarkMissing { .. }
         | Fault::UnknownCode { .. }

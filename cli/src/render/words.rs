@@ -71,6 +71,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::TextAfterEnd => {
             ("text after the end of the program".into(), "the control never comes here".into())
         }
+        Fault::TextBeforeStart { mark } => (
+            format!("text before the first {}", quoted(mark)),
+            "the control does not read it, and neither does ncc".into(),
+        ),
         Fault::ComparedLast { what } => (
             format!("{} compares last of all", quoted(what)),
             "AND, OR, XOR and NOT come before comparisons here".into(),
