@@ -138,6 +138,7 @@ fn the_corpus_has_no_other_questions() {
                 Fact::Units => "units",
                 Fact::DecimalPoint => "decimal point",
                 Fact::RotaryTurn => "rotary turn",
+                Fact::CycleBesideMotion => "cycle beside a motion",
                 Fact::ReturnPath => "path of a return",
                 Fact::ToolChange => "tool of a change",
             };

@@ -17,7 +17,8 @@ use std::io::{self, SeekFrom};
 use codespan_reporting::term::termcolor::WriteColor;
 
 use ncc_dialects::{
-    CALCULATOR, DECIMAL_POINT, Dialect, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, Settings,
+    CALCULATOR, CYCLE_BESIDE_MOTION, DECIMAL_POINT, Dialect, MOTION_CANCELS, MOTION_DRILLED, RETURN_DISTANCE,
+    RETURN_FIRST, RETURN_LAST, Settings,
 };
 use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::behaviour::Behaviour;
@@ -72,6 +73,8 @@ pub enum Fact {
     ReturnPath,
     /// The tool that M06 puts in, where its block has a T and another tool waits.
     ToolChange,
+    /// Whether a cycle drills that stands beside a code of motion.
+    CycleBesideMotion,
 }
 
 impl Fact {
@@ -83,6 +86,7 @@ impl Fact {
             Fact::DecimalPoint => 303,
             Fact::ToolChange => 336,
             Fact::ReturnPath => 337,
+            Fact::CycleBesideMotion => 338,
             Fact::RotaryTurn => 522,
         }
     }
@@ -145,6 +149,15 @@ pub enum Shown {
         zero: bool,
         /// Whether they are places of the part.
         absolute: bool,
+    },
+    /// A block with a cycle's code and one of motion drills, or moves by the latter.
+    Hole {
+        /// The code of the cycle.
+        cycle: Box<str>,
+        /// The code of motion.
+        motion: Box<str>,
+        /// Whether it drills.
+        drills: bool,
     },
     /// A rotary axis turns by so much, nanos of a degree.
     Turn(Axis, Nanos),
@@ -383,6 +396,15 @@ fn of_diagnostic(job: &Job, diagnostic: &Diagnostic) -> Option<Candidate> {
             let shown = [path(*last), path(!*last)];
             of_option(job, Fact::ReturnPath, diagnostic.span, RETURN_DISTANCE, values, shown)
         }
+        Fault::AssumedCycle { cycle, motion } => {
+            let shown = [true, false].map(|drills| Shown::Hole {
+                cycle: cycle.clone(),
+                motion: motion.clone(),
+                drills,
+            });
+            let values = [MOTION_DRILLED, MOTION_CANCELS];
+            of_option(job, Fact::CycleBesideMotion, diagnostic.span, CYCLE_BESIDE_MOTION, values, shown)
+        }
         Fault::AssumedToolChange { named, waiting } => {
             let [first, second] = Behaviour::ToolWithChange.values() else { return None };
             let shown = [*named, *waiting].map(|tool| Shown::Made(Made::Tool(i64::from(tool))));
@@ -400,14 +422,19 @@ fn decide(
     sound: bool,
 ) -> io::Result<Option<Question>> {
     let length = match candidate.fact {
-        Fact::Control | Fact::Units | Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => MICROMETRE,
+        Fact::Control
+        | Fact::Units
+        | Fact::ReturnPath
+        | Fact::ToolChange
+        | Fact::CycleBesideMotion
+        | Fact::RotaryTurn => MICROMETRE,
         Fact::DecimalPoint => TENTH,
     };
     let cuts = matches!(candidate.fact, Fact::Control | Fact::ToolChange);
     let watch = candidate.fact == Fact::DecimalPoint;
     let measure = Measure { length, cuts };
     let finish = match candidate.fact {
-        Fact::Units | Fact::DecimalPoint | Fact::ToolChange | Fact::RotaryTurn => {
+        Fact::Units | Fact::DecimalPoint | Fact::ToolChange | Fact::CycleBesideMotion | Fact::RotaryTurn => {
             race(jobs, source, measure, PLAIN, watch)?
         }
         // In the plain world the zero of the part is that of the machine.
@@ -429,11 +456,19 @@ fn decide(
         Finish::Apart(difference) => match candidate.fact {
             Fact::DecimalPoint => in_words(candidate, &difference),
             Fact::Control | Fact::Units => (difference.at, difference.made.map(made)),
-            Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => (candidate.span, candidate.shown()),
+            Fact::ReturnPath | Fact::ToolChange | Fact::CycleBesideMotion | Fact::RotaryTurn => {
+                (candidate.span, candidate.shown())
+            }
         },
         Finish::Unknown(bare) => match candidate.fact {
             // What cannot be executed here may be by a caller.
-            Fact::Units | Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn if sound => {
+            Fact::Units
+            | Fact::ReturnPath
+            | Fact::ToolChange
+            | Fact::CycleBesideMotion
+            | Fact::RotaryTurn
+                if sound =>
+            {
                 (candidate.span, candidate.shown())
             }
             Fact::DecimalPoint if sound => match bare.iter().find(|bare| matters(bare)) {
@@ -445,6 +480,7 @@ fn decide(
             | Fact::DecimalPoint
             | Fact::ReturnPath
             | Fact::ToolChange
+            | Fact::CycleBesideMotion
             | Fact::RotaryTurn => {
                 return Ok(None);
             }

@@ -1,6 +1,6 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{ARC_TOLERANCE, DECIMAL_POINT, Dialect};
+use ncc_dialects::{ARC_TOLERANCE, CALL_DEPTH, DECIMAL_POINT, Dialect, MACRO_DEPTH};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
@@ -107,6 +107,19 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CallUnknown { .. } => {
             own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
         }
+        Fault::CallsDeeper { depth, macros, .. } => {
+            let option = if *macros { MACRO_DEPTH } else { CALL_DEPTH };
+            let mut ways = own("put the blocks of some subprograms into those that call them");
+            let takes = |value: &String| value.parse::<u32>().is_ok_and(|value| value >= *depth);
+            if at.to.option.iter().any(|row| row.name == option && row.values.iter().any(takes)) {
+                ways.insert(0, format!("if your control takes {depth}: `--to-option {option}={depth}`"));
+            }
+            ways
+        }
+        Fault::CallDepth { sure, macros, .. } => {
+            let option = if *macros { MACRO_DEPTH } else { CALL_DEPTH };
+            vec![format!("state what your control takes: `--to-option {option}={sure}`, or more")]
+        }
         Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
             Vec::new()
@@ -134,6 +147,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CutStanding => own("write `M03` before this block"),
         Fault::AssumedToolChange { .. } => {
             own("state what your machine does: `--from-option tool_with_change=named` or `=waiting`")
+        }
+        Fault::AssumedCycle { motion, .. } => {
+            vec![format!(
+                "leave {motion} out; or state `--from-option cycle_beside_motion=drilled` or `=cancelled`"
+            )]
         }
         Fault::AssumedReturn { .. } => {
             own("state what your machine does: `--from-option return_distance=last` or `=first`")

@@ -156,3 +156,17 @@ pub fn line(out: &mut dyn Write, object: &impl Serialize) -> io::Result<()> {
     }
     out.write_all(b"\n")
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn control_characters_are_escaped_and_kept() {
+        let text = "a\u{85}\u{9b}31m \u{1b}[2J \u{7f} \u{202e} Ü";
+        let mut out = Vec::new();
+        super::line(&mut out, &[text]).unwrap();
+        let out = String::from_utf8(out).unwrap();
+        assert!(!out.trim_end().contains(|c: char| c.is_control() || c == '\u{202e}'), "{out}");
+        assert!(out.contains("\\u0085\\u009b31m") && out.contains("Ü"), "{out}");
+        assert_eq!(serde_json::from_str::<Vec<String>>(&out).unwrap(), [text]);
+    }
+}

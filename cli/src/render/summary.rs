@@ -318,6 +318,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedControl { .. }
         | Fault::AssumedToolChange { .. }
         | Fault::AssumedReturn { .. }
+        | Fault::AssumedCycle { .. }
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
         | Fault::FeedAtUnits { .. }
@@ -328,6 +329,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NextRunTurned
         | Fault::RoundsFreely
         | Fault::OptionalStopDiffers
+        | Fault::CallDepth { .. }
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }
         | Fault::AssumedPath { .. }
@@ -433,6 +435,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::LabelUnknown { .. }
         | Fault::CallRecursive { .. }
         | Fault::CallsTooDeep { .. }
+        | Fault::CallsDeeper { .. }
         | Fault::ProgramTwice { .. }
         | Fault::MacroLanguage { .. }
         | Fault::NoToolSelected

@@ -151,6 +151,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("the call of {} stands within {most} others", quoted(name)),
             "no control calls that deep: it ends with an alarm".into(),
         ),
+        Fault::CallsDeeper { name, depth, most, macros } => (
+            format!("{} go {depth} deep, {to} takes {most}", calls(*macros)),
+            format!("the call of {} is the first too many", quoted(name)),
+        ),
+        Fault::CallDepth { depth, sure, macros } => (
+            format!("{} go {depth} deep; older controls take {sure}", calls(*macros)),
+            "the control ends the program with an alarm if it takes fewer".into(),
+        ),
         Fault::CallRecursive { name } => {
             (format!("program {} calls itself", quoted(name)), "this call never comes to an end".into())
         }
@@ -308,6 +316,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::AssumedReturn { code, words, zero, last } => (
             format!("{} {}", quoted(code), return_path(words, *zero, *last)),
             "G90 and G91 in one block: the last one counts".into(),
+        ),
+        Fault::AssumedCycle { cycle, motion } => (
+            format!("{} beside {} drills", quoted(cycle), quoted(motion)),
+            "manuals of other controls: the motion cancels the cycle".into(),
         ),
         Fault::AssumedControl { taken, other } => (
             format!("read as {}; {} reads it otherwise", plain(taken), plain(other)),
@@ -619,6 +631,11 @@ fn related(fault: &Fault) -> &'static str {
         Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
         _ => "belongs to it",
     }
+}
+
+/// Calls that are counted.
+fn calls(macros: bool) -> &'static str {
+    if macros { "macro calls" } else { "calls" }
 }
 
 /// Whether it is a fault of this compiler, not of the program.

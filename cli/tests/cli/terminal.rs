@@ -56,15 +56,10 @@ fn no_verb_shows_control_characters() {
 }
 
 #[test]
-fn programs_and_json_keep_every_character() {
+fn programs_keep_every_character() {
     let folder = tempfile::tempdir().unwrap();
     let text = "G21 G17 G90 G94 G54\n(A \u{1b}[2J)\nG0 X1\nM2\n";
     std::fs::write(folder.path().join("part.nc"), text).unwrap();
     let done = ncc(folder.path(), &["fmt", "--from", "linuxcnc", "--stdout", "part.nc"]).exits(0);
     assert!(done.out.contains("(A \u{1b}[2J)"), "{}", done.out);
-    let name = "a\u{85}b.nc";
-    std::fs::write(folder.path().join(name), "G21 Q\u{85}\n").unwrap();
-    let done = ncc(folder.path(), &["linuxcnc", "to", "fanuc", "--format", "json", name]).exits(1);
-    let first: serde_json::Value = serde_json::from_str(done.err.lines().next().unwrap()).unwrap();
-    assert!(done.err.contains("a\\u0085b.nc") && first.to_string().contains(name), "{}", done.err);
 }

@@ -5,7 +5,7 @@
 
 use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Procedure, Text};
+use ncc_ir::program::{Op, Procedure, Text};
 use ncc_ir::source::Span;
 
 use super::block::Value;
@@ -337,7 +337,11 @@ impl Reader {
             out.report(Fault::EmptyProgram, span);
             self.frame.faulty = true;
         }
-        if self.lower.settings.dialect.program.o_words && !self.lower.ended && !self.frame.faulty {
+        let last = self.lower.target(out).last();
+        // An alarm ends the program as well.
+        let alarmed = last.is_some_and(|stmt| stmt.skip.is_none() && matches!(stmt.op, Op::Alarm(_)));
+        let open = !self.lower.ended && !alarmed;
+        if self.lower.settings.dialect.program.o_words && open && !self.frame.faulty {
             // A number in its way ends nothing (LinuxCNC's interpreter, run).
             let told = "program that another one goes on into".into();
             out.report(Fault::NotSupported { code: src.text(span), name: told }, span);

@@ -113,6 +113,8 @@ pub(super) struct Reported {
     pub(super) tool_change: bool,
     /// By which of two codes of distance the words of a return are read.
     pub(super) return_distance: bool,
+    /// That a cycle drills beside a code of motion.
+    pub(super) cycle_beside_motion: bool,
     /// Rows of codes.
     codes: Vec<bool>,
     /// Address letters, a bit each.
