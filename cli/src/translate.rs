@@ -413,7 +413,7 @@ impl<'j> Line<'j> {
             self.writer.know_modes(as_there::stands(&program, self.legaliser.stands()));
             self.legaliser.run_program(&mut program, &mut found);
         }
-        as_there::calls(self.job, &program, &mut found);
+        as_there::calls_and_jumps(self.job, [&source, &program], &mut found);
         self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {

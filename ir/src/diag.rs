@@ -184,6 +184,8 @@ faults! {
 
     /// Blocks before the only mark of the text: a control takes them for a leader and skips them.
     OpeningMarkMissing { mark: Box<str> } = 112, Error;
+    /// A jump to a label that stands several times in its program: the control goes to one of them.
+    LabelTwice { name: Box<str> } = 115, Warning;
     /// A comparison beside a logical operator without parentheses, where comparisons are made last.
     ComparedLast { what: Box<str> } = 113, Warning;
 

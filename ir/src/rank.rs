@@ -80,6 +80,7 @@ impl Fault {
             | Fault::NoProgramEnd
             | Fault::TextAfterEnd
             | Fault::TextBeforeStart { .. }
+            | Fault::LabelTwice { .. }
             | Fault::ComparedLast { .. }
             | Fault::SkipSettingsSampled { .. }
             | Fault::VariableGiven { .. }

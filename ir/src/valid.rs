@@ -141,6 +141,36 @@ pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
     found
 }
 
+/// Jumps to labels that stand several times in their procedure, each label once.
+pub fn labels_twice(program: &Program) -> Vec<Diagnostic> {
+    fn over<'p>(
+        body: &'p [Stmt],
+        labels: &mut HashMap<&'p str, Vec<Span>>,
+        jumps: &mut Vec<(&'p str, Span)>,
+    ) {
+        for stmt in body {
+            match &stmt.op {
+                Op::Label(name) => labels.entry(name).or_default().push(stmt.span),
+                Op::Goto(name) => jumps.push((name, stmt.span)),
+                Op::Control(control) => control.bodies().for_each(|body| over(body, labels, jumps)),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for procedure in &program.procedures {
+        let (mut labels, mut jumps) = (HashMap::new(), Vec::new());
+        over(&procedure.body, &mut labels, &mut jumps);
+        for (name, span) in jumps {
+            if let Some(places) = labels.get_mut(name).filter(|places| places.len() > 1) {
+                let fault = Fault::LabelTwice { name: name.into() };
+                found.push(Diagnostic { fault, span, related: std::mem::take(places) });
+            }
+        }
+    }
+    found
+}
+
 /// A call: the place of its procedure, its name, where it stands, and how much it counts.
 type Step<'p> = (usize, &'p str, Span, usize);
 

@@ -50,6 +50,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             vec![format!("put a line with `{mark}` before the first block, or take this one away")]
         }
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
+        Fault::LabelTwice { .. } => own("give each block that is jumped to a number of its own"),
         Fault::TextBeforeStart { .. } => own("delete it, or make it a comment behind the program number"),
         Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 

@@ -411,6 +411,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoProgramEnd
         | Fault::TextAfterEnd
         | Fault::TextBeforeStart { .. }
+        | Fault::LabelTwice { .. }
         | Fault::ComparedLast { .. }
         | Fault::OpeningMarkMissing { .. }
         | Fault::UnknownCode { .. }

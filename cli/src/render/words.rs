@@ -71,6 +71,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::TextAfterEnd => {
             ("text after the end of the program".into(), "the control never comes here".into())
         }
+        Fault::LabelTwice { name } => (
+            format!("{} stands more than once in this program", plain(name)),
+            "the control goes to the first one that it finds".into(),
+        ),
         Fault::TextBeforeStart { mark } => (
             format!("text before the first {}", quoted(mark)),
             "the control does not read it, and neither does ncc".into(),
@@ -627,6 +631,7 @@ fn related(fault: &Fault) -> &'static str {
         Fault::WordTwice { .. } | Fault::ProgramTwice { .. } | Fault::SecondWorkOffset { .. } => "first here",
         Fault::CodesExclude { .. } => "the other one",
         Fault::TextAfterEnd => "the program ends here",
+        Fault::LabelTwice { .. } => "one of them",
         Fault::CallRecursive { .. } => "by way of this call",
         Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
         _ => "belongs to it",

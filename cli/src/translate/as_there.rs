@@ -22,7 +22,7 @@ use ncc_ir::passes::{
 use ncc_ir::program::{Call, Program};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::deeper_calls;
+use ncc_ir::valid::{deeper_calls, labels_twice};
 use ncc_ir::world::Sideways;
 
 use super::{BREAK_LIFT, PECK_CLEARANCE};
@@ -33,8 +33,10 @@ pub(super) fn decimals(job: &Job) -> u8 {
     job.to.dialect.numbers(Quantity::Length).decimals
 }
 
-/// Calls of a written program that go deeper within one another than the target takes, or than each such control does.
-pub(super) fn calls(job: &Job, program: &Program, found: &mut Vec<Diagnostic>) {
+/// Jumps of the source to labels that stand several times; calls of the written program that go deeper within one
+/// another than the target takes, or than each such control does.
+pub(super) fn calls_and_jumps(job: &Job, [source, program]: [&Program; 2], found: &mut Vec<Diagnostic>) {
+    found.extend(labels_twice(source));
     // A control that counts calls of macros counts them apart.
     let apart = job.to.call_depth(MACRO_DEPTH).is_some();
     for (option, macros) in [(CALL_DEPTH, false), (MACRO_DEPTH, true)] {
