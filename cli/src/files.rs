@@ -312,6 +312,14 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
         Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
         Some(_) | None => PathBuf::from("."),
     };
+    if let Some(mut file) = unnamed(&folder) {
+        if let Some(metadata) = before {
+            file.set_permissions(metadata.permissions())?;
+        }
+        write(&mut file)?;
+        file.sync_all()?;
+        return named(&file, &folder, &path);
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".ncc-");
     #[cfg(unix)]
@@ -327,6 +335,49 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())
+}
+
+/// A file without a name in a folder: if ncc is killed, nothing is left of it. `None` where there are no such files.
+#[cfg(target_os = "linux")]
+fn unnamed(folder: &Path) -> Option<File> {
+    use rustix::fs::{Mode, OFlags, open};
+    // By way of it such a file gets its name.
+    if !Path::new("/proc/self/fd").exists() {
+        return None;
+    }
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    open(folder, flags, Mode::from_raw_mode(0o666)).ok().map(File::from)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn unnamed(_: &Path) -> Option<File> {
+    None
+}
+
+/// Gives such a file its name, in the place of another of that name.
+#[cfg(target_os = "linux")]
+fn named(file: &File, folder: &Path, path: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+    let own = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let link = |to: &Path| linkat(CWD, own.as_str(), CWD, to, AtFlags::SYMLINK_FOLLOW);
+    // A link is never made over a name: it gets one that is free, and takes the other's place under that.
+    for number in 0..1000 {
+        let free = folder.join(format!(".ncc-{}-{number}", std::process::id()));
+        match link(&free) {
+            Ok(()) => {
+                return fs::rename(&free, path).inspect_err(|_| drop(fs::remove_file(&free)));
+            }
+            Err(rustix::io::Errno::EXIST) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Err(io::ErrorKind::AlreadyExists.into())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn named(_: &File, _: &Path, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
 }
 
 /// Makes a folder of outputs that a project file names.
@@ -393,6 +444,28 @@ impl Destination {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn nothing_has_a_name_until_it_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let names =
+            || fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect::<Vec<_>>();
+        let path = folder.path().join("out.nc");
+        for text in ["first", "second"] {
+            let before = names();
+            to_file(&path, &mut |out| {
+                out.write_all(text.as_bytes())?;
+                assert_eq!(names(), before);
+                Ok(())
+            })
+            .unwrap();
+            assert_eq!((fs::read_to_string(&path).unwrap().as_str(), names().len()), (text, 1));
+        }
+        let failed = to_file(&path, &mut |_| Err(io::ErrorKind::StorageFull.into()));
+        assert!(failed.is_err());
+        assert_eq!((fs::read_to_string(&path).unwrap().as_str(), names().len()), ("second", 1));
+    }
 
     #[test]
     fn texts_that_no_control_reads_are_known() {

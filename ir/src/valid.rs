@@ -128,10 +128,11 @@ fn is_move(stmt: &Stmt) -> bool {
 /// labels of its own procedure. Where there are none, a call that stands too deep within others.
 pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
     let mut found = Vec::new();
+    let names: HashSet<&str> = program.procedures.iter().skip(1).map(|p| &*p.name).collect();
     for procedure in &program.procedures {
         let mut labels = HashSet::new();
         labels_of(&procedure.body, &mut labels);
-        within(program, &procedure.body, &labels, &mut found);
+        within(&names, &procedure.body, &labels, &mut found);
     }
     if found.is_empty() {
         let deep = deeper_calls(program, DEEPEST, |_| true);
@@ -258,6 +259,10 @@ pub fn not_called(program: &Program) -> Vec<usize> {
     }
     let all = &program.procedures;
     let mut reached = vec![false; all.len()];
+    let mut places: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (at, procedure) in all.iter().enumerate().skip(1) {
+        places.entry(&procedure.name).or_default().push(at);
+    }
     let mut ahead = if all.is_empty() { Vec::new() } else { vec![0] };
     while let Some(at) = ahead.pop() {
         if std::mem::replace(&mut reached[at], true) {
@@ -265,8 +270,7 @@ pub fn not_called(program: &Program) -> Vec<usize> {
         }
         let mut names = Vec::new();
         called(&all[at].body, &mut names);
-        let places = all.iter().enumerate().skip(1);
-        ahead.extend(places.filter(|(_, p)| names.contains(&&*p.name)).map(|(at, _)| at));
+        ahead.extend(names.into_iter().flat_map(|name| places.get(name).into_iter().flatten()));
     }
     (0..all.len()).filter(|at| !reached[*at]).collect()
 }
@@ -281,15 +285,13 @@ fn labels_of<'p>(body: &'p [Stmt], labels: &mut HashSet<&'p str>) {
     }
 }
 
-fn within(program: &Program, body: &[Stmt], labels: &HashSet<&str>, found: &mut Vec<Diagnostic>) {
+fn within(names: &HashSet<&str>, body: &[Stmt], labels: &HashSet<&str>, found: &mut Vec<Diagnostic>) {
     for stmt in body {
         let missing = match &stmt.op {
-            Op::Call(call) if !program.procedures.iter().skip(1).any(|p| p.name == call.name) => {
-                Fault::CallUnknown { name: call.name.clone() }
-            }
+            Op::Call(call) if !names.contains(&*call.name) => Fault::CallUnknown { name: call.name.clone() },
             Op::Goto(label) if !labels.contains(&**label) => Fault::LabelUnknown { name: label.clone() },
             Op::Control(control) => {
-                control.bodies().for_each(|body| within(program, body, labels, found));
+                control.bodies().for_each(|body| within(names, body, labels, found));
                 continue;
             }
             _ => continue,

@@ -64,6 +64,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("put them into blocks of their own, in the order in which they shall act")
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
+        Fault::WordMissing { word, .. } if &**word == "D" => {
+            own("add `D` to this block; if its H is the radius, as on a Fanuc 0, write D in the place of H")
+        }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
         Fault::WordTwice { .. } => own("keep one of the two"),
         Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
@@ -122,9 +125,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             vec![format!("state what your control takes: `--to-option {option}={sure}`, or more")]
         }
         Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
-        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
-            Vec::new()
-        }
+        Fault::NoEnd { .. } => own("count fewer iterations for the trial, or look whether its loops end"),
+        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::Endless => Vec::new(),
         Fault::LabelUnknown { .. } => own(
             "put the label where the block looks for it: before one that repeats, in its direction from a jump",
         ),
@@ -290,6 +292,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
+        Fault::CannotSay { what } if what.ends_with("that is measured with the tool's length") => {
+            own("cancel the length in this block, and activate it with the next absolute Z")
+        }
         Fault::CannotSay { what } if what.starts_with("a tool called ") => {
             vec![
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"

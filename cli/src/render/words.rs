@@ -369,7 +369,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "here all is as it was a turn before: the program comes round again and again".into(),
         ),
         Fault::NoEnd { steps } => {
-            ("the program does not come to an end".into(), format!("still running after {steps} blocks"))
+            let steps = thousands(*steps);
+            ("the program runs for too long to be executed".into(), format!("still running after {steps} blocks"))
         }
 
         Fault::AssumedMode { fact, value } => (
@@ -636,6 +637,14 @@ fn related(fault: &Fault) -> &'static str {
         Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
         _ => "belongs to it",
     }
+}
+
+/// A count, by thousands.
+fn thousands(count: u64) -> String {
+    let digits = count.to_string();
+    let parts: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().map(|d| std::str::from_utf8(d).unwrap_or("")).collect();
+    parts.join(",")
 }
 
 /// Calls that are counted.
