@@ -118,16 +118,17 @@ fn refuse_stored(file: &mut File, shown: &str) -> Result<(), Problem> {
     let (message, command) = match stored(&beginning) {
         None => return Ok(()),
         Some(Stored::Wide(order)) => (
-            format!("{shown} is stored as UTF-16, two bytes a character"),
+            format!("{shown} is not a part program as it is stored: UTF-16, two bytes a character"),
             format!("iconv -f {order} -t UTF-8"),
         ),
-        Some(Stored::CrAlone) => {
-            (format!("the lines of {shown} end with CR alone"), "tr '\\r' '\\n'".to_owned())
-        }
+        Some(Stored::CrAlone) => (
+            format!("{shown} is not a part program as it is stored: its lines end with CR alone"),
+            "tr '\\r' '\\n'".to_owned(),
+        ),
     };
     let help =
         format!("save it as plain text, in UTF-8 with line ends LF or CR LF: `{command} < {shown} > NEW`");
-    Err(Problem { exit: Exit::File, message, help: vec![help] })
+    Err(Problem { exit: Exit::Refused, message, help: vec![help] })
 }
 
 /// Keeps what can be read only once in an anonymous file.
@@ -233,7 +234,8 @@ impl Source {
         let feed = |b: &u8| *b == 0 || b.is_ascii_whitespace();
         let from = beginning.iter().take_while(|b| feed(b)).count();
         let behind = beginning.iter().rev().take_while(|b| feed(b)).count();
-        Ok(beginning.len() > from && beginning[from..beginning.len() - behind].contains(&0))
+        let text = beginning.get(from..beginning.len().saturating_sub(behind)).unwrap_or_default();
+        Ok(if text.is_empty() { beginning.contains(&0) } else { text.contains(&0) })
     }
 
     /// Goes back to the start.

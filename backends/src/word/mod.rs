@@ -22,6 +22,7 @@ mod force;
 pub(crate) mod formula;
 mod frame;
 mod frames;
+mod holes_again;
 mod jump_of;
 mod modal_call;
 pub(crate) mod modes;

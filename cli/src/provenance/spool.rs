@@ -135,7 +135,6 @@ fn read(from: &mut impl Read) -> io::Result<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scratch::Kept;
 
     #[test]
     fn rows_come_back_as_they_were() {

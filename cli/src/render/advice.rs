@@ -64,7 +64,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("put them into blocks of their own, in the order in which they shall act")
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
-        Fault::WordMissing { word, .. } if &**word == "D" => {
+        Fault::WordMissing { code, word } if &**word == "D" && matches!(&**code, "G41" | "G42") => {
             own("add `D` to this block; if its H is the radius, as on a Fanuc 0, write D in the place of H")
         }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],

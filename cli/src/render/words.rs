@@ -3,14 +3,14 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
-use super::numbers::{millimetres, rotary_turn, signed};
+use super::numbers::{calls, millimetres, rotary_turn, signed, thousands};
+pub use super::numbers::{numbered, plural};
 pub use super::spelled::return_path;
 use super::spelled::{character, found_words, radii_of};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
-use ncc_ir::maps::Numbered;
 
 /// What the wording may name besides the fault's own data.
 #[derive(Clone, Copy, Debug)]
@@ -639,19 +639,6 @@ fn related(fault: &Fault) -> &'static str {
     }
 }
 
-/// A count, by thousands.
-fn thousands(count: u64) -> String {
-    let digits = count.to_string();
-    let parts: Vec<&str> =
-        digits.as_bytes().rchunks(3).rev().map(|d| std::str::from_utf8(d).unwrap_or("")).collect();
-    parts.join(",")
-}
-
-/// Calls that are counted.
-fn calls(macros: bool) -> &'static str {
-    if macros { "macro calls" } else { "calls" }
-}
-
 /// Whether it is a fault of this compiler, not of the program.
 pub fn is_own(fault: &Fault) -> bool {
     matches!(fault, Fault::NotTheSame { .. } | Fault::NotReadBack { .. })
@@ -676,22 +663,6 @@ pub fn mode(fact: ModeName) -> &'static str {
 pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
     let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
     row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
-}
-
-/// What has a number, as one or as several.
-pub fn numbered(what: Numbered, count: u64) -> String {
-    match what {
-        Numbered::Tool => plural(count, "tool"),
-        Numbered::LengthEntry if count == 1 => "length entry".to_owned(),
-        Numbered::LengthEntry => "length entries".to_owned(),
-        Numbered::WorkOffset => plural(count, "work offset"),
-        Numbered::Program => plural(count, "program"),
-    }
-}
-
-/// A noun with its plural's s.
-pub fn plural(count: u64, noun: &str) -> String {
-    if count == 1 { noun.to_owned() } else { format!("{noun}s") }
 }
 
 /// Text as it may be shown: no control characters. ncc's own sentences are never cut.

@@ -118,9 +118,9 @@ pub(crate) fn open(
     err: &mut dyn WriteColor,
 ) -> Result<[Side; 2], Problem> {
     let [a, b] = asked;
-    let mut first = Opened::of(a, None, say, known, err)?;
+    let mut first = Opened::of(a, None, say, known, err).map_err(unread)?;
     let target = first.row.clone().filter(|_| b.is_output);
-    let mut second = Opened::of(b, target.as_deref(), say, known, err)?;
+    let mut second = Opened::of(b, target.as_deref(), say, known, err).map_err(unread)?;
     if first.stdin && second.stdin {
         return Err(Problem::usage("stdin can be read only once", "name a file for one side"));
     }
@@ -147,6 +147,14 @@ fn uncomparable(problem: Problem) -> Problem {
 /// Opens one program.
 ///
 /// # Errors
+/// A side that is no program: exit code 1 would say that both differ.
+fn unread(problem: Problem) -> Problem {
+    match problem.exit {
+        Exit::Refused => uncomparable(problem),
+        _ => problem,
+    }
+}
+
 /// As of [`open`].
 pub(crate) fn open_one(
     asked: &Asked,

@@ -130,7 +130,7 @@ pub(super) fn positions(body: &mut [Stmt]) -> bool {
 /// Puts known facts in. `entry` is what holds where the program begins. With `holes`, those that the text itself
 /// puts under a cycle are made to call it up too.
 pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
-    let names = places(&program);
+    let names = places(program);
     let mut flow = Flow { names, holes, ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {
@@ -152,7 +152,7 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
 /// Puts modes back that are known where their codes were saved, and answers what a target of these capabilities cannot be
 /// asked for and is known; nothing else. `entry` is what holds where the program begins.
 pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
-    let names = places(&program);
+    let names = places(program);
     let mut flow = Flow { names, there: Some(there), ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {

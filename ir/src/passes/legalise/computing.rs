@@ -28,7 +28,6 @@ impl Legaliser {
     /// Brings a program that computes within the target's capabilities, its structure kept.
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
-        self.refuse_cycles_left(program, diags);
         number_names::over(program, &self.target, true, diags);
         let mut found = Vec::new();
         let mut bare = program.clone();

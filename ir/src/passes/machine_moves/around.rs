@@ -70,6 +70,8 @@ fn closes(stmts: &[Stmt], at: usize) -> Option<usize> {
             | Op::Blank
             | Op::StopSpindleTurning
             | Op::CoolantOff
+            | Op::SelectPlane(_)
+            | Op::SetOriginOffsets(_)
             | Op::SelectTool(_)
             | Op::ChangeTool => {}
             _ => return None,
