@@ -73,6 +73,9 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
     Ok(Source { file, shown, name, called: None, assumed, project, include, identity: identity.ok() })
 }
 
+/// How the refusal of such a text begins, behind its name.
+pub(crate) const AS_STORED: &str = "is not a part program as it is stored";
+
 /// Bytes at the beginning of a source by which its form is known.
 const BEGINNING: u64 = 1 << 16;
 
@@ -118,13 +121,12 @@ fn refuse_stored(file: &mut File, shown: &str) -> Result<(), Problem> {
     let (message, command) = match stored(&beginning) {
         None => return Ok(()),
         Some(Stored::Wide(order)) => (
-            format!("{shown} is not a part program as it is stored: UTF-16, two bytes a character"),
+            format!("{shown} {AS_STORED}: UTF-16, two bytes a character"),
             format!("iconv -f {order} -t UTF-8"),
         ),
-        Some(Stored::CrAlone) => (
-            format!("{shown} is not a part program as it is stored: its lines end with CR alone"),
-            "tr '\\r' '\\n'".to_owned(),
-        ),
+        Some(Stored::CrAlone) => {
+            (format!("{shown} {AS_STORED}: its lines end with CR alone"), "tr '\\r' '\\n'".to_owned())
+        }
     };
     let help =
         format!("save it as plain text, in UTF-8 with line ends LF or CR LF: `{command} < {shown} > NEW`");

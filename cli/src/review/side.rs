@@ -15,6 +15,7 @@ use ncc_machines::reading::Side as Whose;
 
 use crate::args::Start;
 use crate::called;
+use crate::files::AS_STORED;
 use crate::files::Source;
 use crate::given::Given;
 use crate::guess::{Guess, guess};
@@ -147,10 +148,10 @@ fn uncomparable(problem: Problem) -> Problem {
 /// Opens one program.
 ///
 /// # Errors
-/// A side that is no program: exit code 1 would say that both differ.
+/// A side that is stored as no control reads it: exit code 1 would say that both differ.
 fn unread(problem: Problem) -> Problem {
     match problem.exit {
-        Exit::Refused => uncomparable(problem),
+        Exit::Refused if problem.message.contains(AS_STORED) => uncomparable(problem),
         _ => problem,
     }
 }
