@@ -7,7 +7,7 @@
 //!
 //! Without `-I`, and without folders of a project file, nothing is looked for. Not here: what a call means.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -83,13 +83,17 @@ pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> 
     let Some(own) = program_of(&text, dialect) else { return Ok(()) };
     let mut whole = text[..own.end].to_vec();
     let mut asked: BTreeSet<Text> = BTreeSet::new();
+    let folders = Folders::list(&folders, dialect);
+    let mut lines = count(&whole);
     loop {
         let wanted: Vec<Text> =
             missing(&whole, settings).into_iter().filter(|name| asked.insert(name.clone())).collect();
         let mut more = false;
         for name in wanted {
-            let Some(path) = find(&name, dialect, &folders) else { continue };
-            let file = read(&path, &name, dialect, &mut whole)?;
+            let Some(path) = folders.find(&name, dialect) else { continue };
+            let before = whole.len();
+            let file = read(path, &name, dialect, &mut whole, lines)?;
+            lines += count(&whole[before..]);
             called.files.push(file);
             more = true;
         }
@@ -101,7 +105,7 @@ pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> 
         return Ok(());
     }
     let kept = || -> io::Result<fs::File> {
-        let mut file = tempfile::tempfile()?;
+        let mut file = crate::scratch::file()?;
         file.write_all(&whole)?;
         file.seek(SeekFrom::Start(0))?;
         Ok(file)
@@ -149,24 +153,37 @@ fn names(stmts: &[Stmt], found: &mut Vec<Text>) {
     }
 }
 
-/// The file of a program: the first folder that has one counts, and in it the first of the names.
-fn find(name: &str, dialect: &Dialect, folders: &[PathBuf]) -> Option<PathBuf> {
-    let stems: Vec<String> = dialect.program.called.iter().filter_map(|form| stem(form, name)).collect();
-    folders.iter().find_map(|folder| {
-        let mut files: Vec<PathBuf> = fs::read_dir(folder)
-            .ok()?
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| path.is_file())
-            .collect();
-        files.sort();
-        let is = |path: &Path, stem: &str| {
-            let text = |part: Option<&std::ffi::OsStr>| part.map(|t| t.to_string_lossy().into_owned());
-            let own = text(path.extension());
-            let fits = own.is_none_or(|own| dialect.extensions.iter().any(|e| e.eq_ignore_ascii_case(&own)));
-            fits && text(path.file_stem()).is_some_and(|own| own.eq_ignore_ascii_case(stem))
+/// Files of the folders in which called programs are looked for, by their names without extension in small letters.
+struct Folders(Vec<HashMap<String, PathBuf>>);
+
+impl Folders {
+    /// Lists them once. Of several files with one name the first counts, in the order of their full names.
+    fn list(folders: &[PathBuf], dialect: &Dialect) -> Folders {
+        let listed = |folder: &PathBuf| {
+            let entries = fs::read_dir(folder).into_iter().flatten();
+            let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+            files.sort();
+            let mut found = HashMap::with_capacity(files.len());
+            for path in files {
+                let own = path.extension().map(|own| own.to_string_lossy().into_owned());
+                let fits =
+                    own.is_none_or(|own| dialect.extensions.iter().any(|e| e.eq_ignore_ascii_case(&own)));
+                if let Some(stem) = path.file_stem().filter(|_| fits && path.is_file()) {
+                    let stem = stem.to_string_lossy().to_ascii_lowercase();
+                    found.entry(stem).or_insert(path);
+                }
+            }
+            found
         };
-        stems.iter().find_map(|stem| files.iter().find(|path| is(path, stem)).cloned())
-    })
+        Folders(folders.iter().map(listed).collect())
+    }
+
+    /// The file of a program: the first folder that has one counts, and in it the first of the names.
+    fn find(&self, name: &str, dialect: &Dialect) -> Option<&Path> {
+        let stems = dialect.program.called.iter().filter_map(|form| stem(form, name));
+        let stems: Vec<String> = stems.map(|stem| stem.to_ascii_lowercase()).collect();
+        self.0.iter().find_map(|files| stems.iter().find_map(|stem| files.get(stem))).map(PathBuf::as_path)
+    }
 }
 
 /// A name by its form: `{}` is the name, `{4}` its number with at least so many digits.
@@ -214,8 +231,19 @@ pub(crate) fn program_in(dialect: &Dialect, file: &str) -> Text {
     number.map_or_else(|| file.into(), |number| number.to_string().into())
 }
 
-/// Puts a file's program behind a text.
-fn read(path: &Path, name: &str, dialect: &Dialect, whole: &mut Vec<u8>) -> Result<CalledFile, Problem> {
+/// Lines that end in a text.
+fn count(text: &[u8]) -> u64 {
+    memchr::memchr_iter(b'\n', text).count() as u64
+}
+
+/// Puts a file's program behind a text of so many lines.
+fn read(
+    path: &Path,
+    name: &str,
+    dialect: &Dialect,
+    whole: &mut Vec<u8>,
+    lines: u64,
+) -> Result<CalledFile, Problem> {
     let shown = path.display().to_string();
     let text = fs::read(path).map_err(|e| Problem::file("read", &shown, &e))?;
     let no_program = || Problem {
@@ -242,12 +270,12 @@ fn read(path: &Path, name: &str, dialect: &Dialect, whole: &mut Vec<u8>) -> Resu
             whole.push(b'\n');
         }
     };
+    let before = whole.len();
     end_line(whole);
     if own.name.is_none() {
         whole.extend_from_slice(heading(name, dialect).as_bytes());
     }
-    let count = |text: &[u8]| memchr::memchr_iter(b'\n', text).count() as u64;
-    let lines_before = count(whole).saturating_sub(count(&text[..own.start]));
+    let lines_before = (lines + count(&whole[before..])).saturating_sub(count(&text[..own.start]));
     let start = whole.len() as u32;
     whole.extend_from_slice(&text[own.start..own.end]);
     let places = (start, whole.len() as u32);

@@ -2,7 +2,7 @@
 //! half-written file is ever seen.
 
 use std::fs::{self, File};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, IsTerminal, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,6 +14,8 @@ use crate::called::Called;
 use crate::job::Output;
 use crate::problem::{Exit, Problem};
 use crate::project::{Settled, Used};
+use crate::render::terminal::Shown;
+use crate::scratch;
 
 /// Largest source, in bytes: places in it are 32-bit numbers.
 const LARGEST: u64 = u32::MAX as u64;
@@ -47,7 +49,7 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
     let shown = if stdin { "<stdin>".to_owned() } else { path.display().to_string() };
     let wrong = |error: &io::Error| Problem::file("read", &shown, error);
     let identity = if stdin { Handle::stdin() } else { Handle::from_path(path) };
-    let file = if stdin {
+    let mut file = if stdin {
         spool(&mut io::stdin().lock()).map_err(|e| wrong(&e))?
     } else {
         let mut file = File::open(path).map_err(|e| wrong(&e))?;
@@ -61,6 +63,7 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
         let message = format!("cannot read {shown}: it is larger than 4 GiB");
         return Err(Problem { exit: Exit::File, message, help: vec!["split the program".to_owned()] });
     }
+    refuse_stored(&mut file, &shown)?;
     let name = match path.file_name() {
         Some(name) if !stdin => name.to_string_lossy().into_owned(),
         Some(_) | None => "-".to_owned(),
@@ -70,10 +73,70 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
     Ok(Source { file, shown, name, called: None, assumed, project, include, identity: identity.ok() })
 }
 
+/// How the refusal of such a text begins, behind its name.
+pub(crate) const AS_STORED: &str = "is not a part program as it is stored";
+
+/// Bytes at the beginning of a source by which its form is known.
+const BEGINNING: u64 = 1 << 16;
+
+/// A text that no control reads as it is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stored {
+    /// Two bytes a character, as iconv names the order.
+    Wide(&'static str),
+    /// Lines that end with CR and no LF.
+    CrAlone,
+}
+
+/// How the beginning of a text is stored, if no control reads it.
+fn stored(beginning: &[u8]) -> Option<Stored> {
+    match beginning {
+        [0xff, 0xfe, ..] => return Some(Stored::Wide("UTF-16LE")),
+        [0xfe, 0xff, ..] => return Some(Stored::Wide("UTF-16BE")),
+        _ => {}
+    }
+    // Without a mark: each character of a program has one byte zero. Tape feed has both.
+    let pairs = beginning.chunks_exact(2).take(1 << 10);
+    let count = |zero: usize| pairs.clone().filter(|pair| pair[zero] == 0 && pair[1 - zero] != 0).count();
+    let all = pairs.len();
+    if all >= 4 {
+        for (zero, name) in [(1, "UTF-16LE"), (0, "UTF-16BE")] {
+            if count(zero) * 10 > all * 9 {
+                return Some(Stored::Wide(name));
+            }
+        }
+    }
+    let lines = beginning.trim_ascii_end();
+    (lines.contains(&b'\r') && !beginning.contains(&b'\n')).then_some(Stored::CrAlone)
+}
+
+/// Refuses a text that no control reads as it is stored, by what it is.
+///
+/// # Errors
+/// It is such a text, or it cannot be read.
+fn refuse_stored(file: &mut File, shown: &str) -> Result<(), Problem> {
+    let mut beginning = Vec::new();
+    let read = file.take(BEGINNING).read_to_end(&mut beginning).and_then(|_| file.seek(SeekFrom::Start(0)));
+    read.map_err(|e| Problem::file("read", shown, &e))?;
+    let (message, command) = match stored(&beginning) {
+        None => return Ok(()),
+        Some(Stored::Wide(order)) => (
+            format!("{shown} {AS_STORED}: UTF-16, two bytes a character"),
+            format!("iconv -f {order} -t UTF-8"),
+        ),
+        Some(Stored::CrAlone) => {
+            (format!("{shown} {AS_STORED}: its lines end with CR alone"), "tr '\\r' '\\n'".to_owned())
+        }
+    };
+    let help =
+        format!("save it as plain text, in UTF-8 with line ends LF or CR LF: `{command} < {shown} > NEW`");
+    Err(Problem { exit: Exit::Refused, message, help: vec![help] })
+}
+
 /// Keeps what can be read only once in an anonymous file.
 fn spool(from: &mut dyn Read) -> io::Result<File> {
-    let mut file = tempfile::tempfile()?;
-    io::copy(&mut from.take(LARGEST + 1), &mut file)?;
+    let mut file = scratch::file()?;
+    io::copy(&mut from.take(LARGEST + 1), &mut file).map_err(scratch::full)?;
     file.seek(SeekFrom::Start(0))?;
     Ok(file)
 }
@@ -169,7 +232,12 @@ impl Source {
         let mut beginning = Vec::new();
         let read = (&mut self.file).take(1 << 16).read_to_end(&mut beginning);
         read.map_err(|e| Problem::file("read", &self.shown, &e))?;
-        Ok(beginning.contains(&0))
+        // Feed at both ends of a tape is none of it.
+        let feed = |b: &u8| *b == 0 || b.is_ascii_whitespace();
+        let from = beginning.iter().take_while(|b| feed(b)).count();
+        let behind = beginning.iter().rev().take_while(|b| feed(b)).count();
+        let text = beginning.get(from..beginning.len().saturating_sub(behind)).unwrap_or_default();
+        Ok(if text.is_empty() { beginning.contains(&0) } else { text.contains(&0) })
     }
 
     /// Goes back to the start.
@@ -182,13 +250,36 @@ impl Source {
     }
 }
 
-/// Writes an output to stdout. Somebody who stops reading, as `head` does, is no one to complain to.
+/// Writes what is for people to stdout, without control characters of the texts that it is about. Somebody who stops
+/// reading, as `head` does, is no one to complain to.
 ///
 /// # Errors
 /// stdout cannot be written.
 pub fn to_stdout(write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+    write_stdout(true, write)
+}
+
+/// Writes programs and data to stdout: every byte as it is, unless stdout is a terminal.
+///
+/// # Errors
+/// stdout cannot be written.
+pub fn data_to_stdout(write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+    write_stdout(io::stdout().is_terminal(), write)
+}
+
+fn write_stdout(
+    filtered: bool,
+    write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Problem> {
     let mut stdout = io::stdout().lock();
-    match write(&mut stdout).and_then(|()| stdout.flush()) {
+    let written = match filtered {
+        false => write(&mut stdout),
+        true => {
+            let mut shown = Shown::new(&mut stdout);
+            write(&mut shown).and_then(|()| shown.finish().map(|_| ()))
+        }
+    };
+    match written.and_then(|()| stdout.flush()) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
             Err(Problem { exit: Exit::File, message: String::new(), help: Vec::new() })
@@ -225,6 +316,14 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
         Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
         Some(_) | None => PathBuf::from("."),
     };
+    if let Some(mut file) = unnamed(&folder) {
+        if let Some(metadata) = before {
+            file.set_permissions(metadata.permissions())?;
+        }
+        write(&mut file)?;
+        file.sync_all()?;
+        return named(&file, &folder, &path);
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".ncc-");
     #[cfg(unix)]
@@ -240,6 +339,49 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())
+}
+
+/// A file without a name in a folder: if ncc is killed, nothing is left of it. `None` where there are no such files.
+#[cfg(target_os = "linux")]
+fn unnamed(folder: &Path) -> Option<File> {
+    use rustix::fs::{Mode, OFlags, open};
+    // By way of it such a file gets its name.
+    if !Path::new("/proc/self/fd").exists() {
+        return None;
+    }
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    open(folder, flags, Mode::from_raw_mode(0o666)).ok().map(File::from)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn unnamed(_: &Path) -> Option<File> {
+    None
+}
+
+/// Gives such a file its name, in the place of another of that name.
+#[cfg(target_os = "linux")]
+fn named(file: &File, folder: &Path, path: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+    let own = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let link = |to: &Path| linkat(CWD, own.as_str(), CWD, to, AtFlags::SYMLINK_FOLLOW);
+    // A link is never made over a name: it gets one that is free, and takes the other's place under that.
+    for number in 0..1000 {
+        let free = folder.join(format!(".ncc-{}-{number}", std::process::id()));
+        match link(&free) {
+            Ok(()) => {
+                return fs::rename(&free, path).inspect_err(|_| drop(fs::remove_file(&free)));
+            }
+            Err(rustix::io::Errno::EXIST) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Err(io::ErrorKind::AlreadyExists.into())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn named(_: &File, _: &Path, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
 }
 
 /// Makes a folder of outputs that a project file names.
@@ -286,8 +428,66 @@ impl Destination {
     /// It cannot be written.
     pub fn release(&self, output: &mut Output) -> Result<(), Problem> {
         match self {
-            Destination::Stdout => to_stdout(&mut |out| output.write_to(out)),
+            Destination::Stdout => data_to_stdout(&mut |out| output.write_to(out)),
             Destination::File(path) => to_file(path, &mut |out| output.write_to(out)),
+        }
+    }
+
+    /// Writes an output there that is for people and has passed [`Shown`] already, so that its colours are ncc's own.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn release_shown(&self, output: &mut Output) -> Result<(), Problem> {
+        match self {
+            Destination::Stdout => write_stdout(false, &mut |out| output.write_to(out)),
+            Destination::File(_) => self.release(output),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn nothing_has_a_name_until_it_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let names =
+            || fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect::<Vec<_>>();
+        let path = folder.path().join("out.nc");
+        for text in ["first", "second"] {
+            let before = names();
+            to_file(&path, &mut |out| {
+                out.write_all(text.as_bytes())?;
+                assert_eq!(names(), before);
+                Ok(())
+            })
+            .unwrap();
+            assert_eq!((fs::read_to_string(&path).unwrap().as_str(), names().len()), (text, 1));
+        }
+        let failed = to_file(&path, &mut |_| Err(io::ErrorKind::StorageFull.into()));
+        assert!(failed.is_err());
+        assert_eq!((fs::read_to_string(&path).unwrap().as_str(), names().len()), ("second", 1));
+    }
+
+    #[test]
+    fn texts_that_no_control_reads_are_known() {
+        let wide = |text: &str, big: bool| -> Vec<u8> {
+            let two = |c: u16| if big { c.to_be_bytes() } else { c.to_le_bytes() };
+            text.encode_utf16().flat_map(two).collect()
+        };
+        let program = "%\nO1\nG0 X1\nM30\n%\n";
+        assert_eq!(stored(&wide(program, false)), Some(Stored::Wide("UTF-16LE")));
+        assert_eq!(stored(&wide(program, true)), Some(Stored::Wide("UTF-16BE")));
+        let marked = [&[0xff, 0xfe][..], &wide("M2", false)].concat();
+        assert_eq!(stored(&marked), Some(Stored::Wide("UTF-16LE")));
+        assert_eq!(stored(program.replace('\n', "\r").as_bytes()), Some(Stored::CrAlone));
+        assert_eq!(stored(b"G0 X1\rM2"), Some(Stored::CrAlone));
+        for text in
+            [&b""[..], b"M2", b"M2\r", b"G0\r\nM2\r\n", b"\0\0\0\0\0\0\0\0%\nM30\n", program.as_bytes()]
+        {
+            assert_eq!(stored(text), None, "{text:?}");
         }
     }
 }

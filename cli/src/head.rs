@@ -101,6 +101,11 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             "rotary axes, and the zero of the tool's tip, as on the other control".to_owned()
         }
         Fault::AssumedToolChange { .. } => "tool_with_change = named".to_owned(),
+        Fault::CallDepth { depth, sure, macros } => {
+            let calls = if *macros { "macro calls" } else { "calls" };
+            format!("{calls} go {depth} deep, older controls take {sure}")
+        }
+        Fault::AssumedCycle { .. } => "cycle_beside_motion = drilled".to_owned(),
         Fault::AssumedReturn { .. } => "return_distance = last".to_owned(),
         Fault::AssumedControl { taken, other } => format!("control = {taken}, not {other}"),
         Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),

@@ -21,13 +21,13 @@ use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::{Compensating, Pass};
 use ncc_ir::program::Text;
 use ncc_machines::reading::{Place, Side};
-use tempfile::SpooledTempFile;
 
 use crate::called::Called;
 use crate::given::Given;
 use crate::machines::pair::Machines;
 use crate::project::Used;
 use crate::questions::{Policy, Question};
+use crate::scratch::Kept;
 
 /// The pass that writes the path of the tool's centre.
 const EXPAND_COMPENSATION: &str = "expand-compensation";
@@ -304,7 +304,7 @@ pub struct Output {
     /// What it is called by, where it is a subprogram that stands alone.
     called: Option<Text>,
     head: Vec<u8>,
-    body: SpooledTempFile,
+    body: Kept,
     body_bytes: u64,
 }
 
@@ -314,7 +314,7 @@ const IN_MEMORY: usize = 1 << 20;
 impl Output {
     /// An output without anything in it.
     pub fn new() -> Output {
-        Output { called: None, head: Vec::new(), body: SpooledTempFile::new(IN_MEMORY), body_bytes: 0 }
+        Output { called: None, head: Vec::new(), body: Kept::new(IN_MEMORY), body_bytes: 0 }
     }
 
     /// Says that it is a subprogram by itself, and what it is called by.

@@ -37,6 +37,7 @@ pub mod report;
 pub mod review;
 pub mod rewrite;
 pub mod run;
+pub mod scratch;
 pub mod setting;
 pub mod sugar;
 pub mod time;

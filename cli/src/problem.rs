@@ -6,6 +6,7 @@ use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use serde::Serialize;
 
 use crate::job::Failure;
+use crate::scratch::Lacking;
 
 /// Exit codes, as the help names them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +60,10 @@ impl Problem {
 
     /// A file that cannot be used.
     pub fn file(what: &str, name: &str, error: &io::Error) -> Problem {
+        if let Some(lacking) = error.get_ref().and_then(|inner| inner.downcast_ref::<Lacking>()) {
+            let message = format!("cannot {what} {name}: {lacking}");
+            return Problem { exit: Exit::File, message, help: lacking.help() };
+        }
         let reason = match error.kind() {
             io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
             io::ErrorKind::PermissionDenied => "permission denied".to_owned(),

@@ -23,6 +23,7 @@ use crate::provenance::trace::Asked;
 use crate::provenance::{map, why};
 use crate::questions::of_translation;
 use crate::render::human::Loudness;
+use crate::render::terminal::Shown;
 use crate::render::{About, human, json, questions, summary};
 use crate::sugar::{Said, rewrite};
 use crate::tools_by_name;
@@ -36,7 +37,7 @@ pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
-    let mut err = StandardStream::stderr(choice(Color::Auto));
+    let mut err = Shown::new(StandardStream::stderr(choice(Color::Auto)));
     let as_json = arguments.windows(2).any(|a| a[0] == "--format" && a[1] == "json")
         || arguments.iter().any(|a| a == "--format=json");
     // A shell's torn arrow is understood only where the target's name is known.
@@ -53,7 +54,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Ok(cli) => cli,
         Err(error) => return clap_says(&error, &arguments, &known, &mut err),
     };
-    let mut err = StandardStream::stderr(choice(cli.color));
+    let mut err = Shown::new(StandardStream::stderr(choice(cli.color)));
     match cli.assume {
         None => {}
         Some(Some(Assumed::Milling)) => known.assume_milling(),
@@ -104,7 +105,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Completions(args) => {
             let mut text = Vec::new();
             clap_complete::generate(args.shell, &mut Cli::command(), "ncc", &mut text);
-            files::to_stdout(&mut |out| out.write_all(&text))
+            files::data_to_stdout(&mut |out| out.write_all(&text))
         }
     };
     match done {
@@ -113,7 +114,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
     }
 }
 
-fn ended(done: Result<Exit, Problem>, err: &mut StandardStream) -> Exit {
+fn ended(done: Result<Exit, Problem>, err: &mut dyn WriteColor) -> Exit {
     done.unwrap_or_else(|problem| fail(&problem, err, false))
 }
 
@@ -138,7 +139,7 @@ fn honour(said: Said, known: &Known) -> Result<(Vec<OsString>, Option<&'static D
 }
 
 /// What clap has to say: help and version on stdout, anything else is wrong usage.
-fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &mut StandardStream) -> Exit {
+fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &mut dyn WriteColor) -> Exit {
     let unknown = error.kind() == ErrorKind::InvalidSubcommand || error.kind() == ErrorKind::UnknownArgument;
     let verbs: Vec<String> = Cli::command().get_subcommands().map(|v| v.get_name().to_owned()).collect();
     let word = arguments.iter().skip(1).find_map(|a| a.to_str().filter(|a| !a.starts_with('-')));
@@ -156,8 +157,11 @@ fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &m
         ];
         return fail(&Problem { exit: Exit::Usage, message, help }, err, false);
     }
-    // If nobody can read it, there is nobody to tell.
-    let _ = error.print();
+    // If nobody can read it, there is nobody to tell. Names of files are the shell's, and may hold anything.
+    let _ = match arguments.iter().any(|a| a.to_string_lossy().contains(char::is_control)) {
+        true => write!(err, "{}", error.render()),
+        false => error.print(),
+    };
     if error.use_stderr() { Exit::Usage } else { Exit::Done }
 }
 
@@ -165,7 +169,7 @@ fn translate_verb(
     args: &Translate,
     arrow: Option<&'static Dialect>,
     known: &Known,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Exit {
     let as_json = args.format == Format::Json;
     translated(args, arrow, known, err).unwrap_or_else(|problem| fail(&problem, err, as_json))
@@ -175,7 +179,7 @@ fn translated(
     args: &Translate,
     arrow: Option<&'static Dialect>,
     known: &Known,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     if batch::is_meant(args) {
         if args.style == Style::Rs274 {
@@ -512,7 +516,7 @@ fn print(text: &str) -> Result<(), Problem> {
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))
 }
 
-fn fail(problem: &Problem, err: &mut StandardStream, json: bool) -> Exit {
+fn fail(problem: &Problem, err: &mut dyn WriteColor, json: bool) -> Exit {
     // If stderr cannot be written, the exit code has to say it all.
     let _ = problem.print(err, json);
     problem.exit

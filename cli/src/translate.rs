@@ -42,7 +42,6 @@ use crate::verify_run::{Stop, Verifier, fixed};
 
 /// Option of a dialect: clearance of its peck cycle.
 pub(crate) const PECK_CLEARANCE: &str = "peck_clearance";
-
 /// Option of a dialect: lift of its chip-breaking cycle.
 pub(crate) const BREAK_LIFT: &str = "break_lift";
 
@@ -414,6 +413,7 @@ impl<'j> Line<'j> {
             self.writer.know_modes(as_there::stands(&program, self.legaliser.stands()));
             self.legaliser.run_program(&mut program, &mut found);
         }
+        as_there::calls_and_jumps(self.job, [&source, &program], &mut found);
         self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {

@@ -159,6 +159,8 @@ pub struct Caps {
     pub starts_without_length: bool,
     /// Behind the end of a cycle no motion is in force.
     pub cycle_ends_motion: bool,
+    /// Whether a subprogram cannot leave a cycle in force to its caller.
+    pub cycle_ends_with_call: bool,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
     /// What codes of the control do besides their names.

@@ -179,9 +179,13 @@ faults! {
     NoProgramEnd = 110, Warning;
     /// Text after the end of the program.
     TextAfterEnd = 111, Warning;
+    /// Text before the mark that opens the program, which the control does not read.
+    TextBeforeStart { mark: Box<str> } = 114, Warning;
 
     /// Blocks before the only mark of the text: a control takes them for a leader and skips them.
     OpeningMarkMissing { mark: Box<str> } = 112, Error;
+    /// A jump to a label that stands several times in its program: the control goes to one of them.
+    LabelTwice { name: Box<str> } = 115, Warning;
     /// A comparison beside a logical operator without parentheses, where comparisons are made last.
     ComparedLast { what: Box<str> } = 113, Warning;
 
@@ -312,6 +316,10 @@ faults! {
     /// A return to a reference point with G90 and G91 in its block: its words are read by the last one, which is
     /// absolute or not; `zero`: all of them are nothing.
     AssumedReturn { code: Box<str>, words: Box<str>, zero: bool, last: bool } = 337, verdict(Verdict::Assumed);
+    /// Calls within one another that not every control of this kind takes: how deep they go, and what each one takes.
+    CallDepth { depth: u32, sure: u32, macros: bool } = 339, verdict(Verdict::Assumed);
+    /// A code of motion beside a cycle's code: the hole is drilled, or the motion cancels the cycle; the first is taken.
+    AssumedCycle { cycle: Box<str>, motion: Box<str> } = 338, verdict(Verdict::Assumed);
     /// A stop or a tool change of the target's control switches something off that the source's control lets go on:
     /// it is started again before the next cut.
     StartedAgain { behaviour: Behaviour } = 322, verdict(Verdict::Assumed);
@@ -455,6 +463,8 @@ faults! {
     /// By how many degrees a rotary axis turns is left to the two controls: by what the number says, or another way;
     /// nanos.
     RotaryTurnOpen { axis: Axis, by: i64, or: i64 } = 522, Error;
+    /// Calls deeper within one another than the target takes.
+    CallsDeeper { name: Box<str>, depth: u32, most: u32, macros: bool } = 523, Error;
     /// The radii of an arc at start and end differ by more than the target's control accepts; nanos of a millimetre.
     ArcRadiiDiffer { radii: [i64; 2], allowed: i64 } = 520, Error;
     /// The target's control refuses it while cutter radius compensation is on.

@@ -43,7 +43,8 @@ impl Fault {
             | Fault::AssumedBareNumber { .. }
             | Fault::AssumedControl { .. }
             | Fault::AssumedToolChange { .. }
-            | Fault::AssumedReturn { .. } => Rank::Dangerous,
+            | Fault::AssumedReturn { .. }
+            | Fault::AssumedCycle { .. } => Rank::Dangerous,
 
             // Facts of the machine, of its tables or of its builder. A fact that a run with another value has shown to
             // matter (a fork of the verification) belongs here.
@@ -60,6 +61,7 @@ impl Fault {
             | Fault::AssumedTilt
             | Fault::StartedAgain { .. }
             | Fault::OpenBehaviour { .. }
+            | Fault::CallDepth { .. }
             | Fault::MovedAtChange
             | Fault::LengthByHand { .. }
             | Fault::FeedOnArcs { .. }
@@ -79,6 +81,8 @@ impl Fault {
             // Warnings.
             | Fault::NoProgramEnd
             | Fault::TextAfterEnd
+            | Fault::TextBeforeStart { .. }
+            | Fault::LabelTwice { .. }
             | Fault::ComparedLast { .. }
             | Fault::SkipSettingsSampled { .. }
             | Fault::VariableGiven { .. }
@@ -171,6 +175,7 @@ impl Fault {
             | Fault::LabelUnknown { .. }
             | Fault::CallRecursive { .. }
             | Fault::CallsTooDeep { .. }
+            | Fault::CallsDeeper { .. }
             | Fault::ProgramTwice { .. }
             | Fault::MacroLanguage { .. }
             | Fault::NoToolSelected

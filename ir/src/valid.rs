@@ -8,7 +8,7 @@ use crate::arguments;
 use crate::computes::Computes;
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::moves;
-use crate::program::{Control, Op, Program, Stmt};
+use crate::program::{Call, Control, Op, Program, Stmt};
 use crate::source::Span;
 
 /// The first statement that is computed, or decides, when the program runs, and that the target cannot say.
@@ -128,30 +128,71 @@ fn is_move(stmt: &Stmt) -> bool {
 /// labels of its own procedure. Where there are none, a call that stands too deep within others.
 pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
     let mut found = Vec::new();
+    let names: HashSet<&str> = program.procedures.iter().skip(1).map(|p| &*p.name).collect();
     for procedure in &program.procedures {
         let mut labels = HashSet::new();
         labels_of(&procedure.body, &mut labels);
-        within(program, &procedure.body, &labels, &mut found);
+        within(&names, &procedure.body, &labels, &mut found);
     }
     if found.is_empty() {
-        found.extend(calls_too_deep(program));
+        let deep = deeper_calls(program, DEEPEST, |_| true);
+        let fault = |name: &str| Fault::CallsTooDeep { name: name.into(), most: DEEPEST as u32 };
+        found.extend(deep.map(|(_, name, span)| Diagnostic::new(fault(name), span)));
     }
     found
 }
 
-/// How deep the calls of a procedure go, and by which of them: its place, its name, and where it stands.
-type Deep<'p> = (usize, Option<(usize, &'p str, Span)>);
+/// Jumps to labels that stand several times in their procedure, each label once.
+pub fn labels_twice(program: &Program) -> Vec<Diagnostic> {
+    fn over<'p>(
+        body: &'p [Stmt],
+        labels: &mut HashMap<&'p str, Vec<Span>>,
+        jumps: &mut Vec<(&'p str, Span)>,
+    ) {
+        for stmt in body {
+            match &stmt.op {
+                Op::Label(name) => labels.entry(name).or_default().push(stmt.span),
+                Op::Goto(name) => jumps.push((name, stmt.span)),
+                Op::Control(control) => control.bodies().for_each(|body| over(body, labels, jumps)),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for procedure in &program.procedures {
+        let (mut labels, mut jumps) = (HashMap::new(), Vec::new());
+        over(&procedure.body, &mut labels, &mut jumps);
+        for (name, span) in jumps {
+            if let Some(places) = labels.get_mut(name).filter(|places| places.len() > 1) {
+                let fault = Fault::LabelTwice { name: name.into() };
+                found.push(Diagnostic { fault, span, related: std::mem::take(places) });
+            }
+        }
+    }
+    found
+}
+
+/// A call: the place of its procedure, its name, where it stands, and how much it counts.
+type Step<'p> = (usize, &'p str, Span, usize);
+
+/// How deep the calls of a procedure go, and by which of them.
+type Deep<'p> = (usize, Option<Step<'p>>);
 
 /// Calls within one another that are followed; no control has so many.
 const DEEPEST: usize = 64;
 
-/// A call that stands deeper within others than is followed; calls that come back to their own program are told by what
-/// executes them.
-fn calls_too_deep(program: &Program) -> Option<Diagnostic> {
-    fn calls<'p>(body: &'p [Stmt], found: &mut Vec<(&'p str, Span)>) {
+/// How deep the calls of the main program go within one another, and the first call beyond `most` of them: its name and
+/// its place. Only calls that `counts` are counted. `None` where none goes that deep; calls that come back to their own
+/// program are reported by what executes them.
+pub fn deeper_calls(
+    program: &Program,
+    most: usize,
+    counts: fn(&Call) -> bool,
+) -> Option<(usize, &str, Span)> {
+    fn calls<'p>(body: &'p [Stmt], found: &mut Vec<(&'p Call, Span)>) {
         for stmt in body {
             match &stmt.op {
-                Op::Call(call) => found.push((&call.name, stmt.span)),
+                Op::Call(call) => found.push((call, stmt.span)),
                 Op::Control(control) => control.bodies().for_each(|body| calls(body, found)),
                 _ => {}
             }
@@ -164,10 +205,12 @@ fn calls_too_deep(program: &Program) -> Option<Diagnostic> {
     let calls_of = |at: usize| {
         let mut found = Vec::new();
         calls(&program.procedures[at].body, &mut found);
-        let known = found.into_iter().filter_map(|(name, span)| Some((*places.get(name)?, name, span)));
-        let mut known: Vec<(usize, &str, Span)> = known.collect();
-        known.sort_by_key(|(to, ..)| *to);
-        known.dedup_by_key(|(to, ..)| *to);
+        let known = found.into_iter().filter_map(|(call, span)| {
+            Some((*places.get(&*call.name)?, &*call.name, span, usize::from(counts(call))))
+        });
+        let mut known: Vec<Step> = known.collect();
+        known.sort_by_key(|(to, _, _, counted)| (*to, *counted));
+        known.dedup_by_key(|(to, _, _, counted)| (*to, *counted));
         known
     };
     // How deep the calls of each go, and by which of them; on the way to one, none is known of it.
@@ -184,20 +227,20 @@ fn calls_too_deep(program: &Program) -> Option<Diagnostic> {
             }
             continue;
         };
-        let below = own.iter().map(|call| (deep[call.0].map_or(0, |(deep, _)| deep) + 1, Some(*call)));
+        let below = own.iter().map(|call| (deep[call.0].map_or(0, |(deep, _)| deep) + call.3, Some(*call)));
         deep[at] = Some(below.max_by_key(|(deep, _)| *deep).unwrap_or((0, None)));
     }
     let mut at = deep.first().copied().flatten()?;
-    if at.0 <= DEEPEST {
+    let depth = at.0;
+    if depth <= most {
         return None;
     }
-    let mut steps = DEEPEST;
-    while let Some((to, name, span)) = at.1 {
-        if steps == 0 {
-            let fault = Fault::CallsTooDeep { name: name.into(), most: DEEPEST as u32 };
-            return Some(Diagnostic::new(fault, span));
+    let mut steps = 0;
+    while let Some((to, name, span, counted)) = at.1 {
+        steps += counted;
+        if steps > most {
+            return Some((depth, name, span));
         }
-        steps -= 1;
         at = deep[to]?;
     }
     None
@@ -216,6 +259,10 @@ pub fn not_called(program: &Program) -> Vec<usize> {
     }
     let all = &program.procedures;
     let mut reached = vec![false; all.len()];
+    let mut places: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (at, procedure) in all.iter().enumerate().skip(1) {
+        places.entry(&procedure.name).or_default().push(at);
+    }
     let mut ahead = if all.is_empty() { Vec::new() } else { vec![0] };
     while let Some(at) = ahead.pop() {
         if std::mem::replace(&mut reached[at], true) {
@@ -223,8 +270,7 @@ pub fn not_called(program: &Program) -> Vec<usize> {
         }
         let mut names = Vec::new();
         called(&all[at].body, &mut names);
-        let places = all.iter().enumerate().skip(1);
-        ahead.extend(places.filter(|(_, p)| names.contains(&&*p.name)).map(|(at, _)| at));
+        ahead.extend(names.into_iter().flat_map(|name| places.get(name).into_iter().flatten()));
     }
     (0..all.len()).filter(|at| !reached[*at]).collect()
 }
@@ -239,15 +285,13 @@ fn labels_of<'p>(body: &'p [Stmt], labels: &mut HashSet<&'p str>) {
     }
 }
 
-fn within(program: &Program, body: &[Stmt], labels: &HashSet<&str>, found: &mut Vec<Diagnostic>) {
+fn within(names: &HashSet<&str>, body: &[Stmt], labels: &HashSet<&str>, found: &mut Vec<Diagnostic>) {
     for stmt in body {
         let missing = match &stmt.op {
-            Op::Call(call) if !program.procedures.iter().skip(1).any(|p| p.name == call.name) => {
-                Fault::CallUnknown { name: call.name.clone() }
-            }
+            Op::Call(call) if !names.contains(&*call.name) => Fault::CallUnknown { name: call.name.clone() },
             Op::Goto(label) if !labels.contains(&**label) => Fault::LabelUnknown { name: label.clone() },
             Op::Control(control) => {
-                control.bodies().for_each(|body| within(program, body, labels, found));
+                control.bodies().for_each(|body| within(names, body, labels, found));
                 continue;
             }
             _ => continue,

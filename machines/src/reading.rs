@@ -167,6 +167,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         }
         Fault::AssumedBareNumber { .. } => (Side::From, Place::Confirmed(BARE_NUMBERS.to_owned())),
         Fault::AssumedToolChange { .. } => (Side::From, Place::Option("tool_with_change".to_owned())),
+        Fault::AssumedCycle { .. } => (Side::From, Place::Option("cycle_beside_motion".to_owned())),
         Fault::AssumedReturn { .. } => (Side::From, Place::Option("return_distance".to_owned())),
         Fault::AssumedParameter { parameter, .. } => match &**parameter {
             "clearance of peck drilling" => (Side::From, Place::Option(PECK_CLEARANCE.to_owned())),

@@ -139,6 +139,7 @@ fn the_corpus_has_no_other_questions() {
                 Fact::DecimalPoint => "decimal point",
                 Fact::RotaryTurn => "rotary turn",
                 Fact::Centres => "centres of arcs",
+                Fact::CycleBesideMotion => "cycle beside a motion",
                 Fact::ReturnPath => "path of a return",
                 Fact::ToolChange => "tool of a change",
             };

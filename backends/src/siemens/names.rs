@@ -34,6 +34,8 @@ pub(super) struct Name {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     made: BTreeMap<Box<str>, String>,
+    /// What they are called there, each under its kind.
+    taken: BTreeSet<String>,
     /// Names of programs, that no variable has.
     reserved: BTreeSet<String>,
 }
@@ -62,6 +64,7 @@ impl Names {
     /// The variables of another unit begin.
     pub(super) fn new_variables(&mut self) {
         self.made.retain(|key, _| !key.starts_with("variable "));
+        self.taken.retain(|key| !key.starts_with("variable "));
     }
 
     /// No variable has the name of a program.
@@ -72,7 +75,7 @@ impl Names {
     /// The name for the main program, which no subprogram may have.
     pub(super) fn main(&self, name: &str) -> String {
         let name = identifier(name, "P_");
-        let taken = self.made.iter().any(|(key, made)| key.starts_with("program ") && *made == name);
+        let taken = self.taken.contains(&format!("program {name}"));
         if taken { format!("{}_MAIN", cut(&name, LONGEST - 5)) } else { name }
     }
 
@@ -86,7 +89,7 @@ impl Names {
         if let Some(made) = self.made.get(key.as_str()) {
             return Name { text: made.clone(), changed: None };
         }
-        let taken = |text: &String| self.made.iter().any(|(key, made)| key.starts_with(kind) && made == text);
+        let taken = |text: &String| self.taken.contains(&format!("{kind}{text}"));
         let mut text = wanted.clone();
         let mut more = 2;
         while taken(&text) {
@@ -94,6 +97,7 @@ impl Names {
             more += 1;
         }
         self.made.insert(key.into(), text.clone());
+        self.taken.insert(format!("{kind}{text}"));
         let changed = (!text.eq_ignore_ascii_case(name))
             .then(|| Fault::NameChanged { from: name.into(), to: text.as_str().into() });
         Name { text, changed }

@@ -23,6 +23,7 @@ mod force;
 pub(crate) mod formula;
 mod frame;
 mod frames;
+mod holes_again;
 mod jump_of;
 mod modal_call;
 pub(crate) mod modes;
@@ -125,6 +126,8 @@ pub struct Writer {
     first_left: Option<Span>,
     /// Whether the source block at hand had to be split.
     pub(crate) split: bool,
+    /// Holes that the word of repetition makes after the one at hand.
+    repeats: usize,
     /// What the program stop that comes next says.
     stop_text: Option<Text>,
     /// A cycle has said a dwell that stays in force for others: for those of its series, or for all.
@@ -228,6 +231,7 @@ impl Writer {
             numbers_left: 0,
             first_left: None,
             split: false,
+            repeats: 0,
             stop_text: None,
             dwell_left: false,
             pecks_left: None,
@@ -298,17 +302,20 @@ impl Writer {
         let mut at = 0;
         while at < stmts.len() {
             let end = self.block_end(stmts, at);
-            let block = &stmts[at..end];
+            self.repeats = if runs.is_empty() { self.equal_holes(stmts, at, end) } else { 0 };
+            let (block, repeated) = stmts[at..end + self.repeats].split_at(end - at);
+            let end = end + repeated.len();
             if let Some(run) = runs.iter().find(|run| run.from == at) {
                 self.begin_calls_at_moves(&stmts[run.call], sink);
             }
             if let Some(trace) = &mut self.trace {
-                trace.enter(block);
+                trace.enter(&stmts[at..end]);
             }
-            if !self.plain_block(block, sink.out) {
+            if !repeated.is_empty() || !self.plain_block(block, sink.out) {
                 self.pass_on(sink.out);
                 self.source_block(block, sink);
             }
+            repeated.iter().for_each(|stmt| self.tracker.step(stmt));
             if self.trace.is_some() {
                 self.block_written(sink.out);
             }

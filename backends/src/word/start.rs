@@ -138,7 +138,12 @@ impl Writer {
         let facts = Facts { said: &preamble.said, assumed: &self.assumed };
         let units = facts.get(|m| m.units);
         let plane = facts.get(|m| m.plane);
-        let distance = facts.get(|m| m.distance);
+        // G91 is stated by the block that needs it: nobody expects it in the first line.
+        let incremental = facts.get(|m| m.distance).filter(|d| *d == Distance::Incremental && skip.is_none());
+        let distance = match incremental {
+            Some(_) => Some(Distance::Absolute),
+            None => facts.get(|m| m.distance),
+        };
         let feed_mode = facts.get(|m| m.feed_mode);
         let origin = facts.get(|m| m.work_offset);
         self.block.number = preamble.number;
@@ -192,11 +197,14 @@ impl Writer {
             trace.started(sink.out, &preamble.held);
         }
         sink.out.extend_from_slice(&preamble.held);
-        self.stated = stated;
         (self.block.number, self.block.skip) = (number, skip);
         if self.block.number == preamble.number {
             self.block.number = None;
         }
+        if let Some(incremental) = incremental {
+            self.start_setting(Setting::Distance(incremental), &mut stated, sink);
+        }
+        self.stated = stated;
     }
 
     fn start_setting(&mut self, setting: Setting, stated: &mut Modes, sink: &mut Sink) {

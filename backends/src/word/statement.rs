@@ -169,7 +169,7 @@ impl Writer {
             Op::ArcFeed(arc) => self.arc(arc, span, sink),
             Op::Position(to) => self.position(to, stmt, sink),
             Op::StartCycle(cycle) => self.start_cycle(cycle, stmt, sink),
-            Op::Hole(to) => self.hole(to, stmt, sink),
+            Op::Hole(to) => self.holes(to, stmt, sink),
             Op::Pattern(pattern) => self.pattern(pattern, stmt, sink),
             Op::EndCycle => self.end_cycle(span, sink),
             Op::ProgramStop if self.stop_text.is_some() => self.stop_with_text(stmt, sink),

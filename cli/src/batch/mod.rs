@@ -337,6 +337,7 @@ fn tell(
     };
     done.map_err(|e| Problem::file("write", "the summary", &e))?;
     match arrow {
+        None if args.format == Format::Json => files::data_to_stdout(&mut |out| out.write_all(&text)),
         None => files::to_stdout(&mut |out| out.write_all(&text)),
         Some(to) => {
             // stdout is a file that the shell has made.

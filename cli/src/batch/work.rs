@@ -42,12 +42,12 @@ pub(super) struct Store {
 
 impl Store {
     pub(super) fn new() -> io::Result<Store> {
-        Ok(Store { file: tempfile::tempfile()?, bytes: 0 })
+        Ok(Store { file: crate::scratch::file()?, bytes: 0 })
     }
 
     fn put(&mut self, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> io::Result<Range<u64>> {
         let start = self.file.seek(SeekFrom::Start(self.bytes))?;
-        write(&mut self.file)?;
+        write(&mut self.file).map_err(crate::scratch::full)?;
         self.bytes = self.file.stream_position()?;
         Ok(start..self.bytes)
     }

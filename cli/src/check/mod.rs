@@ -34,6 +34,7 @@ use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::questions;
+use crate::render::terminal::Shown;
 use crate::review::side::{Asked, Side, open_one};
 
 /// Runs the verb.
@@ -129,7 +130,10 @@ fn write(args: &Check, programs: Vec<Program>, color: Color) -> Result<(), Probl
     let color = matches!(destination, Destination::Stdout) && is_colored(color);
     let written = formed(args, programs, color).and_then(|text| output.push(&text));
     written.map_err(|e| Problem::file("write", "the findings", &e))?;
-    destination.release(&mut output)
+    match args.format {
+        Form::Text => destination.release_shown(&mut output),
+        Form::Json | Form::Sarif => destination.release(&mut output),
+    }
 }
 
 /// The findings in the form that is asked for.
@@ -140,11 +144,11 @@ fn formed(args: &Check, programs: Vec<Program>, color: bool) -> io::Result<Vec<u
         Form::Sarif => sarif::write(&mut text, &programs)?,
         Form::Text => {
             let loudness = args.telling.loudness();
-            let mut plain = NoColor::new(Vec::new());
-            let mut colored = Ansi::new(Vec::new());
+            let mut plain = Shown::new(NoColor::new(Vec::new()));
+            let mut colored = Shown::new(Ansi::new(Vec::new()));
             let out: &mut dyn WriteColor = if color { &mut colored } else { &mut plain };
             programs.iter().try_for_each(|program| text::write(out, program, loudness))?;
-            text = if color { colored.into_inner() } else { plain.into_inner() };
+            text = if color { colored.finish()?.into_inner() } else { plain.finish()?.into_inner() };
         }
     }
     Ok(text)
@@ -155,7 +159,7 @@ fn formed(args: &Check, programs: Vec<Program>, color: bool) -> io::Result<Vec<u
 /// # Errors
 /// Anonymous files.
 pub fn of_text(args: &Check, from: Settings, profile: Option<&Profile>, text: &[u8]) -> io::Result<Vec<u8>> {
-    let mut file = tempfile::tempfile()?;
+    let mut file = crate::scratch::file()?;
     file.write_all(text)?;
     let Side { mut source, job } = Side::of(Source::of(file, "text"), from, Machines::default(), None);
     let course = drive::drive(&job, limits(args, profile), args.switches.on(), &mut source)?;

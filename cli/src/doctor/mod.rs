@@ -15,7 +15,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use codespan_reporting::term::termcolor::StandardStream;
+use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity};
@@ -92,7 +92,7 @@ pub struct Doctor {
 ///
 /// # Errors
 /// Wrong usage, or a file.
-pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
+pub fn run(args: &Doctor, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let stated = Asked {
         file: &args.file,
         from: args.from.as_deref(),
@@ -141,7 +141,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
 ///
 /// # Errors
 /// Wrong usage, or a file.
-pub(crate) fn project(args: &Init, known: &Known, err: &mut StandardStream) -> Result<String, Problem> {
+pub(crate) fn project(args: &Init, known: &Known, err: &mut dyn WriteColor) -> Result<String, Problem> {
     let stated = Asked {
         file: &args.program,
         from: args.from.as_deref(),
@@ -186,7 +186,7 @@ struct Examined {
     exit: Exit,
 }
 
-fn examine(args: &Asked, known: &Known, err: &mut StandardStream) -> Result<Examined, Problem> {
+fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Examined, Problem> {
     let mut machines = Machines::find(args.machine_from, args.machine_to, known, err)?;
     let stated = Stated {
         from: args.from,

@@ -129,7 +129,7 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
 /// What keeps it from being laid out.
 pub fn of_text(from: Settings, layout: Layout, text: &[u8], known: &Known) -> Result<Vec<u8>, Problem> {
     let memory = |e: io::Error| Problem::file("use", "an anonymous file", &e);
-    let mut source = tempfile::tempfile().map_err(memory)?;
+    let mut source = crate::scratch::file().map_err(memory)?;
     source.write_all(text).and_then(|()| source.rewind()).map_err(memory)?;
     let job = Job { layout, ..Job::new(from.clone(), from, "text") };
     let mut nowhere = Buffer::no_color();
@@ -160,7 +160,7 @@ fn laid_out(
     let shown = source.shown.clone();
     let read = |e: io::Error| Problem::file("read", &shown, &e);
     let eol: &[u8] = if job.layout.crlf { b"\r\n" } else { b"\n" };
-    let mut file = tempfile::tempfile().map_err(read)?;
+    let mut file = crate::scratch::file().map_err(read)?;
     let found = text::text(&job.from, eol, &mut source.file, &mut file).map_err(read)?;
     match found.refused {
         Some(Refused::NotText(line)) => return Err(not_text(&shown, Some(line))),
@@ -315,7 +315,7 @@ fn write(
     };
     if args.stdout || is_stdin(file) {
         source.guard(None)?;
-        files::to_stdout(&mut copy)?;
+        files::data_to_stdout(&mut copy)?;
     } else if done.changed > 0 {
         let (_, path) = operand(file, known)?;
         files::to_file(path, &mut copy)?;

@@ -115,7 +115,7 @@ pub(crate) fn run(
         let _ = writeln!(err, "{}: listed, NOT VERIFIED", source.shown);
     }
     match destination {
-        Destination::Stdout => files::to_stdout(&mut |out| out.write_all(listing.as_bytes()))?,
+        Destination::Stdout => files::data_to_stdout(&mut |out| out.write_all(listing.as_bytes()))?,
         Destination::File(path) => files::to_file(path, &mut |out| out.write_all(listing.as_bytes()))?,
     }
     Ok(Exit::Done)

@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use codespan_reporting::term::termcolor::StandardStream;
+use codespan_reporting::term::termcolor::WriteColor;
 use ncc_machines::project::NAME;
 
 use crate::args::pair;
@@ -47,7 +47,7 @@ pub struct Init {
 ///
 /// # Errors
 /// It is there already; wrong usage; a file that cannot be read or written.
-pub fn run(args: &Init, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
+pub fn run(args: &Init, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let folder = args.program.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let path = match folder == Path::new(".") {
         true => PathBuf::from(NAME),

@@ -9,7 +9,6 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use ncc_backends::{Origin, Writer};
 use ncc_dialects::{Dialect, Family};
 use ncc_ir::source::Span;
-use tempfile::SpooledTempFile;
 
 use super::text::readable;
 
@@ -156,7 +155,7 @@ impl Annotator {
 /// The source as far as it was read, of which any line can be read again.
 #[derive(Debug)]
 struct Recall {
-    file: SpooledTempFile,
+    file: crate::scratch::Kept,
     /// Where lines begin.
     starts: Vec<u32>,
     /// The last bytes.
@@ -168,7 +167,7 @@ struct Recall {
 impl Recall {
     fn new() -> Recall {
         Recall {
-            file: SpooledTempFile::new(1 << 20),
+            file: crate::scratch::Kept::new(1 << 20),
             starts: vec![0],
             window: Vec::new(),
             window_at: 0,

@@ -202,7 +202,7 @@ fn again(
         )],
     };
     let Some(record) = record else { return Err(other()) };
-    let mut file = tempfile::tempfile().map_err(|e| wrong(&e))?;
+    let mut file = crate::scratch::file().map_err(|e| wrong(&e))?;
     let shown = path.display().to_string();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };
     let name = output.name.clone();

@@ -3,7 +3,8 @@
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 
 use ncc_ir::source::Span;
-use tempfile::SpooledTempFile;
+
+use crate::scratch::Kept;
 
 /// Bytes that are kept in memory; more goes to an anonymous file.
 const IN_MEMORY: usize = 1 << 20;
@@ -33,12 +34,12 @@ pub(crate) struct Stretch {
 /// Rows in their order.
 #[derive(Debug)]
 pub(crate) struct Spool {
-    file: BufWriter<SpooledTempFile>,
+    file: BufWriter<Kept>,
 }
 
 impl Spool {
     pub(crate) fn new() -> Spool {
-        Spool { file: BufWriter::new(SpooledTempFile::new(IN_MEMORY)) }
+        Spool { file: BufWriter::new(Kept::new(IN_MEMORY)) }
     }
 
     /// Adds a row.
@@ -77,7 +78,7 @@ impl Spool {
 /// Rows that are read again.
 #[derive(Debug)]
 pub(crate) struct Rows {
-    file: BufReader<SpooledTempFile>,
+    file: BufReader<Kept>,
 }
 
 impl Rows {

@@ -72,7 +72,11 @@ struct Modal {
 /// Wrong usage, a file that cannot be read, or one that is not what the map was made of.
 pub fn run(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let answer = ask(args, known, err)?;
-    files::to_stdout(&mut |out| match args.format {
+    let to_stdout = match args.format {
+        Format::Json => files::data_to_stdout,
+        Format::Human => files::to_stdout,
+    };
+    to_stdout(&mut |out| match args.format {
         Format::Json => {
             serde_json::to_writer_pretty(&mut *out, &answer)?;
             out.write_all(b"\n")

@@ -17,8 +17,8 @@ use std::io::{self, SeekFrom};
 use codespan_reporting::term::termcolor::WriteColor;
 
 use ncc_dialects::{
-    ARC_CENTRES, CALCULATOR, DECIMAL_POINT, Dialect, FROM_START, FROM_ZERO, RETURN_DISTANCE, RETURN_FIRST,
-    RETURN_LAST, Settings,
+    ARC_CENTRES, CALCULATOR, CYCLE_BESIDE_MOTION, DECIMAL_POINT, Dialect, FROM_START, FROM_ZERO,
+    MOTION_CANCELS, MOTION_DRILLED, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, Settings,
 };
 use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::behaviour::Behaviour;
@@ -75,6 +75,8 @@ pub enum Fact {
     ReturnPath,
     /// The tool that M06 puts in, where its block has a T and another tool waits.
     ToolChange,
+    /// Whether a cycle drills that stands beside a code of motion.
+    CycleBesideMotion,
 }
 
 impl Fact {
@@ -87,6 +89,7 @@ impl Fact {
             Fact::Centres => 307,
             Fact::ToolChange => 336,
             Fact::ReturnPath => 337,
+            Fact::CycleBesideMotion => 338,
             Fact::RotaryTurn => 522,
         }
     }
@@ -149,6 +152,15 @@ pub enum Shown {
         zero: bool,
         /// Whether they are places of the part.
         absolute: bool,
+    },
+    /// A block with a cycle's code and one of motion drills, or moves by the latter.
+    Hole {
+        /// The code of the cycle.
+        cycle: Box<str>,
+        /// The code of motion.
+        motion: Box<str>,
+        /// Whether it drills.
+        drills: bool,
     },
     /// A rotary axis turns by so much, nanos of a degree.
     Turn(Axis, Nanos),
@@ -387,6 +399,15 @@ fn of_diagnostic(job: &Job, diagnostic: &Diagnostic) -> Option<Candidate> {
             let shown = [path(*last), path(!*last)];
             of_option(job, Fact::ReturnPath, diagnostic.span, RETURN_DISTANCE, values, shown)
         }
+        Fault::AssumedCycle { cycle, motion } => {
+            let shown = [true, false].map(|drills| Shown::Hole {
+                cycle: cycle.clone(),
+                motion: motion.clone(),
+                drills,
+            });
+            let values = [MOTION_DRILLED, MOTION_CANCELS];
+            of_option(job, Fact::CycleBesideMotion, diagnostic.span, CYCLE_BESIDE_MOTION, values, shown)
+        }
         Fault::AssumedToolChange { named, waiting } => {
             let [first, second] = Behaviour::ToolWithChange.values() else { return None };
             let shown = [*named, *waiting].map(|tool| Shown::Made(Made::Tool(i64::from(tool))));
@@ -420,6 +441,7 @@ fn decide(
         | Fact::Centres
         | Fact::ReturnPath
         | Fact::ToolChange
+        | Fact::CycleBesideMotion
         | Fact::RotaryTurn => MICROMETRE,
         Fact::DecimalPoint => TENTH,
     };
@@ -427,7 +449,7 @@ fn decide(
     let watch = candidate.fact == Fact::DecimalPoint;
     let measure = Measure { length, cuts };
     let finish = match candidate.fact {
-        Fact::Units | Fact::DecimalPoint | Fact::ToolChange | Fact::RotaryTurn => {
+        Fact::Units | Fact::DecimalPoint | Fact::ToolChange | Fact::CycleBesideMotion | Fact::RotaryTurn => {
             race(jobs, source, measure, PLAIN, watch)?
         }
         // Where the radii of its arcs fit one reading alone, the text itself has said it; the other is refused there.
@@ -454,11 +476,19 @@ fn decide(
         Finish::Apart(difference) => match candidate.fact {
             Fact::DecimalPoint => in_words(candidate, &difference),
             Fact::Control | Fact::Units | Fact::Centres => (difference.at, difference.made.map(made)),
-            Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn => (candidate.span, candidate.shown()),
+            Fact::ReturnPath | Fact::ToolChange | Fact::CycleBesideMotion | Fact::RotaryTurn => {
+                (candidate.span, candidate.shown())
+            }
         },
         Finish::Unknown(bare) => match candidate.fact {
             // What cannot be executed here may be by a caller.
-            Fact::Units | Fact::ReturnPath | Fact::ToolChange | Fact::RotaryTurn if sound => {
+            Fact::Units
+            | Fact::ReturnPath
+            | Fact::ToolChange
+            | Fact::CycleBesideMotion
+            | Fact::RotaryTurn
+                if sound =>
+            {
                 (candidate.span, candidate.shown())
             }
             Fact::DecimalPoint if sound => match bare.iter().find(|bare| matters(bare)) {
@@ -471,6 +501,7 @@ fn decide(
             | Fact::Centres
             | Fact::ReturnPath
             | Fact::ToolChange
+            | Fact::CycleBesideMotion
             | Fact::RotaryTurn => {
                 return Ok(None);
             }

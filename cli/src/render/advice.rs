@@ -1,6 +1,6 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{ARC_TOLERANCE, DECIMAL_POINT, Dialect};
+use ncc_dialects::{ARC_TOLERANCE, CALL_DEPTH, DECIMAL_POINT, Dialect, MACRO_DEPTH};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
@@ -64,6 +64,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             vec![format!("put a line with `{mark}` before the first block, or take this one away")]
         }
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
+        Fault::LabelTwice { .. } => own("give each block that is jumped to a number of its own"),
+        Fault::TextBeforeStart { .. } => own("delete it, or make it a comment behind the program number"),
         Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 
         Fault::UnknownCode { code } if is_open(code, at.from) => {
@@ -92,6 +94,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("put them into blocks of their own, in the order in which they shall act")
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
+        Fault::WordMissing { code, word } if &**word == "D" && matches!(&**code, "G41" | "G42") => {
+            own("add `D` to this block; if its H is the radius, as on a Fanuc 0, write D in the place of H")
+        }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
         Fault::WordTwice { .. } => own("keep one of the two"),
         Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
@@ -144,10 +149,22 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 format!("if the call has no effect on the cut, leave it out: `--call {}=drop`", plain(name)),
             ]
         }
-        Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
-        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
-            Vec::new()
+        Fault::CallsDeeper { depth, macros, .. } => {
+            let option = if *macros { MACRO_DEPTH } else { CALL_DEPTH };
+            let mut ways = own("put the blocks of some subprograms into those that call them");
+            let takes = |value: &String| value.parse::<u32>().is_ok_and(|value| value >= *depth);
+            if at.to.option.iter().any(|row| row.name == option && row.values.iter().any(takes)) {
+                ways.insert(0, format!("if your control takes {depth}: `--to-option {option}={depth}`"));
+            }
+            ways
         }
+        Fault::CallDepth { sure, macros, .. } => {
+            let option = if *macros { MACRO_DEPTH } else { CALL_DEPTH };
+            vec![format!("state what your control takes: `--to-option {option}={sure}`, or more")]
+        }
+        Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
+        Fault::NoEnd { .. } => own("count fewer iterations for the trial, or look whether its loops end"),
+        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::Endless => Vec::new(),
         Fault::LabelUnknown { .. } => own(
             "put the label where the block looks for it: before one that repeats, in its direction from a jump",
         ),
@@ -171,6 +188,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CutStanding => own("write `M03` before this block"),
         Fault::AssumedToolChange { .. } => {
             own("state what your machine does: `--from-option tool_with_change=named` or `=waiting`")
+        }
+        Fault::AssumedCycle { motion, .. } => {
+            vec![format!(
+                "leave {motion} out; or state `--from-option cycle_beside_motion=drilled` or `=cancelled`"
+            )]
         }
         Fault::AssumedReturn { .. } => {
             own("state what your machine does: `--from-option return_distance=last` or `=first`")
@@ -314,6 +336,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
+        Fault::CannotSay { what } if what.ends_with("that is measured with the tool's length") => {
+            own("cancel the length in this block, and activate it with the next absolute Z")
+        }
         Fault::CannotSay { what } if what.starts_with("a tool called ") => {
             vec![
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"

@@ -11,6 +11,7 @@ pub mod questions;
 pub mod source;
 mod spelled;
 pub mod summary;
+pub mod terminal;
 pub mod words;
 
 use std::io;

@@ -178,6 +178,12 @@ fn headline(question: &Question, text: &str) -> String {
             }
             _ => "which of G90 and G91 counts in this block?".to_owned(),
         },
+        (Fact::CycleBesideMotion, ..) => match &first.result {
+            Shown::Hole { cycle, motion, .. } => {
+                format!("{} beside {}: a hole, or a move without one?", plain(cycle), plain(motion))
+            }
+            _ => "does the cycle beside a motion drill?".to_owned(),
+        },
         (Fact::ToolChange, ..) => match (&first.result, &second.result) {
             (Shown::Made(Made::Tool(named)), Shown::Made(Made::Tool(waiting))) => {
                 format!("does M06 put in T{named} or T{waiting}? The next H is H{waiting}")
@@ -254,6 +260,10 @@ fn result(shown: &Shown) -> Option<String> {
         Shown::Word { value, feed } => word(*value, *feed),
         Shown::Turn(axis, by) => {
             format!("{} turns by {} degrees", char::from(axis.letter()), signed(*by))
+        }
+        Shown::Hole { cycle, drills: true, .. } => format!("{} drills", plain(cycle)),
+        Shown::Hole { cycle, motion, drills: false } => {
+            format!("{} moves all axes, {} is cancelled", plain(motion), plain(cycle))
         }
         Shown::Path { words, zero, absolute, .. } => return_path(words, *zero, *absolute),
         Shown::Made(made) => match *made {

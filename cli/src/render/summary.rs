@@ -318,6 +318,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedControl { .. }
         | Fault::AssumedToolChange { .. }
         | Fault::AssumedReturn { .. }
+        | Fault::AssumedCycle { .. }
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
         | Fault::FeedAtUnits { .. }
@@ -330,6 +331,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NextRunVariables { .. }
         | Fault::RoundsFreely
         | Fault::OptionalStopDiffers
+        | Fault::CallDepth { .. }
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }
         | Fault::AssumedPath { .. }
@@ -410,6 +412,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::Syntax { .. }
         | Fault::NoProgramEnd
         | Fault::TextAfterEnd
+        | Fault::TextBeforeStart { .. }
+        | Fault::LabelTwice { .. }
         | Fault::ComparedLast { .. }
         | Fault::OpeningMarkMissing { .. }
         | Fault::UnknownCode { .. }
@@ -434,6 +438,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::LabelUnknown { .. }
         | Fault::CallRecursive { .. }
         | Fault::CallsTooDeep { .. }
+        | Fault::CallsDeeper { .. }
         | Fault::ProgramTwice { .. }
         | Fault::MacroLanguage { .. }
         | Fault::NoToolSelected

@@ -3,14 +3,14 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
-use super::numbers::{millimetres, rotary_turn, signed};
+use super::numbers::{calls, millimetres, rotary_turn, signed, thousands};
+pub use super::numbers::{numbered, plural};
 use super::spelled::{character, found_words, next_run, radii_of};
 pub use super::spelled::{kept, return_path, variables};
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
-use ncc_ir::maps::Numbered;
 
 /// What the wording may name besides the fault's own data.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +71,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::TextAfterEnd => {
             ("text after the end of the program".into(), "the control never comes here".into())
         }
+        Fault::LabelTwice { name } => (
+            format!("{} stands more than once in this program", plain(name)),
+            "the control goes to the first one that it finds".into(),
+        ),
+        Fault::TextBeforeStart { mark } => (
+            format!("text before the first {}", quoted(mark)),
+            "the control does not read it, and neither does ncc".into(),
+        ),
         Fault::ComparedLast { what } => (
             format!("{} compares last of all", quoted(what)),
             "AND, OR, XOR and NOT come before comparisons here".into(),
@@ -146,6 +154,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CallsTooDeep { name, most } => (
             format!("the call of {} stands within {most} others", quoted(name)),
             "no control calls that deep: it ends with an alarm".into(),
+        ),
+        Fault::CallsDeeper { name, depth, most, macros } => (
+            format!("{} go {depth} deep, {to} takes {most}", calls(*macros)),
+            format!("the call of {} is the first too many", quoted(name)),
+        ),
+        Fault::CallDepth { depth, sure, macros } => (
+            format!("{} go {depth} deep; older controls take {sure}", calls(*macros)),
+            "the control ends the program with an alarm if it takes fewer".into(),
         ),
         Fault::CallRecursive { name } => {
             (format!("program {} calls itself", quoted(name)), "this call never comes to an end".into())
@@ -313,6 +329,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{} {}", quoted(code), return_path(words, *zero, *last)),
             "G90 and G91 in one block: the last one counts".into(),
         ),
+        Fault::AssumedCycle { cycle, motion } => (
+            format!("{} beside {} drills", quoted(cycle), quoted(motion)),
+            "manuals of other controls: the motion cancels the cycle".into(),
+        ),
         Fault::AssumedControl { taken, other } => (
             format!("read as {}; {} reads it otherwise", plain(taken), plain(other)),
             "both readings differ here first".into(),
@@ -357,7 +377,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "here all is as it was a turn before: the program comes round again and again".into(),
         ),
         Fault::NoEnd { steps } => {
-            ("the program does not come to an end".into(), format!("still running after {steps} blocks"))
+            let steps = thousands(*steps);
+            ("the program runs for too long to be executed".into(), format!("still running after {steps} blocks"))
         }
 
         Fault::AssumedMode { fact, value } => (
@@ -619,6 +640,7 @@ fn related(fault: &Fault) -> &'static str {
         Fault::WordTwice { .. } | Fault::ProgramTwice { .. } | Fault::SecondWorkOffset { .. } => "first here",
         Fault::CodesExclude { .. } => "the other one",
         Fault::TextAfterEnd => "the program ends here",
+        Fault::LabelTwice { .. } => "one of them",
         Fault::CallRecursive { .. } => "by way of this call",
         Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
         _ => "belongs to it",
@@ -649,22 +671,6 @@ pub fn mode(fact: ModeName) -> &'static str {
 pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
     let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
     row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
-}
-
-/// What has a number, as one or as several.
-pub fn numbered(what: Numbered, count: u64) -> String {
-    match what {
-        Numbered::Tool => plural(count, "tool"),
-        Numbered::LengthEntry if count == 1 => "length entry".to_owned(),
-        Numbered::LengthEntry => "length entries".to_owned(),
-        Numbered::WorkOffset => plural(count, "work offset"),
-        Numbered::Program => plural(count, "program"),
-    }
-}
-
-/// A noun with its plural's s.
-pub fn plural(count: u64, noun: &str) -> String {
-    if count == 1 { noun.to_owned() } else { format!("{noun}s") }
 }
 
 /// Text as it may be shown: no control characters. ncc's own sentences are never cut.

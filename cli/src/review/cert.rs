@@ -108,7 +108,11 @@ fn tell(
     other: bool,
 ) -> Result<(), Problem> {
     let own = &fresh.ncc_version;
-    files::to_stdout(&mut |out| {
+    let to_stdout = match args.format {
+        Format::Json => files::data_to_stdout,
+        Format::Human => files::to_stdout,
+    };
+    to_stdout(&mut |out| {
         if args.format == Format::Json {
             let told = serde_json::json!({
                 "certificate": file.display().to_string(),

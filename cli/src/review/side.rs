@@ -15,6 +15,7 @@ use ncc_machines::reading::Side as Whose;
 
 use crate::args::Start;
 use crate::called;
+use crate::files::AS_STORED;
 use crate::files::Source;
 use crate::given::Given;
 use crate::guess::{Guess, guess};
@@ -118,9 +119,9 @@ pub(crate) fn open(
     err: &mut dyn WriteColor,
 ) -> Result<[Side; 2], Problem> {
     let [a, b] = asked;
-    let mut first = Opened::of(a, None, say, known, err)?;
+    let mut first = Opened::of(a, None, say, known, err).map_err(unread)?;
     let target = first.row.clone().filter(|_| b.is_output);
-    let mut second = Opened::of(b, target.as_deref(), say, known, err)?;
+    let mut second = Opened::of(b, target.as_deref(), say, known, err).map_err(unread)?;
     if first.stdin && second.stdin {
         return Err(Problem::usage("stdin can be read only once", "name a file for one side"));
     }
@@ -147,6 +148,14 @@ fn uncomparable(problem: Problem) -> Problem {
 /// Opens one program.
 ///
 /// # Errors
+/// A side that is stored as no control reads it: exit code 1 would say that both differ.
+fn unread(problem: Problem) -> Problem {
+    match problem.exit {
+        Exit::Refused if problem.message.contains(AS_STORED) => uncomparable(problem),
+        _ => problem,
+    }
+}
+
 /// As of [`open`].
 pub(crate) fn open_one(
     asked: &Asked,

@@ -82,14 +82,14 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
         },
     };
     match why {
-        None => files::to_stdout(&mut |out| output.write_to(out))?,
+        None => files::data_to_stdout(&mut |out| output.write_to(out))?,
         Some(why) => {
             let _ = writeln!(err, "{why}; shown as it is");
             let mut source = files::open(path)?;
             source.file.seek(SeekFrom::Start(0)).map_err(|e| cannot(&e))?;
             let mut text = Vec::new();
             source.file.read_to_end(&mut text).map_err(|e| cannot(&e))?;
-            files::to_stdout(&mut |out| out.write_all(&text))?;
+            files::data_to_stdout(&mut |out| out.write_all(&text))?;
         }
     }
     Ok(Exit::Done)

@@ -267,7 +267,11 @@ fn say(
 /// # Errors
 /// stdout cannot be written.
 pub(crate) fn show(args: &Verify, document: &Document) -> Result<(), Problem> {
-    files::to_stdout(&mut |out| match (args.format, args.telling.quiet) {
+    let to_stdout = match args.format {
+        Format::Json => files::data_to_stdout,
+        Format::Human => files::to_stdout,
+    };
+    to_stdout(&mut |out| match (args.format, args.telling.quiet) {
         (Format::Json, _) => write(out, document),
         (Format::Human, true) => Ok(()),
         (Format::Human, false) => text::write(out, document),
@@ -303,7 +307,7 @@ pub fn of_texts(
     known: &Known,
 ) -> io::Result<Document> {
     let anonymous = |text: &[u8], name: &str| -> io::Result<Source> {
-        let mut file = tempfile::tempfile()?;
+        let mut file = crate::scratch::file()?;
         file.write_all(text)?;
         Ok(Source::of(file, name))
     };

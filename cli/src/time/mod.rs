@@ -131,7 +131,12 @@ pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
             if !report.programs.is_empty() {
                 write_report(args, &report, &mut spool)
                     .map_err(|e| Problem::file("write", "the summary", &e))?;
-                destination.release(&mut spool.output)?;
+                match (args.form, &destination) {
+                    (Form::Summary, Destination::Stdout) => {
+                        files::to_stdout(&mut |out| spool.output.write_to(out))?;
+                    }
+                    _ => destination.release(&mut spool.output)?,
+                }
             }
             Ok(lost.exit)
         }
@@ -573,11 +578,11 @@ fn canonical(
         let _ = account::print(err, &mut about, &outcome);
         return Ok(Err(failure));
     }
-    let mut file = tempfile::tempfile().map_err(cannot)?;
+    let mut file = crate::scratch::file().map_err(cannot)?;
     outcome.output.write_to(&mut file).map_err(cannot)?;
     file.seek(SeekFrom::Start(0)).map_err(cannot)?;
     // A reader of its own: the other one is somewhere else in the text.
-    let mut again = tempfile::tempfile().map_err(cannot)?;
+    let mut again = crate::scratch::file().map_err(cannot)?;
     outcome.output.write_to(&mut again).map_err(cannot)?;
     again.seek(SeekFrom::Start(0)).map_err(cannot)?;
     let mut text = Source::of(file, &source.name);

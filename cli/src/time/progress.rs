@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::duration::hms;
+use crate::render::terminal::one_line;
 
 /// Before so long nothing is shown: most programs are done by then.
 const PATIENCE: Duration = Duration::from_millis(400);
@@ -29,7 +30,7 @@ impl Progress {
             let target = ProgressDrawTarget::stderr_with_hz(RATE);
             let style = ProgressStyle::with_template("{prefix} {bar:24} {percent:>3} %  {msg}");
             let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
-            ProgressBar::with_draw_target(Some(bytes), target).with_style(style).with_prefix(name.to_owned())
+            ProgressBar::with_draw_target(Some(bytes), target).with_style(style).with_prefix(one_line(name))
         });
         // Nobody looks: nothing is counted either.
         let bar = bar.filter(|bar| !bar.is_hidden());

@@ -3,7 +3,9 @@
 
 use std::collections::HashMap;
 
-use ncc_dialects::{BORE_SHIFT, CodeRow, PATH_TOLERANCE, Quantity, SPINDLE_ANGLE, SystemRow};
+use ncc_dialects::{
+    BORE_SHIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, Quantity, SPINDLE_ANGLE, SystemRow,
+};
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
@@ -17,9 +19,10 @@ use ncc_ir::passes::{
     exact_comparisons, expand_repeats, leave_out_output, machine_cuts, message_values, output_elsewhere,
     own_distance, planes_checked, spindle_points, unit_in_force,
 };
-use ncc_ir::program::Program;
+use ncc_ir::program::{Call, Program};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::valid::{deeper_calls, labels_twice};
 use ncc_ir::world::Sideways;
 
 use super::{BREAK_LIFT, PECK_CLEARANCE};
@@ -28,6 +31,34 @@ use crate::job::Job;
 /// Digits after the point to which computed positions are rounded: the target's, in mm.
 pub(super) fn decimals(job: &Job) -> u8 {
     job.to.dialect.numbers(Quantity::Length).decimals
+}
+
+/// Jumps of the source to labels that stand several times; calls of the written program that go deeper within one
+/// another than the target takes, or than each such control does.
+pub(super) fn calls_and_jumps(job: &Job, [source, program]: [&Program; 2], found: &mut Vec<Diagnostic>) {
+    found.extend(labels_twice(source));
+    // A control that counts calls of macros counts them apart.
+    let apart = job.to.call_depth(MACRO_DEPTH).is_some();
+    for (option, macros) in [(CALL_DEPTH, false), (MACRO_DEPTH, true)] {
+        let Some([most, sure]) = job.to.call_depth(option) else { continue };
+        let counts: fn(&Call) -> bool = match (macros, apart) {
+            (true, _) => |call| !call.shared,
+            (false, true) => |call| call.shared,
+            (false, false) => |_| true,
+        };
+        let beyond = |limit: u32| deeper_calls(program, limit as usize, counts);
+        let fault = match (beyond(most), beyond(sure)) {
+            (Some((depth, name, span)), _) => {
+                let (name, depth) = (name.into(), depth as u32);
+                Diagnostic::new(Fault::CallsDeeper { name, depth, most, macros }, span)
+            }
+            (None, Some((depth, _, span))) => {
+                Diagnostic::new(Fault::CallDepth { depth: depth as u32, sure, macros }, span)
+            }
+            (None, None) => continue,
+        };
+        found.push(fault);
+    }
 }
 
 /// Says the alarms of a program as the target has them, and leaves out what it has no device for.

@@ -20,6 +20,8 @@ mod provenance;
 mod questions;
 mod readme;
 mod sessions;
+mod stored;
+mod terminal;
 mod time;
 mod usage;
 mod verify;

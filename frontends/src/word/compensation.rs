@@ -13,6 +13,7 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
 
 use super::Source;
+use super::block::{Value, Word};
 use super::facts::Know;
 use super::lower::Lower;
 use super::sort::{Code, Words};
@@ -32,7 +33,13 @@ impl Lower {
         if stated {
             return self.by_diameter(code, side, words, src, out);
         }
+        let own_tool = |word: &Word| {
+            let zero = matches!(word.value, Value::Number(digits) if digits.mantissa == 0);
+            zero && code.row.own_tool
+        };
         let radius = match words.take(letter) {
+            // Its D0 is no entry, but the tool in the spindle.
+            Some(word) if own_tool(&word) => CutterRadius::Tool,
             Some(word) => match self.entry(&word, words, src, out) {
                 Some(entry) => {
                     self.state.radius_entry = kept(&entry);

@@ -9,7 +9,7 @@
 //! Each is an assumption, which is asked where both readings make two different cuts. Not here: what a control puts
 //! in (its behaviour), and the question.
 
-use ncc_dialects::{Meaning, RETURN_DISTANCE, RETURN_FIRST};
+use ncc_dialects::{CYCLE_BESIDE_MOTION, MOTION_CANCELS, Meaning, RETURN_DISTANCE, RETURN_FIRST};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -18,7 +18,7 @@ use ncc_ir::source::Span;
 use super::Source;
 use super::block::{Block, Value, Word};
 use super::lower::Lower;
-use super::sort::Code;
+use super::sort::{Code, Words};
 use crate::Batch;
 
 /// Tools as the text names them, from block to block.
@@ -73,6 +73,33 @@ impl Lower {
         if self.assume && contradicts && open && !std::mem::replace(&mut self.reported.tool_change, true) {
             out.report(Fault::AssumedToolChange { named, waiting }, span);
         }
+    }
+
+    /// Whether a code of motion cancels the cycle whose code is in its block: the option of the dictionary says so.
+    /// Then the words that are the cycle's alone mean nothing.
+    pub(super) fn cancels(
+        &mut self,
+        motion: &Code,
+        cycle: &Code,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> bool {
+        if !self.settings.takes(CYCLE_BESIDE_MOTION, MOTION_CANCELS) {
+            return false;
+        }
+        let open = self.assume && !self.settings.is_chosen(CYCLE_BESIDE_MOTION);
+        if open && !std::mem::replace(&mut self.reported.cycle_beside_motion, true) {
+            let fault = Fault::AssumedCycle { cycle: src.text(cycle.span), motion: src.text(motion.span) };
+            out.report(fault, cycle.span);
+        }
+        if self.settings.get(CYCLE_BESIDE_MOTION) != MOTION_CANCELS {
+            return false;
+        }
+        for letter in *b"RQPKLIJ" {
+            words.take(letter);
+        }
+        true
     }
 
     /// Whether two codes of distance in one block may have two readings.

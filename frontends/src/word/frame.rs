@@ -5,7 +5,7 @@
 
 use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Procedure, Text};
+use ncc_ir::program::{Op, Procedure, Text};
 use ncc_ir::source::Span;
 
 use super::block::Value;
@@ -68,6 +68,8 @@ pub(super) struct Frame {
     named: bool,
     /// Whether the main program may have number 0, which is none.
     zero: bool,
+    /// Whether text before the mark is skipped.
+    leader: bool,
     /// Whether a mark behind the end needs none before the program.
     mark_behind_end: bool,
     /// Whether the mark that opens the text has been met.
@@ -100,6 +102,7 @@ impl Frame {
             title: program.title,
             named: program.names,
             zero: program.zero_unnumbered,
+            leader: program.leader,
             mark_behind_end: program.mark_behind_end,
             opened: false,
             closed: false,
@@ -115,13 +118,65 @@ impl Frame {
 }
 
 impl Frame {
+    /// Whether the control skips text before the mark.
+    pub(super) fn has_leader(&self) -> bool {
+        self.leader
+    }
+
     /// Numbers and names of the programs met.
     pub(super) fn programs(&self) -> &[Text] {
         &self.programs
     }
 }
 
+/// Whether a line may be one that a control executes, or the head of a program.
+fn may_be_block(line: &[u8], numbers: [u8; 2]) -> bool {
+    let line = line.trim_ascii();
+    let words = line.strip_prefix(b"/").unwrap_or(line);
+    let is_sign = |b: &u8| b.is_ascii_digit() || b"+-.#[".contains(b);
+    match words {
+        [b'#' | b'(' | b'<' | b';', ..] => true,
+        [letter, value @ ..] if letter.is_ascii_alphabetic() || numbers.contains(letter) => {
+            value.trim_ascii_start().first().is_some_and(is_sign)
+        }
+        _ => false,
+    }
+}
+
 impl Reader {
+    /// Bytes before the opening mark that the control skips: lines none of which is a block, a comment or the head of
+    /// a program, before a mark with a program behind it. What may be a program without its mark stays.
+    pub(super) fn leader(&mut self, text: &[u8], out: &mut Batch) -> usize {
+        let mark = self.frame.mark.as_bytes();
+        let begin = if text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
+        let mut at = begin;
+        let mut first = None;
+        while at < text.len() {
+            let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |len| at + len);
+            let from = text[at..end].iter().take_while(|b| **b == 0 || b.is_ascii_whitespace()).count() + at;
+            let line = &text[from.min(end)..end];
+            if line.starts_with(mark) {
+                let follows = text[end..].iter().any(|b| !b.is_ascii_whitespace() && *b != 0);
+                if !follows || from == begin {
+                    return 0;
+                }
+                if let Some(span) = first {
+                    out.report(Fault::TextBeforeStart { mark: self.frame.mark.into() }, span);
+                }
+                return from;
+            }
+            if may_be_block(line, self.frame.number) {
+                return 0;
+            }
+            let words = line.trim_ascii_end();
+            if first.is_none() && !words.is_empty() {
+                first = Some(Span::new(from as u32, (from + words.len()) as u32));
+            }
+            at = end + 1;
+        }
+        0
+    }
+
     /// Lines that belong to the frame, and all after the end; `true` if it was one.
     pub(super) fn framing(&mut self, line: &[u8], span: Span, out: &mut Batch) -> bool {
         let text = line.trim_ascii();
@@ -289,7 +344,11 @@ impl Reader {
             out.report(Fault::EmptyProgram, span);
             self.frame.faulty = true;
         }
-        if self.lower.settings.dialect.program.o_words && !self.lower.ended && !self.frame.faulty {
+        let last = self.lower.target(out).last();
+        // An alarm ends the program as well.
+        let alarmed = last.is_some_and(|stmt| stmt.skip.is_none() && matches!(stmt.op, Op::Alarm(_)));
+        let open = !self.lower.ended && !alarmed;
+        if self.lower.settings.dialect.program.o_words && open && !self.frame.faulty {
             // A number in its way ends nothing (LinuxCNC's interpreter, run).
             let told = "program that another one goes on into".into();
             out.report(Fault::NotSupported { code: src.text(span), name: told }, span);

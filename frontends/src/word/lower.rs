@@ -115,6 +115,8 @@ pub(super) struct Reported {
     pub(super) return_distance: bool,
     /// Calls that are left out, a bit each.
     pub(super) calls_left_out: u32,
+    /// That a cycle drills beside a code of motion.
+    pub(super) cycle_beside_motion: bool,
     /// Rows of codes.
     codes: Vec<bool>,
     /// Address letters, a bit each.

@@ -160,7 +160,17 @@ impl Reader {
         if self.frame.is_binary {
             return;
         }
+        if base == 0 && self.frame.has_leader() {
+            let len = self.leader(text, out);
+            if len > 0 {
+                return self.read(&text[len..], len as u32, out);
+            }
+        }
         if let Some(at) = memchr::memchr(0, text) {
+            if self.frame.has_leader() && text[at..].iter().all(|b| *b == 0 || b.is_ascii_whitespace()) {
+                // The feed at the end of a tape.
+                return self.read(&text[..at], base, out);
+            }
             let at = base + at as u32;
             return self.not_text(Span::new(at, at + 1), out);
         }

@@ -41,7 +41,10 @@ impl Lower {
         out: &mut Batch,
     ) {
         let find = |wanted: fn(Meaning) -> bool| codes.iter().find(|c| wanted(c.meaning));
-        let cycle = find(|m| m == Meaning::StartCycle);
+        let beside =
+            codes.iter().find(|c| matches!(motion_of(c.meaning), Some(Motion::Traverse | Motion::Feed)));
+        let cycle = find(|m| m == Meaning::StartCycle)
+            .filter(|cycle| !beside.is_some_and(|motion| self.cancels(motion, cycle, words, src, out)));
         let pattern = find(|m| m == Meaning::Pattern);
         if let Some(end) = find(|m| m == Meaning::EndCycle).filter(|_| !self.now.cycle_ended) {
             self.end_cycle(end, out);

@@ -60,6 +60,25 @@ fn frame_marks() {
 }
 
 #[test]
+fn text_before_the_first_mark_is_a_leader() {
+    for id in ["fanuc", "haas"] {
+        let text = "Posted by CAM\nREV 2\n\n%\nO1\nG21\nM30\n%\n";
+        assert_eq!(errors(id, text), ["TextBeforeStart { mark: '%' } at 'Posted by CAM'"]);
+        assert_eq!(read(id, text).name.number, Some(1));
+        for text in ["\0\0\0\n%\nO1\nM30\n%\n\0\0", "\0\0%\nO1\nM30\n%\n", "%\nO1\nM30\n%\n\0\0\n"] {
+            assert_eq!(errors(id, text), Vec::<String>::new(), "{text:?}");
+            assert_eq!(read(id, text).name.number, Some(1), "{text:?}");
+        }
+        // What may be executed is never skipped.
+        for text in ["G0 X1.\n%\nO1\nM30\n%\n", "NOTE\nX 1.\n%\nO1\nM30\n%\n", "O1\nM30\n%\nNOTE\n"] {
+            assert!(errors(id, text).iter().any(|e| e.starts_with("OpeningMarkMissing")), "{text:?}");
+        }
+        assert!(errors(id, "%\nO1\nG0\0\nM30\n%\n").iter().any(|e| e.starts_with("NotText")));
+    }
+    assert!(!errors("linuxcnc", "NOTE\n%\nM2\n%\n").is_empty());
+}
+
+#[test]
 fn calls() {
     let calls = |piece: &str| after_head("fanuc", piece);
     assert_eq!(calls("M98 P1002\n"), ["CALL 1002 x1"]);

@@ -265,6 +265,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         length_at_once: dialect.can.length_at_once,
         starts_without_length: dialect.safe_start.contains(&SafeStart::NoLengthOffset),
         cycle_ends_motion: dialect.cycles.ends_motion,
+        cycle_ends_with_call: dialect.cycles.ends_with_call,
         cycles_measured_anew: dialect.cycles.measured_anew,
         change_stops_spindle: dialect.behaviours().surely(Behaviour::SpindleAtChange),
         behaviours: dialect.behaviours(),
@@ -367,7 +368,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || !dialect.comment.message.is_empty()
             || names(NameMeaning::Message),
         stop_messages: dialect.formula.statements.contains(&Statement::Stop),
-        computes: (!dialect.formula.operators.is_empty()).then(|| {
+        computes: (reads_formulas(dialect) && !dialect.formula.operators.is_empty()).then(|| {
             let rules = &dialect.formula;
             Box::new(Computes {
                 statements: rules.statements.iter().map(|statement| (*statement).into()).collect(),
@@ -481,4 +482,13 @@ fn says_advice(dialect: &Dialect, kind: AdviceKind, value: u8) -> bool {
         || called
         || dialect.code_for(meaning).is_some()
         || dialect.name_for(NameMeaning::Code(meaning)).is_some()
+}
+
+/// Whether a program of this dialect can compute. What a dictionary inherits of a language that it does not read counts
+/// for nothing.
+fn reads_formulas(dialect: &Dialect) -> bool {
+    match dialect.family {
+        Family::Word => dialect.program.macro_b || dialect.program.o_words,
+        Family::Sinumerik | Family::Canon | Family::Ir => true,
+    }
 }

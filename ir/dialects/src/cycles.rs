@@ -28,6 +28,8 @@ pub struct CycleRules {
     pub no_rotary: bool,
     /// Whether no motion is in force after the code that ends a cycle: axis words alone are an error.
     pub ends_motion: bool,
+    /// Whether a cycle that a subprogram calls up ends with it: it cannot be left in force to the caller.
+    pub ends_with_call: bool,
     /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
     pub repeat: Option<char>,
     /// Whether 0 is no such number.

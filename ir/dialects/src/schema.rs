@@ -147,6 +147,8 @@ pub struct ProgramRules {
     pub unnumbered_main: bool,
     /// Whether the number 0 of the main program stands for one that it gets at the control.
     pub zero_unnumbered: bool,
+    /// Whether the control skips text before the mark: the leader of a tape, with feed (zero bytes).
+    pub leader: bool,
     /// Whether a mark behind the end of a program counts for nothing where none stands before it.
     pub mark_behind_end: bool,
     /// A line that counts for nothing wherever it stands, such as `%`; empty for none. It is not written.

@@ -48,6 +48,21 @@ pub const RETURN_FIRST: &str = "first";
 /// Value of [`RETURN_DISTANCE`]: the last one.
 pub const RETURN_LAST: &str = "last";
 
+/// Option of a dictionary: how deep calls may go within one another.
+pub const CALL_DEPTH: &str = "call_depth";
+
+/// Option of a dictionary: how deep calls of macros may go within one another, those of subprograms not counted.
+pub const MACRO_DEPTH: &str = "macro_depth";
+
+/// Option of a dictionary: what a cycle's code does in a block with G00 or G01: it drills, or the motion cancels it.
+pub const CYCLE_BESIDE_MOTION: &str = "cycle_beside_motion";
+
+/// Value of [`CYCLE_BESIDE_MOTION`]: the hole is drilled.
+pub const MOTION_DRILLED: &str = "drilled";
+
+/// Value of [`CYCLE_BESIDE_MOTION`]: the axes move by the code of motion, and no cycle is in force.
+pub const MOTION_CANCELS: &str = "cancelled";
+
 /// Option of a dictionary: whether a tool is changed before or after the axes of its block move.
 pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 
@@ -182,6 +197,15 @@ impl Settings {
         }
         self.dialect = with_units(self.dialect, units);
         true
+    }
+
+    /// How deep calls may go within one another by this option: at most on any such control, and on each of them. `None`
+    /// where the dictionary does not say it.
+    pub fn call_depth(&self, option: &str) -> Option<[u32; 2]> {
+        let row = self.dialect.option.iter().find(|row| row.name == option)?;
+        let chosen = self.chosen.get(option).and_then(|value| value.parse().ok());
+        let all = || row.values.iter().filter_map(|value| value.parse().ok());
+        chosen.map(|chosen| [chosen; 2]).or_else(|| Some([all().max()?, all().min()?]))
     }
 
     /// The value of an option: the chosen one, else the working choice; empty if there is no such

@@ -7,7 +7,7 @@
 
 use super::Target;
 use super::walk::Walk;
-use crate::canon::{Axis, Distance, ReturnLevel};
+use crate::canon::{Axis, Distance, Fact, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::{conduct, miscellaneous, modes, variables};
@@ -155,6 +155,11 @@ fn over_one(
 /// A move that says itself which it is.
 fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
     state.motion = false;
+    let first = to.get(Axis::Z).filter(|_| state.start && stmt.skip.is_none());
+    if first.is_some_and(|word| word.distance == Fact::Known(Distance::Incremental)) {
+        // The target's first blocks say nothing of a length then: it is taken for granted on both sides.
+        (state.length, state.start) = (false, false);
+    }
     names(to, stmt, walk, state, diags);
 }
 

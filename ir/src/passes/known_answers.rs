@@ -10,18 +10,20 @@ use crate::expr::{Binary, Expr, Node, Target, Var};
 use crate::program::{Control, Op};
 use crate::system::System;
 
+use super::shared_map::SharedMap;
+
 /// Variables that have whole numbers, as far as is known.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Saved(Vec<(Var, i64)>);
+pub(super) struct Saved(SharedMap<Var, i64>);
 
 impl Saved {
     /// A variable gets a value; `None` is one that is not known.
     pub(super) fn set(&mut self, to: &Target, worth: Option<i64>) {
         match to {
-            Target::Var(var) => {
-                self.0.retain(|(own, _)| own != var);
-                self.0.extend(worth.map(|worth| (var.clone(), worth)));
-            }
+            Target::Var(var) => match worth {
+                Some(worth) => self.0.insert(var.clone(), worth),
+                None => self.0.remove(var),
+            },
             Target::Element(_) => self.0.clear(),
         }
     }
@@ -33,12 +35,12 @@ impl Saved {
 
     /// What is known where two ways meet.
     pub(super) fn join(&mut self, other: &Saved) {
-        self.0.retain(|own| other.0.contains(own));
+        self.0.join(&other.0, |own, other| own.filter(|own| other == Some(own)).copied());
     }
 
     /// What a program that is called knows, with its caller's own variables or without.
     pub(super) fn entered(mut self, shared: bool) -> Saved {
-        self.0.retain(|(var, _)| shared || !matches!(var, Var::Local(_)));
+        self.0.retain(|var, _| shared || !matches!(var, Var::Local(_)));
         self
     }
 
@@ -55,7 +57,7 @@ impl Saved {
         let code = code_of(control)?;
         let Expr::Node(node) = code.number else { return None };
         let Node::Var(var) = &**node else { return None };
-        let (_, worth) = self.0.iter().find(|(own, _)| own == var)?;
+        let worth = self.0.get(var)?;
         let (_, op) = code.codes.into_iter().find(|(number, _)| number == worth)?;
         Some(op.clone())
     }

@@ -130,7 +130,7 @@ pub(super) fn positions(body: &mut [Stmt]) -> bool {
 /// Puts known facts in. `entry` is what holds where the program begins. With `holes`, those that the text itself
 /// puts under a cycle are made to call it up too.
 pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
-    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let names = places(program);
     let mut flow = Flow { names, holes, ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {
@@ -152,7 +152,7 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
 /// Puts modes back that are known where their codes were saved, and answers what a target of these capabilities cannot be
 /// asked for and is known; nothing else. `entry` is what holds where the program begins.
 pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
-    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let names = places(program);
     let mut flow = Flow { names, there: Some(there), ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {
@@ -165,7 +165,7 @@ pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
 /// `path` how corners are taken there.
 pub(crate) fn starts(program: &Program, entry: &Tracker, path: Option<&PathControl>) -> Option<Known> {
     let mut program = program.clone();
-    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let names = places(&program);
     let mut flow = Flow { names, ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {
@@ -193,7 +193,7 @@ pub(crate) struct At {
 /// `None` if that is not found. `entry` is what holds where the program begins.
 pub(crate) fn at_calls(program: &Program, entry: &Tracker) -> Option<HashMap<u32, At>> {
     let mut program = program.clone();
-    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let names = places(&program);
     let gives = program.procedures.iter().map(|p| p.attributes.contains(&Attribute::GivesBack)).collect();
     let mut flow = Flow { names, gives, ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
@@ -201,6 +201,15 @@ pub(crate) fn at_calls(program: &Program, entry: &Tracker) -> Option<HashMap<u32
         main.entry = Some(Held { at: entry.clone(), ..Held::default() });
     }
     flow.until_settled(&mut program).then_some(flow.calls)
+}
+
+/// Where the subprograms of a program stand in it, by their names.
+fn places(program: &Program) -> HashMap<Text, usize> {
+    let mut places = HashMap::new();
+    for (at, procedure) in program.procedures.iter().enumerate().skip(1) {
+        places.entry(procedure.name.clone()).or_insert(at);
+    }
+    places
 }
 
 /// What holds at a place.
@@ -402,7 +411,7 @@ struct Ways {
 
 #[derive(Default)]
 struct Flow<'t> {
-    names: Vec<Text>,
+    names: HashMap<Text, usize>,
     /// What the target can say, where only saved codes and answers are put in.
     there: Option<&'t Computes>,
     /// Those that give back what their callers had.
@@ -525,8 +534,8 @@ impl Flow<'_> {
             }
             Op::ProgramEnd | Op::Alarm(_) => None,
             Op::Call(call) => {
-                let found = self.names.iter().skip(1).position(|name| *name == call.name)?;
-                let called = &mut self.ways[found + 1];
+                let found = *self.names.get(&call.name)?;
+                let called = &mut self.ways[found];
                 // A cycle in force is its caller's, which says it once.
                 let shared = call.shared;
                 let enters =
@@ -547,7 +556,7 @@ impl Flow<'_> {
                     };
                     self.calls.insert(stmt.span.start, at);
                 }
-                let gives = self.gives.get(found + 1) == Some(&true);
+                let gives = self.gives.get(found) == Some(&true);
                 let behind =
                     behind.map(|behind| Held { saved: behind.saved.left(&caller.saved, shared), ..behind });
                 behind.map(|behind| if gives { behind.given_back(&caller) } else { behind })

@@ -22,8 +22,8 @@ use super::{
     Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
     cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, frame_increments, known_facts,
-    length_axis, length_by_hand, machine_moves, number_names, offset_with_z, one_distance, one_move,
-    origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways,
+    length_axis, length_by_hand, machine_moves, number_names, offset_here, offset_with_z, one_distance,
+    one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways,
     skip_levels, specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads,
     tool_axis, tool_change, tool_edge, work_offset, z_after_change,
 };
@@ -240,6 +240,9 @@ impl Legaliser {
         }
         if self.length_axis.is_used() {
             self.length_axis.check(stmts, &self.walk, diags);
+        }
+        if lines.is_none() && offset_here::concerns(stmts, &self.target.caps) {
+            offset_here::over(stmts, self.walk.clone());
         }
         if self.z_left.concerns(stmts) {
             self.z_left.over(stmts, &self.walk);

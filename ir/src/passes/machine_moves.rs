@@ -10,6 +10,8 @@
 //! none; other points of the machine without a word for them; and Z after a return to a point of the
 //! machine whose length nobody has said anew, where the target keeps it for certain.
 
+mod around;
+
 use super::walk::Walk;
 use super::write::{Rebuild, at as at_place, traverse, unit_of};
 use super::{Target, each_body, machine_cuts};
@@ -56,6 +58,7 @@ pub(super) fn over(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
+    let before = walk.at.modes.distance;
     let input = std::mem::take(body);
     let with_plane = retracts_with_plane(&input, &target.caps);
     let mut made = Rebuild::new(input.len() + 4);
@@ -69,6 +72,7 @@ pub(super) fn over(
         take(stmt, walk, state, target, &mut made, diags);
     }
     *body = made.out;
+    around::over(body, before);
 }
 
 fn take(

@@ -236,7 +236,7 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
 pub fn document(texts: [(Settings, &[u8]); 2], by_text: Option<&[Ignore]>) -> io::Result<Option<String>> {
     let mut sides = Vec::new();
     for ((settings, text), name) in texts.into_iter().zip(["a", "b"]) {
-        let mut file = tempfile::tempfile()?;
+        let mut file = crate::scratch::file()?;
         file.write_all(text)?;
         sides.push(Side::of(Source::of(file, name), settings, Machines::default(), None));
     }
@@ -258,7 +258,11 @@ pub fn document(texts: [(Settings, &[u8]); 2], by_text: Option<&[Ignore]>) -> io
 
 fn show(args: &Diff, account: &Account, texts: Option<&Texts>) -> Result<(), Problem> {
     let most = if args.all { usize::MAX } else { SHOWN };
-    files::to_stdout(&mut |out: &mut dyn Write| match (args.format, args.telling.quiet) {
+    let to_stdout = match args.format {
+        Form::Json => files::data_to_stdout,
+        Form::Human => files::to_stdout,
+    };
+    to_stdout(&mut |out: &mut dyn Write| match (args.format, args.telling.quiet) {
         (Form::Json, _) => json::write(out, account),
         (Form::Human, true) => Ok(()),
         (Form::Human, false) if args.summary => writeln!(out, "{}", account.summary),

@@ -13,6 +13,7 @@ use crate::canon::FeedMode;
 use crate::kinds::flow;
 use crate::program::Text;
 use crate::source::Span;
+use crate::valid::leaves_a_cycle;
 
 /// What is done with subprograms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,6 +136,7 @@ impl Legaliser {
                 expand_calls::over(rest, &mut self.walk.clone(), diags);
             }
         }
+        self.refuse_cycles_left(rest, diags);
         number_names::over(rest, &self.target, false, diags);
         self.entries = self.entries_of(rest).map(Rc::new);
         let mut procedures = rest.procedures.iter_mut();
@@ -166,6 +168,16 @@ impl Legaliser {
             self.finish(&mut procedure.body, diags);
             self.at_once.end_of_sub(&procedure.body, diags);
         }
+    }
+
+    /// Refuses subprograms that leave a cycle in force to their callers, where the target's cannot.
+    pub(super) fn refuse_cycles_left(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
+        if !self.target.caps.cycle_ends_with_call {
+            return;
+        }
+        let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
+        let fault = || Fault::CannotSay { what: "a cycle that a subprogram leaves in force".into() };
+        diags.extend(left.map(|at| Diagnostic::new(fault(), at)));
     }
 
     /// What holds after each call and label, where a pass asks for it.

@@ -178,6 +178,7 @@ impl<'c> Plan<'c> {
         self.go_further()?;
         // What all procedures see, in the order of the text.
         let mut all: Vec<Seen> = Vec::new();
+        let mut places: HashMap<Var, usize> = HashMap::new();
         for (at, look) in self.looks.iter().enumerate() {
             for seen in &look.seen {
                 let common = match &seen.var {
@@ -191,9 +192,12 @@ impl<'c> Plan<'c> {
                     },
                     Var::System(_) => false,
                 };
-                match all.iter_mut().find(|s| s.var == seen.var) {
-                    Some(known) => known.elements = known.elements.or(seen.elements),
-                    None if common => all.push(seen.clone()),
+                match places.get(&seen.var) {
+                    Some(at) => all[*at].elements = all[*at].elements.or(seen.elements),
+                    None if common => {
+                        places.insert(seen.var.clone(), all.len());
+                        all.push(seen.clone());
+                    }
                     None => {}
                 }
             }
@@ -360,6 +364,7 @@ impl<'c> Plan<'c> {
                 }
             }
         }
+        let mut used: HashSet<Var> = self.common.values().cloned().collect();
         for seen in left {
             let name = seen.var.name();
             let common = !matches!(seen.var, Var::Local(_));
@@ -369,10 +374,10 @@ impl<'c> Plan<'c> {
                 .as_ref()
                 .filter(|named| named.common.is_some() && seen.elements.is_none());
             if let (Some(named), true) = (named, number_of(&seen.var, self.from).is_none()) {
-                let used: HashSet<Var> = self.common.values().cloned().collect();
                 let made = |name: &str| Var::Common(named.adapted(name, true));
                 let to = unlike(&name, |name| Some(made(name)).filter(|var| !used.contains(var)));
                 if let Some(to) = to.filter(|_| common || named.common.is_some()) {
+                    used.insert(to.clone());
                     take(self, seen, to);
                     continue;
                 }
@@ -384,6 +389,7 @@ impl<'c> Plan<'c> {
             let run = run(ranges, &self.taken, count).ok_or_else(|| no_room(&name, seen.at))?;
             self.taken.extend(run..run + count);
             let to = self.common_var(run, kept).ok_or_else(|| no_room(&name, seen.at))?;
+            used.insert(to.clone());
             self.common.insert(seen.var.clone(), to);
         }
         Ok(())
@@ -396,13 +402,18 @@ impl<'c> Plan<'c> {
         let parameters = &self.parameters[at];
         let first = self.looks[at].seen.first().map_or(Span::default(), |seen| seen.at);
         all.extend(parameters.iter().map(|var| Seen { var: var.clone(), elements: None, at: first }));
+        let mut places: HashMap<Var, usize> =
+            all.iter().enumerate().rev().map(|(place, seen)| (seen.var.clone(), place)).collect();
         let same = |other: &usize| self.roots[*other] == at && self.homes[*other] == Home::Own;
         for (other, look) in self.looks.iter().enumerate().filter(|(other, _)| same(other)) {
             let local = look.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
             for seen in local.filter(|seen| other > 0 || !self.common.contains_key(&seen.var)) {
-                match all.iter_mut().find(|s| s.var == seen.var) {
-                    Some(known) => known.elements = known.elements.or(seen.elements),
-                    None => all.push(seen.clone()),
+                match places.get(&seen.var) {
+                    Some(at) => all[*at].elements = all[*at].elements.or(seen.elements),
+                    None => {
+                        places.insert(seen.var.clone(), all.len());
+                        all.push(seen.clone());
+                    }
                 }
             }
         }
@@ -429,6 +440,7 @@ impl<'c> Plan<'c> {
                 map.insert(parameter.clone(), own(n, self.computes));
             }
         }
+        let mut used: HashSet<Var> = map.values().cloned().collect();
         for seen in all {
             if map.contains_key(&seen.var) {
                 continue;
@@ -447,15 +459,17 @@ impl<'c> Plan<'c> {
                     }
                     None => name.to_string(),
                 };
-                let used: HashSet<Var> = map.values().cloned().collect();
                 let made = |name: &str| Var::Local(named.adapted(name, false));
                 let to = unlike(&wanted, |name| Some(made(name)).filter(|var| !used.contains(var)));
-                map.insert(seen.var.clone(), to.ok_or_else(|| no_room(&name, seen.at))?);
+                let to = to.ok_or_else(|| no_room(&name, seen.at))?;
+                used.insert(to.clone());
+                map.insert(seen.var.clone(), to);
                 continue;
             }
             let count = seen.elements.unwrap_or(1).max(1);
             let run = run(&self.computes.local, &numbers, count).ok_or_else(|| no_room(&name, seen.at))?;
             numbers.extend(run..run + count);
+            used.insert(own(run, self.computes));
             map.insert(seen.var.clone(), own(run, self.computes));
         }
         self.locals[at] = map;

@@ -8,8 +8,9 @@
 //! calls together, and with its caller's variables once for each call. A block that may be skipped gives nothing for
 //! sure. Not followed: what common variables have; whether they have a value is the same question in both programs.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
+use super::super::shared_map::SharedMap;
 use super::defaults;
 use crate::diag::Diagnostic;
 use crate::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
@@ -50,7 +51,7 @@ impl May {
 /// What the local variables may have at a place; one that is not among them has nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Known {
-    vars: BTreeMap<Text, May>,
+    vars: SharedMap<Text, May>,
     /// Anything may be: calls within so many others.
     lost: bool,
 }
@@ -62,8 +63,9 @@ impl Known {
     }
 
     fn or(&self, other: &Known) -> Known {
-        let names: HashSet<&Text> = self.vars.keys().chain(other.vars.keys()).collect();
-        let vars = names.into_iter().map(|name| (name.clone(), self.of(name).or(other.of(name)))).collect();
+        let [own, theirs] = [self, other].map(|known| if known.lost { May::Either } else { May::Nothing });
+        let mut vars = self.vars.clone();
+        vars.join(&other.vars, |a, b| Some(a.copied().unwrap_or(own).or(b.copied().unwrap_or(theirs))));
         Known { vars, lost: self.lost || other.lost }
     }
 }
@@ -309,7 +311,8 @@ impl<'p> Ways<'p> {
                 let any = matches!(&element.of, Many::Numbered(rows) if rows.iter().any(local));
                 if let Some(here) = self.here.as_mut().filter(|_| any) {
                     // Whichever it is.
-                    here.vars.values_mut().for_each(|may| *may = may.or(May::Number));
+                    here.vars =
+                        here.vars.iter().map(|(name, may)| (name.clone(), may.or(May::Number))).collect();
                     here.lost = true;
                 }
             }
@@ -346,7 +349,7 @@ impl<'p> Ways<'p> {
         let (Some((at, procedure)), Some(here)) = (found, &self.here) else { return };
         if call.shared {
             if self.depth >= DEEPEST {
-                self.here = Some(Known { vars: BTreeMap::new(), lost: true });
+                self.here = Some(Known { vars: SharedMap::default(), lost: true });
                 return;
             }
             self.depth += 1;
