@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn typical_machines_have_what_models_with_acceleration_need_and_mark_it() {
         let typical: Vec<&Profile> = shipped().iter().filter(|p| p.schema.typical).collect();
-        assert_eq!(typical.len(), 4);
+        assert_eq!(typical.len(), 8);
         for profile in typical {
             let machine = profile.machine();
             for axis in &machine.axes[..3] {

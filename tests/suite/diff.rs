@@ -105,7 +105,8 @@ fn a_program_is_the_same_as_its_translation() {
         }
     }
     assert!(compared > 300, "{compared}");
-    assert!(differing < 25, "{differing}");
+    // Few are compared less closely: of seven dialects 24 of some 700 were.
+    assert!(differing * 28 < compared, "{differing} of {compared}");
     failures.finish();
 }
 

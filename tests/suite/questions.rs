@@ -58,7 +58,7 @@ fn answered(job: &Job, answer: &Answer) -> Option<Job> {
 fn what_is_asked_of_programs() {
     let mut failures = Failures::default();
     let (mut programs, mut answers) = (0, 0);
-    let mut facts = [0; 7];
+    let mut facts = [0; 8];
     // A translation alone asks it (`cli/tests/cli/questions.rs`).
     facts[Fact::RotaryTurn as usize] = 1;
     for folder in corpus::files(&corpus::root().join("tests/questions")).into_iter().filter(|p| p.is_dir()) {

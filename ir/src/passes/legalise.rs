@@ -242,7 +242,7 @@ impl Legaliser {
             self.length_axis.check(stmts, &self.walk, diags);
         }
         if lines.is_none() && offset_here::concerns(stmts, &self.target.caps) {
-            offset_here::over(stmts, self.walk.clone());
+            offset_here::over(stmts, self.walk.clone(), &self.target.caps);
         }
         if self.z_left.concerns(stmts) {
             self.z_left.over(stmts, &self.walk);

@@ -1,8 +1,9 @@
-//! A work offset that is set so that words become the coordinates of where the axes stand (LinuxCNC's `G10 L20`), for a
-//! control that can only add to its offsets: by the difference, where the place is known.
+//! A change of the work offset in force, at a known place, in the other of two forms: by the coordinates that the words
+//! give to where the axes stand (LinuxCNC's `G10 L20`), and by the difference that a control adds to its offset.
 //!
 //! ```text
-//! G0 X10 / G10 L20 P1 X0     the offset in force goes 10 mm further along X
+//! G0 X10 / G10 L20 P1 X0       the offset in force goes 10 mm further along X
+//! G0 X10 / G91 G10 L2 P1 X10   the same
 //! ```
 //!
 //! Not here: other offsets than the one in force, whose zero no program knows, and places under a frame, which are not
@@ -18,30 +19,45 @@ use crate::program::{Data, DataMode, Op, Stmt};
 /// Digits of a difference: both places are exact.
 const EXACT: u8 = 9;
 
-/// Whether there is one, and the target cannot say it.
-pub(super) fn concerns(stmts: &[Stmt], caps: &Caps) -> bool {
-    let [_, adds, here] = caps.offset_data;
-    let is = |stmt: &Stmt| matches!(&stmt.op, Op::SetData(data) if matches!(&**data, Data::Offset { mode: DataMode::Here, .. }));
-    adds && !here && stmts.iter().any(is)
+/// The form that the target has not, and the one that it has.
+fn forms(caps: &Caps) -> Option<[DataMode; 2]> {
+    match caps.offset_data {
+        [_, true, false] => Some([DataMode::Here, DataMode::Add]),
+        [_, false, true] => Some([DataMode::Add, DataMode::Here]),
+        [_, true, true] | [_, false, false] => None,
+    }
 }
 
-/// Says those whose places are known by what is added.
-pub(super) fn over(stmts: &mut [Stmt], mut walk: Walk) {
+/// Whether there is one in a form that the target has not.
+pub(super) fn concerns(stmts: &[Stmt], caps: &Caps) -> bool {
+    let Some([lacks, _]) = forms(caps) else { return false };
+    let is = |stmt: &Stmt| match &stmt.op {
+        Op::SetData(data) => matches!(&**data, Data::Offset { mode, .. } if *mode == lacks),
+        _ => false,
+    };
+    stmts.iter().any(is)
+}
+
+/// Says those whose places are known in the other form.
+pub(super) fn over(stmts: &mut [Stmt], mut walk: Walk, caps: &Caps) {
+    let Some([lacks, has]) = forms(caps) else { return };
     for stmt in stmts {
         walk.enter(stmt.skip);
         let before = stmt.clone();
         if let Op::SetData(data) = &mut stmt.op
-            && let Data::Offset { offset, mode: mode @ DataMode::Here, words, turn: None } = &mut **data
+            && let Data::Offset { offset, mode, words, turn: None } = &mut **data
+            && *mode == lacks
             && walk.at.modes.work_offset == Some(*offset)
-            && let Some(added) = differences(words, &walk)
+            && let Some(other) = differences(words, &walk)
         {
-            (*mode, **words) = (DataMode::Add, added);
+            (*mode, **words) = (has, other);
         }
         walk.step(&before);
     }
 }
 
-/// By how much each coordinate of the words is less than where its axis stands.
+/// By how much each word is less than the coordinate at which its axis stands: what is added for a coordinate of its own,
+/// and the coordinate that an axis gets by what is added.
 fn differences<const N: usize>(words: &[Option<Expr>; N], walk: &Walk) -> Option<[Option<Expr>; N]> {
     let units = walk.at.modes.units?;
     let mut added = [const { None }; N];

@@ -15,11 +15,13 @@ pub(super) const TEXT: char = '"';
 
 /// Parts the text into programs and blocks, without comments, blanks and end-of-block signs.
 pub(super) fn programs(text: &str) -> Vec<Program> {
-    let framed = text.lines().any(|line| line.trim_start().starts_with('%'));
+    let is_mark = |line: &str| line.trim_start().starts_with('%');
+    // A mark behind which nothing comes ends the text; a control takes one without marks too.
+    let framed = text.lines().skip_while(|line| !is_mark(line)).skip(1).any(|line| !line.trim().is_empty());
     let mut open = !framed;
     let mut programs: Vec<Program> = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        if line.trim_start().starts_with('%') {
+        if is_mark(line) {
             if open {
                 break;
             }
