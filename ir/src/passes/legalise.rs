@@ -550,7 +550,7 @@ impl Legaliser {
             needs |= self.lacks & CYCLE;
         }
         if needs & CYCLE != 0 {
-            state_clearance::over(stmts, &self.target, diags);
+            state_clearance::over(stmts, start.clone(), &self.target, diags);
             taps::over(stmts, &mut start.clone(), &mut self.taps, &self.target, diags);
             return_plane::over(stmts, &mut start.clone(), &self.target, diags);
         }

@@ -1,25 +1,28 @@
 //! `state-clearance`: what one control leaves to a parameter of a cycle, another states.
 //!
 //! The parameter's value is taken for granted, and told. Where it is not known the cycle stays as it
-//! is, for another pass to refuse.
+//! is, for another pass to refuse. It is stated in the unit of length in force.
 
-use super::Target;
+use super::walk::Walk;
+use super::write::rounded;
+use super::{Target, each_body};
+use crate::canon::Units;
 use crate::cycle::{Clearance, CycleKind};
 use crate::diag::{Diagnostic, Fault};
-use crate::num::Num;
+use crate::num::{Num, Unit};
 use crate::program::{Op, Program, Stmt};
 use crate::track::Tracker;
 
 /// States them.
-pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
-    for procedure in &mut program.procedures {
-        over(&mut procedure.body, target, diags);
-    }
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk.clone(), target, diags));
 }
 
 /// The same for one body.
-pub(super) fn over(body: &mut [Stmt], target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(super) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     for stmt in body {
+        walk.enter(stmt.skip);
+        walk.step(stmt);
         let Op::StartCycle(cycle) = &mut stmt.op else { continue };
         let kind = cycle.kind.name();
         let states = target.caps.cycles.iter().any(|c| c.kind == kind && c.clearance && !c.parameter);
@@ -39,9 +42,17 @@ pub(super) fn over(body: &mut [Stmt], target: &Target, diags: &mut Vec<Diagnosti
             | CycleKind::BoreStop(_) => continue,
         };
         if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
-            *clearance = Clearance::Stated(value.into());
+            *clearance = Clearance::Stated(in_unit(value, walk.at.modes.units, target).into());
             diags.push(Diagnostic::new(told(parameter, value), stmt.span));
         }
+    }
+}
+
+/// A value in millimetres as it is stated where this unit is in force.
+fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
+    match (units, value.nanos(false)) {
+        (Some(Units::Inch), Some(nanos)) => rounded(nanos, target.decimals_in(Unit::Inch), Unit::Inch),
+        _ => value,
     }
 }
 
