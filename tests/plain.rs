@@ -137,16 +137,20 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
         length: Box::new(move |entry| match entry {
-            _ if lengths.zeroed_by_tool => 0.0,
             // Of the tool that was there at the start, on a control whose tools have lengths.
             u32::MAX => mm(lengths.edge_length(-1, 1)),
+            _ if lengths.zeroed_by_tool => 0.0,
             entry => mm(lengths.tool_length(entry)),
         }),
         diameter: Box::new(move |entry| mm(radii.tool_radius(entry).map_or(0, |radius| 2 * radius))),
         wear: Box::new(move |entry| mm(wears.length_wear(entry))),
         edge_length: Box::new(move |tool, edge| {
             let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
-            mm(if edges.zeroed_by_tool { 0 } else { edges.edge_length(tool.map_or(-1, own), edge) })
+            mm(if edges.zeroed_by_tool && tool.is_some() {
+                0
+            } else {
+                edges.edge_length(tool.map_or(-1, own), edge)
+            })
         }),
         put_in: Box::new(move |tool| {
             let own = called.borrow().get(&tool).copied().unwrap_or(i64::from(tool));

@@ -207,17 +207,24 @@ fn behind_the_end(dialect: &str, text: &[u8], place: usize) -> bool {
 pub(crate) struct Emitted<'t> {
     pub(crate) dialect: &'t str,
     pub(crate) text: &'t [u8],
+    /// Of which dialect the source is.
+    from: &'t str,
     runs: OnceCell<Vec<Result<Vec<Plain>, String>>>,
 }
 
 impl<'t> Emitted<'t> {
-    pub(crate) fn new(dialect: &'t str, text: &'t [u8]) -> Emitted<'t> {
-        Emitted { dialect, text, runs: OnceCell::new() }
+    pub(crate) fn new(from: &'t str, dialect: &'t str, text: &'t [u8]) -> Emitted<'t> {
+        Emitted { dialect, text, from, runs: OnceCell::new() }
+    }
+
+    /// Runs its text, or another one in its place.
+    fn run(&self, text: &[u8], state: State) -> Result<Vec<Plain>, String> {
+        run(self.dialect, text, state, [self.from, self.dialect])
     }
 
     /// Its events from several states, in the order of [`states`].
     fn runs(&self) -> &[Result<Vec<Plain>, String>] {
-        self.runs.get_or_init(|| states(self.text).map(|s| run(self.dialect, self.text, s)).collect())
+        self.runs.get_or_init(|| states(self.text).map(|s| self.run(self.text, s)).collect())
     }
 }
 
@@ -246,8 +253,13 @@ fn states(text: &[u8]) -> impl Iterator<Item = State> {
     })
 }
 
-fn run(dialect: &str, text: &[u8], (power_on, seed, skip): State) -> Result<Vec<Plain>, String> {
-    let world = plain::world(seed);
+fn run(
+    dialect: &str,
+    text: &[u8],
+    (power_on, seed, skip): State,
+    sides: [&str; 2],
+) -> Result<Vec<Plain>, String> {
+    let world = besides::zeroed(plain::world(seed), sides);
     let start = world.start.map(|n| n as f64 / 1e9);
     let setup = Setup { power_on, ..plain::setup(&world, skip) };
     Ok(plain::of_machine(&plain::second(dialect, text, setup)?, start))
@@ -274,8 +286,7 @@ fn the_same_moves(emitted: &Emitted, mutant: &[u8], compare: &Compare) -> Result
     let mut ran = 0;
     for (state, was) in states(emitted.text).zip(emitted.runs()) {
         let Ok(was) = was else { continue };
-        let now = run(emitted.dialect, mutant, state)
-            .map_err(|why| format!("the second interpreter stops: {why}"))?;
+        let now = emitted.run(mutant, state).map_err(|why| format!("the second interpreter stops: {why}"))?;
         compare(was, &now)?;
         ran += 1;
     }

@@ -78,7 +78,7 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
     let what = format!("{}/{} to {to}", program.dialect, program.file);
     // What passes the untouched text is what the mutants are measured against.
     let untouched = judge.judge(&text).map_err(|d| format!("{:?}", d.fault));
-    let emitted = classes::Emitted::new(to, &text);
+    let emitted = classes::Emitted::new(program.dialect, to, &text);
     let mut found: Vec<(Mutant, Result<&'static str, String>)> = Vec::new();
     let mut caught = 0;
     for mutant in mutants {

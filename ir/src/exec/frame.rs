@@ -471,11 +471,11 @@ impl Exec {
     }
 
     /// A length that is called up: none, if it is that of the tool in the spindle and the operator has set the zero of Z
-    /// by that.
+    /// by that. Of a tool that no program has named, nobody knows by what.
     pub(super) fn as_zeroed(&self, length: Length) -> Length {
         let own = match length {
             Length::Entry(entry) => i64::from(entry) == self.state.tool,
-            Length::Edge(tool, edge) => edge == 1 && tool == self.state.tool,
+            Length::Edge(tool, edge) => edge == 1 && tool != -1 && tool == self.state.tool,
             Length::Value(_) => false,
         };
         if self.world.zeroed_by_tool && own { Length::Entry(0) } else { length }
