@@ -31,7 +31,7 @@ fn measure(bencher: Bencher<'_, '_>, from: &str, to: &str, text: &str) {
     });
 }
 
-/// A Fanuc program that calls so many others, which are behind it or in files of their own.
+/// A Fanuc program that calls `count` others, and those programs.
 fn calls(count: usize) -> (String, Vec<String>) {
     let mut main = "%\nO1\nG21 G17 G90 G94 G54 G40 G49 G80\nG00 X0.\n".to_owned();
     let numbers = 2..count + 2;

@@ -59,8 +59,8 @@ pub struct Cli {
     /// `M31=carry` writes it as it stands, `M31=M88` writes another one
     #[arg(long, global = true, value_name = "CODE=WHAT", value_parser = MCode::read)]
     pub m_code: Vec<MCode>,
-    /// What becomes of calls of a program that is not at hand: `RAPORT=drop`, `9810=drop` leave them out,
-    /// with their arguments; `M165=drop` those by a code of the machine
+    /// Leave out all calls of a program that is not at hand, with their arguments: `RAPORT=drop`,
+    /// `9810=drop`; `M165=drop` those by a code of the machine
     #[arg(long, global = true, value_name = "NAME=drop", value_parser = m_codes::call_left_out)]
     pub call: Vec<String>,
     /// Ignore `ncc.toml`, the project file that states machines of programs

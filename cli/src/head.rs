@@ -102,8 +102,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         }
         Fault::AssumedToolChange { .. } => "tool_with_change = named".to_owned(),
         Fault::CallDepth { depth, sure, macros } => {
-            let calls = if *macros { "macro calls" } else { "calls" };
-            format!("{calls} go {depth} deep, older controls take {sure}")
+            format!("{} go {depth} deep, older controls take {sure}", words::calls(*macros))
         }
         Fault::AssumedCycle { .. } => "cycle_beside_motion = drilled".to_owned(),
         Fault::AssumedReturn { .. } => "return_distance = last".to_owned(),

@@ -63,7 +63,7 @@ pub struct Job {
     pub source_name: String,
     /// Files of called programs, which stand behind the source's own text.
     pub called: Option<Called>,
-    /// What a project file says of the source.
+    /// The project file that counts for the source.
     pub project: Option<Arc<Used>>,
     /// Assumptions about the source that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,

@@ -38,7 +38,7 @@ pub(crate) struct Order {
     from: Option<Settings>,
     /// What is known of all sources.
     known: Known,
-    /// What a project file says of them.
+    /// The row of a project file that counts for the sources.
     pub(crate) settled: Option<Settled>,
 }
 
@@ -147,7 +147,7 @@ impl Order {
     }
 }
 
-/// What the command line states of both sides.
+/// Both sides, as the command line states them.
 fn stated(args: &Translate) -> Stated<'_> {
     Stated {
         from: args.from.as_deref(),

@@ -15,6 +15,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::io;
 
 use ncc_backends::{Head, Origin, Writer};
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
@@ -39,11 +40,6 @@ use crate::questions::{self, Policy, Question};
 use crate::render::source::Source;
 use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
-
-/// Option of a dialect: clearance of its peck cycle.
-pub(crate) const PECK_CLEARANCE: &str = "peck_clearance";
-/// Option of a dialect: lift of its chip-breaking cycle.
-pub(crate) const BREAK_LIFT: &str = "break_lift";
 
 /// Pass that executes what is computed.
 const FLATTEN: &str = "flatten";

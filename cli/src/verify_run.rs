@@ -14,7 +14,7 @@ use twice::Outliving;
 use with_facts::MOST_WITH_FACT;
 pub(crate) use worlds::worlds_of;
 
-use ncc_dialects::{Dialect, Quantity, Settings};
+use ncc_dialects::{BREAK_LIFT, Dialect, PECK_CLEARANCE, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Modes};
@@ -31,7 +31,7 @@ use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
 use crate::difference;
 use crate::given::Given;
 use crate::job::{Job, Verified};
-use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, bore_shift, orientation, parameter};
+use crate::translate::{bore_shift, orientation, parameter};
 
 /// Generated worlds in which every program is executed.
 pub(crate) const WORLDS: u32 = 2;

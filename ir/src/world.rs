@@ -38,7 +38,8 @@ pub struct World {
     /// whatever number the program has set for it since: so on a control that only plays its machine.
     pub length_by_change: bool,
     /// Whether the operator sets the zero of Z by each tool that is put in: it goes up by the tool's length at the change.
-    /// The length of the tool in the spindle is nothing then, and that of another one is what it was.
+    /// The length of the tool in the spindle is nothing then, if the program has named it; that of another one is what it
+    /// was.
     pub zeroed_by_tool: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,

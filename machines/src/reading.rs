@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use ncc_dialects::{CallRow, Dialect, Role};
+use ncc_dialects::{BREAK_LIFT, CallRow, Dialect, PECK_CLEARANCE, Role};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::maps::Numbered;
 
@@ -83,12 +83,6 @@ pub fn quoted(key: &str) -> String {
 
 /// What stands before the number of an M code in the name of a function that nobody has named yet.
 pub const UNNAMED: &str = "as-m";
-
-/// Option of a dialect: clearance of its peck cycle.
-const PECK_CLEARANCE: &str = "peck_clearance";
-
-/// Option of a dialect: lift of its chip-breaking cycle.
-const BREAK_LIFT: &str = "break_lift";
 
 /// Key of the reading that a length offset is taken up with the next Z.
 pub const OFFSET_WITH_Z: &str = "length-offset-with-next-z";

@@ -34,7 +34,7 @@ pub(super) struct Name {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     made: BTreeMap<Box<str>, String>,
-    /// What they are called there, each under its kind.
+    /// The names that were made, each behind its kind.
     taken: BTreeSet<String>,
     /// Names of programs, that no variable has.
     reserved: BTreeSet<String>,

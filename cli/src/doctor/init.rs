@@ -61,7 +61,7 @@ struct Machine<'a> {
     /// As the call names it.
     named: Option<&'a str>,
     dialect: &'a str,
-    /// What the call states.
+    /// Options that the command line states.
     options: &'a [(String, String)],
     units: Option<Units>,
     /// M codes, and the numbers that name their functions; without, they have no effect.

@@ -162,7 +162,7 @@ pub(crate) fn project(args: &Init, known: &Known, err: &mut dyn WriteColor) -> R
     Ok(init::text(args, known, &about, &asked))
 }
 
-/// What a translation is examined with.
+/// A program and both sides, as the command line names them.
 struct Asked<'a> {
     file: &'a Path,
     from: Option<&'a str>,

@@ -11,6 +11,7 @@
 //! Not here: how calls are printed. Nothing is shared with the printer but the form that
 //! `docs/rs274-listing.md` and the interpreter itself define.
 
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_ir::canon::{AXES, Axis, FeedMode, Modes, Plane, Spindle, SpindleMode, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
@@ -23,7 +24,7 @@ use ncc_ir::world::World;
 use super::by_time;
 use crate::difference;
 use crate::job::Job;
-use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use crate::translate::parameter;
 
 /// Digits after the point of every number but whole ones.
 const DIGITS: u8 = 4;

@@ -18,7 +18,7 @@ use crate::known::Known;
 use crate::machines;
 use crate::problem::{Exit, Problem};
 
-/// Where every key is listed.
+/// The commands that list every key.
 pub(super) const SCHEMAS: &str =
     "`ncc config --schema` lists the keys of this file, `ncc machines schema` those of a machine";
 
@@ -36,7 +36,7 @@ pub(crate) struct Projects {
 pub(crate) struct Loaded {
     /// Its path.
     path: PathBuf,
-    /// Its path as it is told: from the working folder where that is near.
+    /// Its path in messages: relative to the working folder where that is shorter.
     pub(crate) shown: String,
     /// Its text.
     pub(crate) text: String,

@@ -1,6 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{ARC_TOLERANCE, CALL_DEPTH, DECIMAL_POINT, Dialect, MACRO_DEPTH};
+use ncc_dialects::{
+    ARC_TOLERANCE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH, STORED_POSITION,
+};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
@@ -16,8 +18,8 @@ use crate::review::words::decimal;
 /// The option of the source's dialect that states where a point of the machine is, which the target has no word for.
 fn place_option(what: &str, from: &Dialect) -> Option<&'static str> {
     let option = match what {
-        "a move to a position that is stored in the control" => "stored_position",
-        "a move to this point of the machine" => "further_point",
+        "a move to a position that is stored in the control" => STORED_POSITION,
+        "a move to this point of the machine" => FURTHER_POINT,
         _ => return None,
     };
     from.option.iter().any(|row| row.name == option).then_some(option)

@@ -29,7 +29,7 @@ pub(super) fn thousands(count: u64) -> String {
 }
 
 /// Calls that are counted.
-pub(super) fn calls(macros: bool) -> &'static str {
+pub fn calls(macros: bool) -> &'static str {
     if macros { "macro calls" } else { "calls" }
 }
 

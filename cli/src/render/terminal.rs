@@ -45,7 +45,7 @@ impl<W: Write> Shown<W> {
     }
 }
 
-/// The text for a terminal. `last` says that nothing follows; else a beginning at its end is given back.
+/// The text for a terminal, and what has begun at its end: a character, or CR, of which the rest may follow.
 fn shown(text: &[u8]) -> (String, &[u8]) {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;

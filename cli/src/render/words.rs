@@ -3,8 +3,8 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
-use super::numbers::{calls, millimetres, rotary_turn, signed, thousands};
-pub use super::numbers::{numbered, plural};
+pub use super::numbers::{calls, numbered, plural};
+use super::numbers::{millimetres, rotary_turn, signed, thousands};
 use super::spelled::{character, found_words, next_run, radii_of};
 pub use super::spelled::{kept, return_path, variables};
 use ncc_dialects::{Dialect, Meaning};
@@ -261,8 +261,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "one control keeps a rotation, scale or mirror at the end of the program, the other does not".into(),
         ),
         Fault::NextRunVariables { names, source, target } => (
-            format!("check at the machine: the next run reads another value of the {}", variables(names)),
-            format!("{from} keeps it {}, {to} {}", kept(*source), kept(*target)),
+            format!("check at the machine: the next run reads other values: {}", variables(names)),
+            format!("kept {} on {from}, {} on {to}", kept(*source), kept(*target)),
         ),
         Fault::FeedAtUnits { before, now } => (
             match before == now {

@@ -145,9 +145,6 @@ fn uncomparable(problem: Problem) -> Problem {
     }
 }
 
-/// Opens one program.
-///
-/// # Errors
 /// A side that is stored as no control reads it: exit code 1 would say that both differ.
 fn unread(problem: Problem) -> Problem {
     match problem.exit {
@@ -156,6 +153,9 @@ fn unread(problem: Problem) -> Problem {
     }
 }
 
+/// Opens one program.
+///
+/// # Errors
 /// As of [`open`].
 pub(crate) fn open_one(
     asked: &Asked,

@@ -18,6 +18,7 @@ use std::io::{self, Seek, SeekFrom};
 use std::mem::discriminant;
 use std::ops::ControlFlow;
 
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::cycle::{Clearance, CycleKind};
@@ -33,7 +34,7 @@ use ncc_machines::reading::Told;
 use crate::chunks::{Chunk, Chunks};
 use crate::job::Job;
 use crate::machines::pair::Answer;
-use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use crate::translate::parameter;
 use crate::verify_run::{WORLDS, fixed, levels};
 
 /// After so many errors, reading more of the program would help nobody.

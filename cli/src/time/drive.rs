@@ -9,6 +9,7 @@ use std::collections::{BTreeSet, VecDeque};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, PathMode};
 use ncc_ir::cycle::{Clearance, CycleKind};
@@ -33,7 +34,7 @@ use crate::files::Source;
 use crate::job::Job;
 use crate::machines::pair::Answer;
 use crate::review::stream::as_stated;
-use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use crate::translate::parameter;
 use crate::verify_run::fixed;
 
 /// After so many errors, reading more of the program would help nobody.

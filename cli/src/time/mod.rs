@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_dialects::Settings;
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Settings};
 use ncc_ir::canon::Axis;
 use ncc_ir::num::{Nanos, ONE};
 use ncc_machines::Profile;
@@ -54,7 +54,7 @@ use crate::questions::{self, Policy};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
 use crate::run::{recognise_all, settings, state_units};
-use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, translate};
+use crate::translate::translate;
 
 /// The machine of a call, as the model sees it.
 pub(crate) struct Shop {

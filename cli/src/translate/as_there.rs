@@ -4,7 +4,8 @@
 use std::collections::HashMap;
 
 use ncc_dialects::{
-    BORE_SHIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, Quantity, SPINDLE_ANGLE, SystemRow,
+    BORE_SHIFT, BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity,
+    SPINDLE_ANGLE, SystemRow,
 };
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
@@ -25,7 +26,6 @@ use ncc_ir::track::Tracker;
 use ncc_ir::valid::{deeper_calls, labels_twice};
 use ncc_ir::world::Sideways;
 
-use super::{BREAK_LIFT, PECK_CLEARANCE};
 use crate::job::Job;
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.

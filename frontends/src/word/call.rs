@@ -97,9 +97,7 @@ impl Lower {
     pub(super) fn leaves_call_out(&mut self, name: &str, at: Span, out: &mut Batch) -> bool {
         let names = &self.settings.dialect.program.calls_left_out;
         let Some(place) = names.iter().position(|own| own == name) else { return false };
-        let reported = self.reported.calls_left_out >> (place & 31) & 1 == 1;
-        if !reported {
-            self.reported.calls_left_out |= 1 << (place & 31);
+        if self.reported.calls_left_out.insert(place) {
             out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
         }
         true

@@ -3,7 +3,7 @@
 //! Refused by name: tables that the dictionary does not have, entries outside their numbers, and values
 //! put in while a cycle is in force or where it is not known whether they are added.
 
-use ncc_dialects::{DataKind, DataRow, Meaning, Quantity, RADIUS_DATA};
+use ncc_dialects::{AT_ZERO, DataKind, DataRow, Meaning, Quantity, RADIUS_DATA, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
 use ncc_ir::code_of::of_number;
 use ncc_ir::diag::Fault;
@@ -182,7 +182,7 @@ impl Lower {
                 return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
             }
             // What is stated of it holds for the whole program.
-            Meaning::StorePosition(_) if self.settings.get("stored_position") == "zero" => {
+            Meaning::StorePosition(_) if self.settings.get(STORED_POSITION) == AT_ZERO => {
                 let name = "storing a position that is stated to be the machine's zero".into();
                 return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
             }

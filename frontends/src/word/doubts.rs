@@ -9,7 +9,7 @@
 //! Each is an assumption, which is asked where both readings make two different cuts. Not here: what a control puts
 //! in (its behaviour), and the question.
 
-use ncc_dialects::{CYCLE_BESIDE_MOTION, MOTION_CANCELS, Meaning, RETURN_DISTANCE, RETURN_FIRST};
+use ncc_dialects::{CYCLE_BESIDE_MOTION, CycleRow, MOTION_CANCELS, Meaning, RETURN_DISTANCE, RETURN_FIRST};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -96,8 +96,11 @@ impl Lower {
         if self.settings.get(CYCLE_BESIDE_MOTION) != MOTION_CANCELS {
             return false;
         }
-        for letter in *b"RQPKLIJ" {
-            words.take(letter);
+        let dialect = self.settings.dialect;
+        let own =
+            dialect.cycle.iter().filter(|row| row.code == cycle.row.code).flat_map(CycleRow::own_letters);
+        for letter in own.chain(dialect.cycles.repeat).chain(self.settings.repeat_word()) {
+            words.take(letter as u8);
         }
         true
     }

@@ -8,7 +8,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Text};
 use ncc_ir::source::Span;
 
-use super::block::Value;
+use super::block::{Value, Word};
 use super::facts::{Know, State};
 use super::lower::decode;
 use super::o_subs::is_title;
@@ -427,10 +427,15 @@ impl Reader {
     /// `GZO`), or without a number behind another word's digits (`X1O`).
     pub(super) fn check_letters(&mut self, src: Source) {
         let block = &mut self.block;
-        for pair in block.words.windows(2) {
+        let spelt = |from: &Word, to: &Word| from.span.end == to.span.start && to.value == Value::None;
+        for (at, pair) in block.words.windows(2).enumerate() {
             let (word, next) = (&pair[0], &pair[1]);
+            // Further letters behind it spell a word of a language: `COVER`.
+            if block.words.get(at + 2).is_some_and(|behind| spelt(next, behind)) {
+                continue;
+            }
             let is_number = word.value == Value::None;
-            let adjoining = word.span.end == next.span.start && next.value == Value::None;
+            let adjoining = spelt(word, next);
             if next.letter == b'O' && (is_number || adjoining) {
                 debug_assert!(!src.bytes(next.span).is_empty());
                 let letter = Span::new(next.span.start, next.span.start + 1);

@@ -7,6 +7,8 @@
 //! Not here: which word is what (`sort`), and what the functions, moves, cycles, patterns and calls
 //! of a block mean; they have files of their own beside this one.
 
+use std::collections::BTreeSet;
+
 use ncc_dialects::{Address, CALCULATOR, CodeRow, DECIMAL_POINT, NumberRules, Quantity, Role, Settings};
 use ncc_ir::canon::{Axis, Distance, FeedMode};
 use ncc_ir::diag::Fault;
@@ -113,8 +115,8 @@ pub(super) struct Reported {
     pub(super) tool_change: bool,
     /// By which of two codes of distance the words of a return are read.
     pub(super) return_distance: bool,
-    /// Calls that are left out, a bit each.
-    pub(super) calls_left_out: u32,
+    /// Programs whose calls are left out, by their places among those that the user states.
+    pub(super) calls_left_out: BTreeSet<usize>,
     /// That a cycle drills beside a code of motion.
     pub(super) cycle_beside_motion: bool,
     /// Rows of codes.

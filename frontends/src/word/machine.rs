@@ -3,7 +3,7 @@
 //! Refused by name: both while a cycle is in force, arcs and increments in machine coordinates, and
 //! points that the machine may have elsewhere than its option says.
 
-use ncc_dialects::Meaning;
+use ncc_dialects::{AT_ZERO, FURTHER_POINT, Meaning, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
@@ -164,11 +164,11 @@ impl Lower {
         }
         // A point whose place is stated is that place, which every control has words for.
         let stated = match point {
-            ReferencePoint::Stored(_) => self.settings.get("stored_position"),
-            ReferencePoint::Further(_) => self.settings.get("further_point"),
+            ReferencePoint::Stored(_) => self.settings.get(STORED_POSITION),
+            ReferencePoint::Further(_) => self.settings.get(FURTHER_POINT),
             ReferencePoint::Home | ReferencePoint::Fixed(_) => "",
         };
-        let point = if stated == "zero" { ReferencePoint::Home } else { point };
+        let point = if stated == AT_ZERO { ReferencePoint::Home } else { point };
         // From where it stands, an axis goes nowhere first.
         for word in &mut via.axes {
             let stays = |w: &Coord| {

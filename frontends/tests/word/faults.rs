@@ -60,6 +60,8 @@ fn the_letter_o_for_a_zero() {
         assert_eq!(faults(id, "GZO\n"), ["LetterOForZero at 'O'"], "{id}");
         assert_eq!(faults(id, "G0X1O\n"), ["LetterOForZero at 'O'"], "{id}");
     }
+    // A word of a language is no number.
+    assert!(!faults("haas", "COVER PLATE\n").iter().any(|fault| fault.starts_with("LetterOForZero")));
     assert_eq!(faults("mach9", "GO1X5.\n"), ["LetterOForZero at 'O'"]);
     assert_eq!(after_head("mach9", "O2M5\n"), ["LENGTH 2", "& StopSpindleTurning"]);
     assert_eq!(after_head("mach9", "G0Z1.O3\n"), ["LENGTH 3", "& TRAVERSE! Z1."]);

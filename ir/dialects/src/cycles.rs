@@ -172,6 +172,16 @@ pub struct DwellWord {
     pub quantity: Quantity,
 }
 
+impl CycleRow {
+    /// Letters of the words that a cycle alone has: not those of axes, nor of the feed.
+    pub fn own_letters(&self) -> impl Iterator<Item = char> + use<> {
+        let dwells =
+            [self.dwell.as_ref().map(|word| word.letter), self.dwell_by.as_ref().map(|word| word.letter)];
+        let letters = dwells.into_iter().chain([Some(self.retract), self.peck, self.shift]).flatten();
+        letters.chain(self.shrinking.into_iter().flatten())
+    }
+}
+
 /// A pattern of positions.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]

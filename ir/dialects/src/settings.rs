@@ -88,6 +88,21 @@ pub const FROM_ZERO: &str = "zero";
 /// Option of a dictionary: what the words of dwells count, `seconds` or `milliseconds`.
 pub const DWELL_UNIT: &str = "dwell_unit";
 
+/// Option of a dictionary: where a position that is stored in the control is: `zero`, the machine's zero.
+pub const STORED_POSITION: &str = "stored_position";
+
+/// Option of a dictionary: where the second and further reference points are: `zero`, the machine's zero.
+pub const FURTHER_POINT: &str = "further_point";
+
+/// Value of these options: the machine's zero.
+pub const AT_ZERO: &str = "zero";
+
+/// Option of a dictionary: clearance of its peck cycle.
+pub const PECK_CLEARANCE: &str = "peck_clearance";
+
+/// Option of a dictionary: lift of its chip-breaking cycle.
+pub const BREAK_LIFT: &str = "break_lift";
+
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 

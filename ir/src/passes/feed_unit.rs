@@ -126,8 +126,8 @@ pub(super) fn again(
         }
         let cuts = match stmt.op.unwrapped() {
             Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
-            Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
             Op::Hole(_) | Op::Pattern(_) => true,
+            Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
             Op::StartCycle(cycle) => cycle.feed.is_none(),
             _ => false,
         };
