@@ -10,7 +10,16 @@
 use crate::canon::{Distance, Fact};
 use crate::program::{Op, Stmt};
 
-/// Takes it away where G90 follows before anything counts by it. `before` is what is in force before the first statement.
+/// What follows a G91 by which nothing counts.
+enum Then {
+    /// G90, at this place.
+    Absolute(usize),
+    /// Another G91, or the end of the program.
+    NoMatter,
+}
+
+/// Takes it away where G90, another G91 or the program's end follows before anything counts by it. `before` is what is
+/// in force before the first statement.
 pub(super) fn over(stmts: &mut Vec<Stmt>, mut before: Option<Distance>) {
     let mut at = 0;
     while at < stmts.len() {
@@ -19,35 +28,43 @@ pub(super) fn over(stmts: &mut Vec<Stmt>, mut before: Option<Distance>) {
             continue;
         };
         let taken = match distance {
-            Distance::Incremental if stmts[at].skip.is_none() => closes(stmts, at),
+            Distance::Incremental if stmts[at].skip.is_none() => then(stmts, at),
             _ => None,
         };
-        let Some(close) = taken else {
+        let Some(taken) = taken else {
             before = Some(distance).filter(|_| stmts[at].skip.is_none());
             at += 1;
             continue;
         };
         let absolute = before == Some(Distance::Absolute);
-        let last = stmts.get(close + 1).is_none_or(|next| !next.joined);
-        let own = &stmts[close];
-        if absolute && last && !own.joined && own.number.is_none() && own.comment.is_none() {
-            stmts.remove(close);
-        }
-        match absolute {
-            true => {
-                let first = stmts.remove(at);
-                if let Some(next) = stmts.get_mut(at).filter(|_| !first.joined) {
-                    (next.joined, next.number) = (false, first.number);
+        match taken {
+            Then::Absolute(close) if absolute => {
+                let last = stmts.get(close + 1).is_none_or(|next| !next.joined);
+                let own = &stmts[close];
+                if last && !own.joined && own.number.is_none() && own.comment.is_none() {
+                    stmts.remove(close);
                 }
+                take_away(stmts, at);
             }
-            false => stmts[at].op = Op::SetDistanceMode(Distance::Absolute),
+            Then::Absolute(_) => {
+                stmts[at].op = Op::SetDistanceMode(Distance::Absolute);
+                before = Some(Distance::Absolute);
+            }
+            Then::NoMatter => take_away(stmts, at),
         }
-        before = Some(Distance::Absolute);
     }
 }
 
-/// Where G90 follows a G91 in whose block there is a machine move, if nothing between them counts by the mode.
-fn closes(stmts: &[Stmt], at: usize) -> Option<usize> {
+/// Takes a statement out of its block.
+fn take_away(stmts: &mut Vec<Stmt>, at: usize) {
+    let first = stmts.remove(at);
+    if let Some(next) = stmts.get_mut(at).filter(|_| !first.joined) {
+        (next.joined, next.number) = (false, first.number);
+    }
+}
+
+/// What follows a G91 in whose block there is a machine move, if nothing between them counts by the mode.
+fn then(stmts: &[Stmt], at: usize) -> Option<Then> {
     let block = stmts[at + 1..].iter().take_while(|stmt| stmt.joined);
     if !block.clone().any(|stmt| matches!(stmt.op, Op::UseMachineCoordinates { .. })) {
         return None;
@@ -56,7 +73,14 @@ fn closes(stmts: &[Stmt], at: usize) -> Option<usize> {
     for (place, stmt) in stmts.iter().enumerate().skip(at + 1) {
         machine &= stmt.joined;
         match &stmt.op {
-            Op::SetDistanceMode(Distance::Absolute) => return stmt.skip.is_none().then_some(place),
+            Op::SetDistanceMode(distance) => {
+                let then = match distance {
+                    Distance::Absolute => Then::Absolute(place),
+                    Distance::Incremental => Then::NoMatter,
+                };
+                return stmt.skip.is_none().then_some(then);
+            }
+            Op::ProgramEnd => return stmt.skip.is_none().then_some(Then::NoMatter),
             Op::UseMachineCoordinates { .. } => machine = true,
             Op::StraightTraverse(to) if machine => {
                 let places =
@@ -66,10 +90,19 @@ fn closes(stmts: &[Stmt], at: usize) -> Option<usize> {
                 }
             }
             Op::UseToolLengthOffset(_)
+            | Op::UseToolEdge { .. }
             | Op::Comment(_)
             | Op::Blank
+            | Op::Message(_)
+            | Op::SetSpindleSpeed(_)
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
             | Op::CoolantOff
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
             | Op::SelectPlane(_)
             | Op::SetOriginOffsets(_)
             | Op::SelectTool(_)
