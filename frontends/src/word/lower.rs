@@ -22,6 +22,7 @@ use super::computing::Computes;
 use super::doubts::ToolsNamed;
 use super::facts::{InForce, Know, State};
 use super::fast::Fast;
+use super::no_cycle::CyclesMet;
 use super::number::{CentreSeen, UnitsSeen};
 use super::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
@@ -76,16 +77,6 @@ pub(super) struct Lower {
     pub(super) tools: ToolsNamed,
     /// Letters of rotary axes that the text has named so far, a bit each.
     pub(super) rotary_named: u32,
-}
-
-/// Cycles in the whole text: where it has none, none is in force anywhere.
-#[derive(Debug, Default)]
-pub(super) struct CyclesMet {
-    /// Whether one was called up so far.
-    any: bool,
-    /// What cannot be where a cycle is in force, in blocks that are come to from elsewhere: refused as soon as the
-    /// text calls one up.
-    doubts: Vec<(Fault, Span)>,
 }
 
 /// Dwells of cycles in the whole text, where they stay in force for other cycles.
@@ -258,6 +249,7 @@ impl Lower {
 
     /// Lowers a block.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        self.cycle_before(out);
         self.in_loop(out);
         self.o_body(out);
         if block.skip != 0 && block.tail.is_none() {
@@ -512,24 +504,6 @@ impl Lower {
     pub(super) fn refuse<T>(&mut self, fault: Fault, span: Span, out: &mut Batch) -> Option<T> {
         self.fault(fault, span, out);
         None
-    }
-
-    /// Refuses what cannot be where a cycle is in force, if one is or may be. Whether one may be where control comes
-    /// to from elsewhere, the rest of the text says.
-    pub(super) fn without_cycle(&mut self, fault: Fault, span: Span, out: &mut Batch) {
-        match self.state.cycle {
-            InForce::None => {}
-            InForce::Lost if !self.cycles.any && out.whole => self.cycles.doubts.push((fault, span)),
-            InForce::Active(_) | InForce::Lost => self.fault(fault, span, out),
-        }
-    }
-
-    /// The text calls a cycle up.
-    pub(super) fn cycle_met(&mut self, out: &mut Batch) {
-        self.cycles.any = true;
-        for (fault, span) in std::mem::take(&mut self.cycles.doubts) {
-            out.report(fault, span);
-        }
     }
 
     /// The comments of a block that do nothing.
