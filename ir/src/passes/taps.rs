@@ -103,12 +103,15 @@ impl Said {
     /// Takes note of feed and speed.
     #[inline]
     pub(super) fn note(&mut self, stmt: &Stmt) {
-        let literal = |value: &Expr| value.literal().filter(|_| stmt.skip.is_none());
+        // In a block that can be skipped, the number that is active already changes nothing.
+        let literal = |value: &Expr, now: Option<Num>| {
+            value.literal().filter(|value| stmt.skip.is_none() || Some(*value) == now)
+        };
         match &stmt.op {
-            Op::SetFeedRate(feed) => self.feed = literal(feed),
+            Op::SetFeedRate(feed) => self.feed = literal(feed, self.feed),
             Op::StartCycle(cycle) => {
                 if let Some(feed) = &cycle.feed {
-                    self.feed = literal(feed);
+                    self.feed = literal(feed, self.feed);
                 }
                 if matches!(cycle.kind, CycleKind::Bore { feed_out: Some(_), .. }) {
                     self.feed = None;
@@ -116,7 +119,7 @@ impl Said {
             }
             Op::UseLengthUnits(_) | Op::SetFeedMode(_) => self.feed = None,
             miscellaneous!() => match &stmt.op {
-                Op::SetSpindleSpeed(speed) => self.speed = literal(speed),
+                Op::SetSpindleSpeed(speed) => self.speed = literal(speed, self.speed),
                 Op::SetSpindleMode(_) => self.speed = None,
                 _ => {}
             },
