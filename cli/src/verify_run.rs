@@ -560,13 +560,6 @@ impl Verifier {
         }
     }
 
-    /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
-    /// source was.
-    pub(crate) fn read_as_called(&mut self) {
-        self.reader.called();
-        self.as_called = true;
-    }
-
     /// Decisions that go one way alone, which has been told where they stand.
     pub(crate) fn answered(&mut self, decisions: Vec<Span>) {
         self.answered = decisions;

@@ -37,7 +37,7 @@ impl Line<'_> {
             return true;
         }
         if let Some(verifier) = &mut self.verifier {
-            verifier.read_as_called();
+            verifier.read_as_called(self.job, &source.assumed);
         }
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {

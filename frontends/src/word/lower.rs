@@ -129,6 +129,8 @@ pub(super) struct Alone {
     pub(super) returns: Option<Span>,
     /// Whether it ends by itself.
     pub(super) ends: bool,
+    /// Where it first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
+    pub(super) feed: Option<Span>,
 }
 
 /// State of the block that is being lowered.

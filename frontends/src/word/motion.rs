@@ -216,7 +216,12 @@ impl Lower {
             self.push(block, Op::SetFeedRate(Expr::Num(feed)), out);
         }
         if self.state.feed == Know::Unsaid && !self.watch {
-            self.fault(Fault::NoFeed, block, out);
+            if self.sub.is_some() || self.alone.ends || !self.settings.dialect.program.macro_b {
+                return self.fault(Fault::NoFeed, block, out);
+            }
+            // The end of the text says whether it has a caller, which has stated a feed.
+            self.alone.feed = Some(block);
+            self.state.feed = Know::Callers;
         }
     }
 

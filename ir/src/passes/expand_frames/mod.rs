@@ -180,8 +180,8 @@ struct Set {
     unplaced: Option<Plane>,
     /// Whether what is in force depends on a block-skip switch; all of it has been said as it stood.
     lost: bool,
-    /// Local shifts that may be active instead of that of `slots`: a block-skip switch decides. All are said.
-    others: Vec<[Nanos; AXES]>,
+    /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are said.
+    others: Vec<Slots>,
 }
 
 impl Set {
