@@ -3,6 +3,7 @@
 
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
+use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::translate::{job, translate};
 
 const SUB: &str =
@@ -36,5 +37,31 @@ fn a_main_program_states_its_feed() {
     for from in ["haas", "fanuc"] {
         let (outcome, _) = translate(&job(from, "siemens", "main.nc"), text.as_bytes());
         assert!(outcome.diagnostics.iter().any(|d| d.fault == Fault::NoFeed), "{from}");
+    }
+}
+
+/// An arc without centre and radius is a straight line, if the source's control makes it one: in all targets, and by the
+/// second interpreter.
+#[test]
+fn an_arc_without_centre_may_be_a_line() {
+    let text = "%\nO1\nG21 G17 G90 G94 G54 G40 G49 G80\nT1 M06\nS900 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F200.\n\
+                G03 X10. Y4.\nX20. Y0. R12.\nX30.\nG01 X0.\nG00 Z50.\nM30\n%\n";
+    let refused = translate(&job("fanuc", "haas", "line.nc"), text.as_bytes()).0;
+    assert!(refused.diagnostics.iter().any(|d| d.fault == Fault::ArcWithoutCentre));
+    for to in ["haas", "siemens", "linuxcnc"] {
+        let mut job = job("fanuc", to, "line.nc");
+        job.from.choose("arc_without_centre", "line").expect("an option of the source");
+        let (outcome, out) = translate(&job, text.as_bytes());
+        assert!(outcome.release.is_ok(), "{to}: {:?}", outcome.diagnostics);
+        let world = plain::of_dialect(plain::world(0), "fanuc");
+        let run = |dialect: &str, text: &[u8]| {
+            let mut setup = plain::setup(&world, 0);
+            setup.line_without_centre = dialect == "fanuc";
+            let machine = plain::second(dialect, text, setup).expect("a program that runs");
+            plain::of_machine(&machine, world.start.map(|n| n as f64 / 1e9))
+        };
+        let within =
+            Tolerance { place: 0.002, feed: 0.5, corners: Corners::between("fanuc", to), arcs: false };
+        plain::compare(&run("fanuc", text.as_bytes()), &run(to, &out), within).expect("the same moves");
     }
 }

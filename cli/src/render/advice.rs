@@ -1,7 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH, STORED_POSITION,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
+    STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
@@ -105,6 +106,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::PointNotAllowed { .. } => own("write it without a point"),
         Fault::OutOfRange { .. } => Vec::new(),
         Fault::NoMotionMode => own("say the motion before the first axis word: rapid, feed or arc"),
+        Fault::ArcWithoutCentre if at.from.option.iter().any(|row| row.name == ARC_WITHOUT_CENTRE) => vec![
+            "add the centre (I, J, K), or the radius (R)".into(),
+            format!(
+                "if the control goes straight to the end point (parameter 3403#5 CIR = 0): `--from-option \
+                 {ARC_WITHOUT_CENTRE}={STRAIGHT_LINE}`"
+            ),
+        ],
         Fault::ArcWithoutCentre => match at.from.letter_for(ncc_dialects::Role::Radius) {
             Some(letter) => vec![format!("add the centre (I, J, K), or the radius ({letter})")],
             None => own("add the centre (I, J, K)"),
@@ -346,6 +354,17 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
                     .into(),
             ]
+        }
+        Fault::CannotSay { what } if **what == *"mist coolant" => {
+            own("`--m-code M07=M08` for flood coolant in its place, `--m-code M07=drop` for none")
+        }
+        Fault::CannotSay { what }
+            if what.starts_with("a rigid thread with something else before its way back") =>
+        {
+            own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
+        }
+        Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {
+            own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
         }
         Fault::CannotSay { what } if what.starts_with("fine boring whose direction") => own(
             "state the parameter of the source's control: `--from-option bore_shift=+1` (`-1`, `+2`, `-2`: along the \

@@ -2,7 +2,7 @@
 //!
 //! Not here: holes, which are cycles' business.
 
-use ncc_dialects::{Meaning, Quantity};
+use ncc_dialects::{ARC_WITHOUT_CENTRE, Meaning, Quantity, STRAIGHT_LINE};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Function, Node, Unary};
@@ -366,6 +366,9 @@ impl Lower {
                 Centre::Point { words: centre, from }
             }
             None if self.now.failed => return,
+            None if self.settings.get(ARC_WITHOUT_CENTRE) == STRAIGHT_LINE => {
+                return self.push_move(block, Op::StraightFeed(Move { to, said: true }), src, out);
+            }
             None => return self.fault(Fault::ArcWithoutCentre, block, out),
         };
         let arc = Arc { plane, turn, to, centre, turns, said };
