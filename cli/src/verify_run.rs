@@ -445,7 +445,10 @@ impl Verifier {
     fn usual_target(&mut self) -> Result<(), Stop> {
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
-                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
+                let stepped = run.target.step(stmt, &mut run.target_events);
+                stepped.map_err(|d| {
+                    facts::stopped(&d, run.source_events.get(run.target_events.len()), self.last)
+                })?;
             }
         }
         Ok(())

@@ -89,6 +89,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "to run it once: delete this block, and end the program with M30".into(),
             "if another program calls this one: delete the M30, and give it a number of its own".into(),
         ],
+        Fault::NotSupported { code, name } if &**name == "machine coordinates without an axis word" => {
+            vec![format!("delete `{code}`, or add the axis that moves: no axis is in its block")]
+        }
         Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
             own("write `G80` before this block: a call or a jump may lead here with a cycle active")
         }
@@ -98,7 +101,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
         Fault::WordMissing { code, word } if &**word == "D" && matches!(&**code, "G41" | "G42") => {
-            own("add `D` to this block; if its H is the radius, as on a Fanuc 0, write D in the place of H")
+            vec![
+                format!(
+                    "write the D number of the tool's radius, for example `{code} D1`: none is active here"
+                ),
+                "if its H is the radius, as on a Fanuc 0, write D in the place of H".into(),
+            ]
         }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
         Fault::WordTwice { .. } => own("keep one of the two"),
@@ -363,6 +371,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         {
             own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
         }
+        Fault::CannotSay { what } if what.starts_with("a compensated contour with two still blocks") => own(
+            "leave out the blocks here that move by less than the target's least increment, or not in the plane",
+        ),
         Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {
             own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
         }

@@ -16,7 +16,7 @@ use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Aspect, Difference};
 
-use super::{Run, Stop, Verifier, different};
+use super::{Run, Stop, Verifier, different, unreadable};
 use crate::job::Job;
 
 /// An open fact of one of the controls, with another value than its usual one.
@@ -131,6 +131,16 @@ pub(super) fn reader_of_output(job: &Job) -> Reader {
     let mut reader = Reader::new(job.to.clone(), false);
     reader.report_parameters();
     reader
+}
+
+/// The output cannot be executed further. What the target's control has no words for, in the digits that it writes, is
+/// refused at the block of the source of which the next event is; anything else is a fault of the translation.
+pub(super) fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
+    let at = next.map_or(last, |event| event.span);
+    match &fault.fault {
+        Fault::CannotSay { .. } => Stop::Source(Diagnostic::new(fault.fault.clone(), at)),
+        _ => unreadable(fault, last),
+    }
 }
 
 /// Feed that the caller of a subprogram has active: 137 mm a minute or a turn, unlike any that a program states.
