@@ -27,7 +27,9 @@ impl Frames<'_> {
     pub(super) fn change_in_doubt(&mut self, stmt: &Stmt) -> Result<Vec<Op>, Fault> {
         let refused = || cannot("a frame in a block that can be skipped");
         let (caps, at) = (&self.target.caps, &self.inner.at);
-        let as_said = self.set.chain == Chain::NONE && !self.chained && !self.set.lost;
+        // A shift that stands as coordinates of the present point has another end.
+        let by_local = Slots { local: [0; AXES], ..self.set.said.clone() } == Slots::NONE;
+        let as_said = self.set.chain == Chain::NONE && !self.chained && !self.set.lost && by_local;
         if !as_said || at.cycle.is_some() || at.cycle_in_doubt {
             return Err(refused());
         }
