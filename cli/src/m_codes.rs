@@ -87,14 +87,21 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     {
         return Ok(());
     }
-    for (code, number) in &numbers {
-        at_odds(code, *number, side, settings.dialect)?;
-    }
     let source = settings.dialect;
+    let coolant_code =
+        |code: &MCode| coolant(source, code.written.filter(|written| *written != code.number)?);
+    // The target has its coolant codes already.
+    let numbers: Vec<_> =
+        numbers.into_iter().filter(|(code, _)| side == Side::From || coolant_code(code).is_none()).collect();
+    for (code, number) in &numbers {
+        at_odds(code, *number, side, source)?;
+    }
     settings.dialect = known.derived(source, side, |dialect| {
         dialect.program.calls_left_out = calls.to_vec();
         for (code, number) in &numbers {
             let means = match code.written {
+                // Read as that code of coolant.
+                Some(_) if let Some(means) = coolant_code(code) => means,
                 // A derived dictionary lives as long as the process.
                 Some(_) => Meaning::MachineFunction(format!("m{}", code.number).leak()),
                 None => Meaning::LeftOut,
@@ -103,6 +110,12 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
         }
     });
     Ok(())
+}
+
+/// What a code does, if it switches coolant.
+fn coolant(dialect: &Dialect, number: u16) -> Option<Meaning> {
+    let means = dialect.code_row(b'M', u32::from(number) * 10)?.means?;
+    matches!(means, Meaning::FloodOn | Meaning::MistOn | Meaning::CoolantOff).then_some(means)
 }
 
 /// Whether what a code does may be stated by the user: the dialect does not have it, or refuses it, and it does not name
@@ -116,6 +129,10 @@ fn at_odds(code: &MCode, number: u16, side: Side, dialect: &Dialect) -> Result<(
     let Some(row) = dialect.code_row(b'M', u32::from(number) * 10) else { return Ok(()) };
     if side == Side::From && code.written.is_none() && row.means == Some(Meaning::OptionalProgramStop) {
         // With its switch off it does nothing.
+        return Ok(());
+    }
+    if side == Side::From && row.means == Some(Meaning::MistOn) && code.written != Some(code.number) {
+        // The builder decides which coolant it is; without it, or with the other one, the cut is the same.
         return Ok(());
     }
     let (id, name) = (&dialect.id, &row.code);

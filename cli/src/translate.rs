@@ -329,6 +329,9 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let mut program = source.clone();
+        if self.job.from.dialect.program.macro_b {
+            passed_labels::run(&mut program);
+        }
         let mut found = Vec::new();
         self.side_effects.run(&mut program.procedures, &mut found);
         if returns_alone(&source).is_some() {
@@ -340,9 +343,6 @@ impl<'j> Line<'j> {
             let mut told = left_out(&program, &self.job.to.caps());
             as_there::alarms(self.job, &mut program, &mut told);
             self.take(told, Told::Writer);
-        }
-        if self.job.from.dialect.program.macro_b {
-            passed_labels::run(&mut program);
         }
         let (mut known, mut renamed, mut stands) = (Known::default(), Renamed::default(), HashMap::new());
         let mut own_distance = BTreeSet::new();

@@ -445,7 +445,10 @@ impl Verifier {
     fn usual_target(&mut self) -> Result<(), Stop> {
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
-                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
+                let stepped = run.target.step(stmt, &mut run.target_events);
+                stepped.map_err(|d| {
+                    facts::stopped(&d, run.source_events.get(run.target_events.len()), self.last)
+                })?;
             }
         }
         Ok(())
@@ -558,13 +561,6 @@ impl Verifier {
         if !self.one_level {
             self.fork(levels.iter().fold(0, |all, level| all | level));
         }
-    }
-
-    /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
-    /// source was.
-    pub(crate) fn read_as_called(&mut self) {
-        self.reader.called();
-        self.as_called = true;
     }
 
     /// Decisions that go one way alone, which has been told where they stand.

@@ -564,11 +564,11 @@ impl Control {
         }
         self.moved = true;
         let to = self.place(axes, words)?;
-        let round = self.length(words, 'r').map(Cut::Round);
-        self.m.asked = round.or(self.length(words, 'c').map(Cut::Leg));
+        self.m.asked = self.length(words, 'r').map(Cut::Round).or(self.length(words, 'c').map(Cut::Leg));
         match self.motion {
             0 => self.m.traverse(to),
             1 => self.m.straight(to)?,
+            2 | 3 if !any_centre && self.m.setup.line_without_centre && !self.haas => self.m.straight(to)?,
             33 => {
                 let along = axes.iter().filter(|word| word.is_some()).count();
                 let Some(lead) = self.lead.filter(|_| along == 1 && !self.haas) else {

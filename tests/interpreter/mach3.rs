@@ -107,6 +107,8 @@ impl State {
         match (letter, (value * 10.0).round() as i64) {
             ('G', 700) => Some("G20 ".to_owned()),
             ('G', 710) => Some("G21 ".to_owned()),
+            // Ends a scale, which no program here sets (chapter 3: G51 is out of scope).
+            ('G', 500) => None,
             // Exact stop and constant velocity are its two modes.
             ('G', 610) => Some("G61.1 ".to_owned()),
             (letter, 0) if self.arc && letter as u32 == u32::from(self.normal) => None,

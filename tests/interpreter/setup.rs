@@ -42,6 +42,8 @@ pub struct Setup {
     pub rotary_radius: Option<f64>,
     /// Whether M06 with a T in its block puts in the tool that waits, on a Fanuc (the builder's choice).
     pub waiting_tool: bool,
+    /// A Fanuc's parameter 3403#5 (CIR) at 0: an arc without centre and radius is a straight line.
+    pub line_without_centre: bool,
     /// A Fanuc's parameter 5006#6 (TOS) at 0: a length without an axis word moves Z.
     pub length_moves: bool,
     /// Where M19 stops the spindle, degrees.
@@ -137,6 +139,7 @@ impl Setup {
             bore_shift: (0, 1.0),
             rotary_radius: None,
             waiting_tool: false,
+            line_without_centre: false,
             length_moves: false,
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },

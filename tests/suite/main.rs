@@ -14,6 +14,7 @@ mod dialects;
 mod dictionary_form;
 mod diff;
 mod doctor;
+mod everyday;
 mod expected;
 mod faults;
 mod fmt;

@@ -66,11 +66,19 @@ struct Standing {
     feed_said: bool,
     /// Whether a tool change has made an edge active that the program did not ask for.
     edge_waits: bool,
+    /// The block-skip level of that change, where no other one waits: a length of the same level answers it.
+    edge_level: Option<u8>,
 }
 
 impl Standing {
-    const START: Standing =
-        Standing { modal: Modal::Off, feed: None, speed: None, feed_said: true, edge_waits: false };
+    const START: Standing = Standing {
+        modal: Modal::Off,
+        feed: None,
+        speed: None,
+        feed_said: true,
+        edge_waits: false,
+        edge_level: None,
+    };
 
     /// What holds if the block between `before` and now may have been skipped.
     fn join(&mut self, before: Standing) {
@@ -309,7 +317,9 @@ impl Writer {
             self.words.close(further, None, Ok(()), sink);
         }
         if stmt.skip.is_some() {
+            let answered = !self.standing.edge_waits && before.edge_level == stmt.skip;
             self.standing.join(before);
+            self.standing.edge_waits &= !answered;
         }
         said
     }

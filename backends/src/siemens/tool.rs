@@ -17,7 +17,7 @@ use crate::word::modes::cannot;
 impl Writer {
     pub(super) fn change_tool(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.words.statement(stmt, sink)?;
-        self.standing.edge_waits = self.edge_with_tool;
+        self.tool_waits_for_edge();
         Ok(())
     }
 
@@ -29,6 +29,14 @@ impl Writer {
         self.words.admit(&Need::new(Rank::Tool).letter(row.letter as u8), sink)?;
         self.words.block.text(Part::Tail, &format!("{}=\"{name}\"", row.letter));
         Ok(())
+    }
+
+    /// A tool change makes an edge active.
+    fn tool_waits_for_edge(&mut self) {
+        let level = self.words.block.skip;
+        let alone = !self.standing.edge_waits || self.standing.edge_level == level;
+        self.standing.edge_level = level.filter(|_| alone);
+        self.standing.edge_waits = self.edge_with_tool;
     }
 
     /// An edge of the tool in the spindle.

@@ -1,7 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH, STORED_POSITION,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
+    STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
@@ -88,6 +89,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "to run it once: delete this block, and end the program with M30".into(),
             "if another program calls this one: delete the M30, and give it a number of its own".into(),
         ],
+        Fault::NotSupported { code, name } if &**name == "machine coordinates without an axis word" => {
+            vec![format!("delete `{code}`, or add the axis that moves: no axis is in its block")]
+        }
         Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
             own("write `G80` before this block: a call or a jump may lead here with a cycle active")
         }
@@ -97,7 +101,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
         Fault::WordMissing { code, word } if &**word == "D" && matches!(&**code, "G41" | "G42") => {
-            own("add `D` to this block; if its H is the radius, as on a Fanuc 0, write D in the place of H")
+            vec![
+                format!(
+                    "write the D number of the tool's radius, for example `{code} D1`: none is active here"
+                ),
+                "if its H is the radius, as on a Fanuc 0, write D in the place of H".into(),
+            ]
         }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
         Fault::WordTwice { .. } => own("keep one of the two"),
@@ -105,6 +114,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::PointNotAllowed { .. } => own("write it without a point"),
         Fault::OutOfRange { .. } => Vec::new(),
         Fault::NoMotionMode => own("say the motion before the first axis word: rapid, feed or arc"),
+        Fault::ArcWithoutCentre if at.from.option.iter().any(|row| row.name == ARC_WITHOUT_CENTRE) => vec![
+            "add the centre (I, J, K), or the radius (R)".into(),
+            format!(
+                "if the control goes straight to the end point (parameter 3403#5 CIR = 0): `--from-option \
+                 {ARC_WITHOUT_CENTRE}={STRAIGHT_LINE}`"
+            ),
+        ],
         Fault::ArcWithoutCentre => match at.from.letter_for(ncc_dialects::Role::Radius) {
             Some(letter) => vec![format!("add the centre (I, J, K), or the radius ({letter})")],
             None => own("add the centre (I, J, K)"),
@@ -346,6 +362,20 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
                     .into(),
             ]
+        }
+        Fault::CannotSay { what } if **what == *"mist coolant" => {
+            own("`--m-code M07=M08` for flood coolant in its place, `--m-code M07=drop` for none")
+        }
+        Fault::CannotSay { what }
+            if what.starts_with("a rigid thread with something else before its way back") =>
+        {
+            own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
+        }
+        Fault::CannotSay { what } if what.starts_with("a compensated contour with two still blocks") => own(
+            "leave out the blocks here that move by less than the target's least increment, or not in the plane",
+        ),
+        Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {
+            own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
         }
         Fault::CannotSay { what } if what.starts_with("fine boring whose direction") => own(
             "state the parameter of the source's control: `--from-option bore_shift=+1` (`-1`, `+2`, `-2`: along the \

@@ -2,6 +2,7 @@
 //! one has in force, so that the output states none of it, and is read with the same.
 
 use ncc_dialects::Dialect;
+use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::computes::{Handed, LETTERS};
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
@@ -37,7 +38,14 @@ impl Line<'_> {
             return true;
         }
         if let Some(verifier) = &mut self.verifier {
-            verifier.read_as_called();
+            verifier.read_as_called(self.job, &source.assumed);
+        }
+        let stated = self.job.from.dialect.power_on.units.as_ref().is_some_and(|fact| fact.always);
+        if let (Some(units), true) = (source.assumed.units, stated) {
+            // The user has said it of the program, whose caller has it.
+            let value = if units == Units::Inch { "inch" } else { "mm" }.into();
+            let parameter = "unit of length of its caller".into();
+            self.take(vec![Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)], Told::Writer);
         }
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {

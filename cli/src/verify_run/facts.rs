@@ -8,14 +8,15 @@
 
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, Exec, by_control, touched};
+use ncc_ir::num::Nanos;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Aspect, Difference};
 
-use super::{Run, Stop, Verifier, different};
+use super::{Run, Stop, Verifier, different, unreadable};
 use crate::job::Job;
 
 /// An open fact of one of the controls, with another value than its usual one.
@@ -132,7 +133,35 @@ pub(super) fn reader_of_output(job: &Job) -> Reader {
     reader
 }
 
+/// The output cannot be executed further. What the target's control has no words for, in the digits that it writes, is
+/// refused at the block of the source of which the next event is; anything else is a fault of the translation.
+pub(super) fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
+    let at = next.map_or(last, |event| event.span);
+    match &fault.fault {
+        Fault::CannotSay { .. } => Stop::Source(Diagnostic::new(fault.fault.clone(), at)),
+        _ => unreadable(fault, last),
+    }
+}
+
+/// Feed that the caller of a subprogram has active: 137 mm a minute or a turn, unlike any that a program states.
+const CALLERS_FEED: Nanos = 137_000_000_137;
+
 impl Verifier {
+    /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
+    /// source was, in the unit of length that its caller has active.
+    pub(crate) fn read_as_called(&mut self, job: &Job, assumed: &Modes) {
+        let mut to = job.to.clone();
+        if assumed.units.is_none_or(|units| to.state_units(units)) {
+            self.reader = Reader::new(to, false);
+            self.reader.report_parameters();
+        }
+        self.reader.called();
+        self.as_called = true;
+        let runs = self.runs.iter_mut().chain(&mut self.others);
+        let executors = runs.flat_map(|run| [&mut run.source, &mut run.target]);
+        executors.for_each(|exec| exec.begin_at_feed(CALLERS_FEED));
+    }
+
     /// Whether plain moves may pass for both sides by being executed once.
     #[cfg(test)]
     pub(crate) fn is_level(&self) -> bool {

@@ -133,8 +133,8 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
     assert!(kept.out.contains("\nM17\n") && !kept.out.contains("M30"), "{}", kept.out);
     assert!(!kept.out.contains("G54\n") && !kept.out.contains("G71"), "{}", kept.out);
     assert_eq!(kept.err.matches("warning[NC0608]").count(), 6, "{}", kept.err);
-    // Its caller has inches there, if nobody says otherwise.
-    run("haas to siemens row.nc").exits(1).says("what its caller has in force");
+    // Its caller has the unit that is stated for it.
+    run("haas to siemens row.nc --units mm").exits(0);
     let placed = run("fanuc to linuxcnc row.nc").exits(0).says("the argument #24 in place 5");
     assert!(placed.out.contains("\no9012 sub\n#26 = #6\n#24 = #5\n"), "{}", placed.out);
     // It is read again as what it is.

@@ -354,7 +354,12 @@ impl Lower {
     /// A move at feed relies on a feed.
     pub(super) fn rely_on_feed(&mut self, at: Span, out: &mut Batch) {
         if self.state.feed == Know::Unsaid && !self.watch {
-            self.fault(Fault::NoFeed, at, out);
+            if self.sub.is_some() {
+                return self.fault(Fault::NoFeed, at, out);
+            }
+            // The end of the text says whether it has a caller, which has stated a feed.
+            self.callers_feed = Some(at);
+            self.state.feed = Know::Callers;
         }
         // A time counts for one move.
         self.state.spent |= self.state.feed_mode.value() == Some(FeedMode::InverseTime);

@@ -87,6 +87,8 @@ pub(super) struct Lower {
     pub(super) entry: InForce,
     /// What the text that begins is, where something says so: its header, its heading, or its file's name.
     pub(super) unit: Option<Kind>,
+    /// Where the text first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
+    pub(super) callers_feed: Option<Span>,
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     /// What plain moves need; `None` if a block must be looked at.
@@ -190,6 +192,7 @@ impl Lower {
             sub: None,
             entry: InForce::None,
             unit: None,
+            callers_feed: None,
             ended: false,
             fast: None,
             now: Now::default(),

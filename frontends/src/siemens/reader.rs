@@ -186,6 +186,14 @@ impl Reader {
             return;
         }
         self.end_of_program(out);
+        match self.lower.callers_feed.take() {
+            Some(at) if !out.subprogram => out.report(Fault::NoFeed, at),
+            Some(at) if self.lower.assume => {
+                let parameter = "F where the subprogram begins".into();
+                out.report(Fault::AssumedParameter { parameter, value: "that of its caller".into() }, at);
+            }
+            _ => {}
+        }
         self.lower.hand_over(out);
         self.lower.give_back(out);
         self.lower.saved.check(out);

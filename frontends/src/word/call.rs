@@ -125,6 +125,14 @@ impl Lower {
         if let (true, true, Some(at)) = (out.subprogram, self.alone.ends, self.alone.returns) {
             self.endless(at, "M99".into(), out);
         }
+        match self.alone.feed.take() {
+            Some(at) if !out.subprogram || self.alone.ends => out.report(Fault::NoFeed, at),
+            Some(at) if self.assume => {
+                let parameter = "F where the subprogram begins".into();
+                out.report(Fault::AssumedParameter { parameter, value: "that of its caller".into() }, at);
+            }
+            _ => {}
+        }
     }
 
     /// Blocks stand behind the return of a text that has no end of its own before: it is a main program.

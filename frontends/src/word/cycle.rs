@@ -95,7 +95,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         let dialect = self.settings.dialect;
-        self.cycle_met(out);
+        self.cycle_met();
         let Some(index) = dialect.cycle.iter().position(|r| r.code == code.row.code) else {
             return;
         };

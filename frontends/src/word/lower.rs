@@ -22,6 +22,7 @@ use super::computing::Computes;
 use super::doubts::ToolsNamed;
 use super::facts::{InForce, Know, State};
 use super::fast::Fast;
+use super::no_cycle::CyclesMet;
 use super::number::{CentreSeen, UnitsSeen};
 use super::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
@@ -78,16 +79,6 @@ pub(super) struct Lower {
     pub(super) rotary_named: u32,
 }
 
-/// Cycles in the whole text: where it has none, none is in force anywhere.
-#[derive(Debug, Default)]
-pub(super) struct CyclesMet {
-    /// Whether one was called up so far.
-    any: bool,
-    /// What cannot be where a cycle is in force, in blocks that are come to from elsewhere: refused as soon as the
-    /// text calls one up.
-    doubts: Vec<(Fault, Span)>,
-}
-
 /// Dwells of cycles in the whole text, where they stay in force for other cycles.
 #[derive(Debug, Default)]
 pub(super) struct Dwells {
@@ -138,6 +129,8 @@ pub(super) struct Alone {
     pub(super) returns: Option<Span>,
     /// Whether it ends by itself.
     pub(super) ends: bool,
+    /// Where it first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
+    pub(super) feed: Option<Span>,
 }
 
 /// State of the block that is being lowered.
@@ -258,6 +251,7 @@ impl Lower {
 
     /// Lowers a block.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        self.cycle_before(out);
         self.in_loop(out);
         self.o_body(out);
         if block.skip != 0 && block.tail.is_none() {
@@ -512,24 +506,6 @@ impl Lower {
     pub(super) fn refuse<T>(&mut self, fault: Fault, span: Span, out: &mut Batch) -> Option<T> {
         self.fault(fault, span, out);
         None
-    }
-
-    /// Refuses what cannot be where a cycle is in force, if one is or may be. Whether one may be where control comes
-    /// to from elsewhere, the rest of the text says.
-    pub(super) fn without_cycle(&mut self, fault: Fault, span: Span, out: &mut Batch) {
-        match self.state.cycle {
-            InForce::None => {}
-            InForce::Lost if !self.cycles.any && out.whole => self.cycles.doubts.push((fault, span)),
-            InForce::Active(_) | InForce::Lost => self.fault(fault, span, out),
-        }
-    }
-
-    /// The text calls a cycle up.
-    pub(super) fn cycle_met(&mut self, out: &mut Batch) {
-        self.cycles.any = true;
-        for (fault, span) in std::mem::take(&mut self.cycles.doubts) {
-            out.report(fault, span);
-        }
     }
 
     /// The comments of a block that do nothing.

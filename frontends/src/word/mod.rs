@@ -40,6 +40,7 @@ mod machine;
 mod macro_call;
 mod modal_call;
 mod motion;
+mod no_cycle;
 pub(crate) mod number;
 mod o_alone;
 mod o_subs;
@@ -238,6 +239,7 @@ impl Reader {
             self.lower.computes.saved.check(out);
             self.lower.computes.no_calls_within(out);
             self.lower.settle_calls(out);
+            self.lower.settle_cycles(out);
             self.lower.inherited.settle(self.lower.settings.dialect, out);
         }
     }

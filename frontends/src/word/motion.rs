@@ -2,7 +2,7 @@
 //!
 //! Not here: holes, which are cycles' business.
 
-use ncc_dialects::{Meaning, Quantity};
+use ncc_dialects::{ARC_WITHOUT_CENTRE, Meaning, Quantity, STRAIGHT_LINE};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Function, Node, Unary};
@@ -216,7 +216,12 @@ impl Lower {
             self.push(block, Op::SetFeedRate(Expr::Num(feed)), out);
         }
         if self.state.feed == Know::Unsaid && !self.watch {
-            self.fault(Fault::NoFeed, block, out);
+            if self.sub.is_some() || self.alone.ends || !self.settings.dialect.program.macro_b {
+                return self.fault(Fault::NoFeed, block, out);
+            }
+            // The end of the text says whether it has a caller, which has stated a feed.
+            self.alone.feed = Some(block);
+            self.state.feed = Know::Callers;
         }
     }
 
@@ -361,6 +366,9 @@ impl Lower {
                 Centre::Point { words: centre, from }
             }
             None if self.now.failed => return,
+            None if self.settings.get(ARC_WITHOUT_CENTRE) == STRAIGHT_LINE => {
+                return self.push_move(block, Op::StraightFeed(Move { to, said: true }), src, out);
+            }
             None => return self.fault(Fault::ArcWithoutCentre, block, out),
         };
         let arc = Arc { plane, turn, to, centre, turns, said };

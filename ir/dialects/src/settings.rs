@@ -112,6 +112,12 @@ pub const REPEAT_WORD: &str = "repeat_word";
 /// Option of a dictionary: how subprograms with a name are written, by `numbers` or by `names`.
 pub const PROGRAM_NAMES: &str = "program_names";
 
+/// Option of a dictionary: what an arc without centre and radius is.
+pub const ARC_WITHOUT_CENTRE: &str = "arc_without_centre";
+
+/// Value of [`ARC_WITHOUT_CENTRE`]: a straight line to the end point.
+pub const STRAIGHT_LINE: &str = "line";
+
 /// Option of a dictionary: the difference of an arc's radii at start and end that the control accepts, in mm.
 pub const ARC_TOLERANCE: &str = "arc_tolerance";
 

@@ -18,6 +18,11 @@ pub(crate) const DEGREES: u8 = 1;
 pub(super) type Pace = Option<Nanos>;
 
 impl Exec {
+    /// The feed that is active at the first statement: that of a caller, in nanometres a minute or a turn.
+    pub fn begin_at_feed(&mut self, feed: Nanos) {
+        self.feed = feed;
+    }
+
     /// The time of a cut along a line from where the machine stands, if rotary axes turn in it.
     #[inline]
     pub(super) fn pace_of_line(&mut self, end: &[Nanos; AXES]) -> Pace {

@@ -28,13 +28,29 @@ pub(super) fn centre_of(arc: &mut Arc, walk: &Walk, target: &Target) -> Result<(
         return Err(unknown(arc, &walk.at));
     };
     let mut words: [Option<Expr>; 3] = [None, None, None];
+    let length = length_unit(arc, walk);
     for (i, axis) in [first, second].into_iter().enumerate() {
-        let unit = unit_of(axis, walk.unit());
+        let unit = unit_of(axis, length);
         let word = rounded(centre[i].wrapping_sub(start[i]), target.decimals_in(unit), unit);
         words[axis as usize] = Some(word.into());
     }
     arc.centre = Centre::Point { words, from: CentreFrom::Start };
     Ok(())
+}
+
+/// Unit of length in which an arc is written. Where the unit in force is not known, the words of the arc may still state
+/// theirs: the blocks of a subprogram that is cloned for its callers do.
+fn length_unit(arc: &Arc, walk: &Walk) -> Unit {
+    let inch = |value: &Expr| value.literal().is_some_and(|n| n.unit == Unit::Inch && !n.is_zero());
+    let radius = match &arc.centre {
+        Centre::Radius(radius) => Some(radius),
+        Centre::Point { .. } => None,
+    };
+    let mut words = arc.to.axes.iter().flatten().map(|word| &word.value).chain(radius);
+    match walk.at.modes.units {
+        None if words.any(inch) => Unit::Inch,
+        _ => walk.unit(),
+    }
 }
 
 /// Whether an arc by radius may have more digits than a target that writes so many in mm.
@@ -52,7 +68,8 @@ pub(super) fn too_fine(stmts: &mut [Stmt], walk: &mut Walk, target: &Target, dia
         walk.enter(stmt.skip);
         // The writer rounds a centre's word together with the start that it is measured from.
         let exact = Target { decimals: EXACT, ..Target::default() };
-        if may_be_too_fine(&stmt.op, target.decimals_in(walk.unit()))
+        if let Op::ArcFeed(arc) = &stmt.op
+            && may_be_too_fine(&stmt.op, target.decimals_in(length_unit(arc, walk)))
             && let Op::ArcFeed(arc) = &mut stmt.op
             && centre_of(arc, walk, &exact).is_ok()
         {
@@ -78,10 +95,11 @@ pub fn by_radius(program: &mut Program, target: &Target, entry: &Tracker, diags:
         let end = [x, y];
         let radius = ((start[0] - centre[0]) as f64).hypot((start[1] - centre[1]) as f64).round() as Nanos;
         let long = geometry::sweep_degrees(start, end, centre, arc.turn, 0).abs() > 180.0;
-        let decimals = target.decimals_in(walk.unit());
-        let word = rounded(if long { -radius } else { radius }, decimals, walk.unit());
+        let unit = length_unit(arc, walk);
+        let decimals = target.decimals_in(unit);
+        let word = rounded(if long { -radius } else { radius }, decimals, unit);
         let Some(said) = word.nanos(false) else { return Ok(()) };
-        let half = match walk.unit() {
+        let half = match unit {
             Unit::Inch => POW10[9 - decimals.min(9) as usize] * 127 / 10,
             Unit::One | Unit::Mm | Unit::Entry | Unit::Degree | Unit::Second => {
                 POW10[9 - decimals.min(9) as usize] / 2

@@ -22,6 +22,9 @@ use crate::kinds::flow;
 use crate::program::{Attribute, Control, Op, PathControl, Procedure, Program, Stmt, Text};
 use crate::track::Tracker;
 
+mod active_cycles;
+pub use active_cycles::ActiveCycles;
+
 /// Most times that a program is gone through; one that needs more keeps what it says.
 const MOST_ROUNDS: u32 = 24;
 
@@ -432,6 +435,8 @@ struct Flow<'t> {
     cycles: HashMap<u32, Option<Called>>,
     /// What holds at calls, by their places.
     calls: HashMap<u32, At>,
+    /// Whether a cycle may be active at statements, by their places, where that is asked for.
+    active: Option<HashMap<u32, bool>>,
     /// What the text has said so far, for blocks to which no way leads: they are written as they stand there.
     text: Held,
 }
@@ -494,6 +499,9 @@ impl Flow<'_> {
                 if *path != known.path {
                     *path = None;
                 }
+            }
+            if let (Some(active), true) = (&mut self.active, self.settles) {
+                active_cycles::note(active, stmt, state.as_ref());
             }
             begins = flow;
             state = self.stmt(stmt, state);

@@ -42,11 +42,15 @@ fn leave_out(body: &mut Vec<Stmt>, named: &HashSet<Text>) -> bool {
     let before = body.len();
     let mut out: Vec<Stmt> = Vec::with_capacity(before);
     // The block that stood behind the label has its number.
-    let mut number = None;
+    let (mut number, mut left_out_one) = (None, false);
     for mut stmt in std::mem::take(body) {
-        if matches!(&stmt.op, Op::Label(name) if !named.contains(name)) && stmt.comment.is_none() {
-            number = stmt.number.take();
-            continue;
+        if matches!(&stmt.op, Op::Label(name) if !named.contains(name)) {
+            let Some(comment) = stmt.comment.take() else {
+                number = stmt.number.take();
+                continue;
+            };
+            left_out_one = true;
+            stmt.op = Op::Comment(*comment);
         }
         if let Some(number) = number.take() {
             stmt.joined = false;
@@ -55,7 +59,7 @@ fn leave_out(body: &mut Vec<Stmt>, named: &HashSet<Text>) -> bool {
         out.push(stmt);
     }
     *body = out;
-    let mut any = body.len() < before;
+    let mut any = body.len() < before || left_out_one;
     for stmt in body {
         if let Op::Control(control) = &mut stmt.op {
             any = control.bodies_mut().map(|body| leave_out(body, named)).fold(any, |any, own| any | own);

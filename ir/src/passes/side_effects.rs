@@ -43,7 +43,7 @@ use crate::source::Span;
 use arc_feed::{compensated, states};
 use beside::{OPTIONAL_STOP, STOP_BESIDE, stands_alone};
 use insert::{insert, insertion};
-use joins::{LeftAtPlace, Length, either, only_sense};
+use joins::{KeepsLength, LeftAtPlace, Length, either, only_sense};
 use way_up::WayUp;
 
 pub use way_up::REFUSED as NEEDS_Z;
@@ -96,6 +96,8 @@ pub struct SideEffects {
     arc_feed_at_head: bool,
     /// Procedures that end at a place of the machine along Z.
     left_at_place: LeftAtPlace,
+    /// Procedures that leave the length of their caller active.
+    keeps_length: KeepsLength,
     way_up: WayUp,
     /// Whether cutter radius compensation may be on.
     beside: bool,
@@ -145,6 +147,7 @@ impl SideEffects {
             arc_feed_said: false,
             arc_feed_at_head: false,
             left_at_place: LeftAtPlace::new(),
+            keeps_length: KeepsLength::new(),
             way_up: WayUp::default(),
             beside: false,
             entries: None,
@@ -191,7 +194,11 @@ impl SideEffects {
             return stmts.iter().for_each(|stmt| self.note(stmt));
         }
         let mut made: Vec<Stmt> = Vec::with_capacity(stmts.len() + 8);
+        let unread = joins::unread_at_labels(stmts);
         for mut stmt in std::mem::take(stmts) {
+            if unread.contains(&stmt.span.start) {
+                self.length_next = None;
+            }
             self.tools.before(&stmt, &mut made);
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, (stmt.span, false));
@@ -235,6 +242,7 @@ impl SideEffects {
         self.tools.survey(procedures);
         self.arc_feed_at_head(procedures, diags);
         self.left_at_place = joins::left_at_place(procedures);
+        self.keeps_length = joins::keeps_length(procedures);
         if let Some((main, _)) = procedures.split_first() {
             self.way_up.check(&main.body, procedures, diags);
         }

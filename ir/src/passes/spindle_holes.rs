@@ -2,7 +2,8 @@
 //! stopped spindle. From the retract plane on; the way there is of all cycles alike.
 //!
 //! A tap that is left by rapid goes to a target whose own cycle goes on at feed as one call a hole, left at
-//! the retract plane. Refused are taps for a target that has no moves in step with the spindle, shifts that are computed
+//! the retract plane. So does a rigid tap that dwells at the retract plane, where the target's cycle does not: the dwell
+//! follows the call. Refused are taps for a target that has no moves in step with the spindle, shifts that are computed
 //! or whose direction is a parameter that nobody has stated, and a spindle that shall turn on as before
 //! where it is not known how it turned.
 
@@ -12,7 +13,7 @@ use super::walk::Walk;
 use super::write::{cut, exact, traverse, unit_of};
 use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle};
 use crate::caps::{CycleCap, CycleForm};
-use crate::cycle::{Cycle, CycleKind, Shift, absolute};
+use crate::cycle::{Cycle, CycleKind, Shift, Tap, absolute};
 use crate::diag::{Fault, ModeName};
 use crate::expr::Expr;
 use crate::num::Num;
@@ -56,11 +57,27 @@ pub(super) fn with_spindle(
     };
     match &in_force.cycle.kind {
         CycleKind::Tap(tap) => {
-            if let (Some(out), Some(own)) = (&out, own_tap(in_force, plane, [&retract, &depth], target)) {
+            let ends = [&retract, &depth];
+            let own = out.as_ref().and_then(|_| own_tap(in_force, &in_force.cycle.kind, plane, ends, target));
+            // A dwell at the retract plane follows a cycle that has none there.
+            let settle = tap.settle.as_ref().filter(|_| !tap.chuck);
+            let alone = Tap { settle: None, after: Spindle::Stopped, ..(**tap).clone() };
+            let settled = || own_tap(in_force, &CycleKind::Tap(Box::new(alone)), plane, ends, target);
+            let (own, settle) = match (own, settle) {
+                (Some(own), _) => (Some(own), None),
+                (None, Some(settle)) => (settled(), Some(settle.clone())),
+                (None, None) => (None, None),
+            };
+            if let Some(own) = own {
                 moves.push((false, Op::StartCycle(Box::new(own))));
                 moves.push((true, Op::Hole(Move { to: Point::default(), said: true })));
                 moves.push((false, Op::EndCycle));
-                moves.push((false, traverse(out.clone())));
+                let starts = settle.is_some() && tap.after != Spindle::Stopped;
+                dwell(&settle, moves);
+                moves.extend(out.map(|out| (false, traverse(out))));
+                if starts {
+                    moves.push(turn_it(tap.after));
+                }
                 return Ok(());
             }
             let threads = target.caps.threads;
@@ -183,25 +200,26 @@ pub(super) fn with_spindle(
 /// there: where its own cycle would go on at feed to the level of return, or has no such level.
 fn own_tap(
     in_force: &InForce,
+    kind: &CycleKind,
     plane: Plane,
     [retract, depth]: [&Point; 2],
     target: &Target,
 ) -> Option<Cycle> {
     let (cycle, normal) = (&in_force.cycle, plane.axes().2);
-    let turn = match &cycle.kind {
+    let turn = match kind {
         CycleKind::Tap(tap) if !tap.to_level && !target.caps.flat => tap.turn,
         _ => return None,
     };
     let says = |c: &CycleCap| {
-        c.kind == cycle.kind.name()
-            && c.form.says(&cycle.kind)
+        c.kind == kind.name()
+            && c.form.says(kind)
             && c.form != CycleForm::Any
             && c.turns.contains(&turn)
             && c.returns.contains(&ReturnLevel::Retract)
     };
     target.caps.cycles.iter().any(says).then_some(())?;
     Some(Cycle {
-        kind: cycle.kind.clone(),
+        kind: kind.clone(),
         plane: cycle.plane,
         retract: retract.get(normal)?.clone(),
         depth: depth.get(normal)?.clone(),

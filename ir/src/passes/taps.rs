@@ -2,7 +2,7 @@
 //!
 //! Some controls take the pitch from feed and speed, others state it; some leave the spindle standing
 //! after a rigid tap, others start it again. Where the cycle's end has to say what the cycle itself
-//! cannot, it is said there. A feed that the cycle set stays in force after it, as it was. After boring
+//! cannot, it is said there. A feed by the turn with more digits than the target writes is said by the minute. A feed that the cycle set stays in force after it, as it was. After boring
 //! with a stop, one control has the spindle turn clockwise, another as it did before: where it surely
 //! turns clockwise, these are one.
 //!
@@ -52,6 +52,8 @@ pub(super) struct State {
     entered: bool,
     /// A tap has put its feed in the place of one that is not known.
     lost: bool,
+    /// A tap is active that counts its feed by the minute, where the program counts it by the turn.
+    by_minute: bool,
 }
 
 impl State {
@@ -103,12 +105,15 @@ impl Said {
     /// Takes note of feed and speed.
     #[inline]
     pub(super) fn note(&mut self, stmt: &Stmt) {
-        let literal = |value: &Expr| value.literal().filter(|_| stmt.skip.is_none());
+        // In a block that can be skipped, the number that is active already changes nothing.
+        let literal = |value: &Expr, now: Option<Num>| {
+            value.literal().filter(|value| stmt.skip.is_none() || Some(*value) == now)
+        };
         match &stmt.op {
-            Op::SetFeedRate(feed) => self.feed = literal(feed),
+            Op::SetFeedRate(feed) => self.feed = literal(feed, self.feed),
             Op::StartCycle(cycle) => {
                 if let Some(feed) = &cycle.feed {
-                    self.feed = literal(feed);
+                    self.feed = literal(feed, self.feed);
                 }
                 if matches!(cycle.kind, CycleKind::Bore { feed_out: Some(_), .. }) {
                     self.feed = None;
@@ -116,7 +121,7 @@ impl Said {
             }
             Op::UseLengthUnits(_) | Op::SetFeedMode(_) => self.feed = None,
             miscellaneous!() => match &stmt.op {
-                Op::SetSpindleSpeed(speed) => self.speed = literal(speed),
+                Op::SetSpindleSpeed(speed) => self.speed = literal(speed, self.speed),
                 Op::SetSpindleMode(_) => self.speed = None,
                 _ => {}
             },
@@ -166,7 +171,8 @@ pub(super) fn over(
             // It is in force there already, and stays so behind the tap.
             state.owed.retain(|op| !matches!(op, Op::SetFeedRate(_)));
         }
-        let relies = state.changed && !same && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_));
+        let relies = state.changed && !same && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_))
+            || state.by_minute && matches!(stmt.op, Op::SetFeedMode(_) | Op::UseLengthUnits(_));
         if ends && state.changed && stmt.skip.is_some() || relies {
             let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
@@ -180,12 +186,12 @@ pub(super) fn over(
         state.clockwise &= !ends;
         let mut after = Vec::new();
         if ends {
-            (state.changed, state.feed) = (false, None);
+            (state.changed, state.feed, state.by_minute) = (false, None, false);
             after = std::mem::take(&mut state.owed);
             let again = matches!(&stmt.op, Op::StartCycle(cycle) if matches!(cycle.kind, CycleKind::Tap(_)));
             if again {
                 // The next tap says its own.
-                after.retain(|op| matches!(op, Op::SetFeedRate(_)));
+                after.retain(|op| matches!(op, Op::SetFeedRate(_) | Op::SetFeedMode(_)));
             }
             if !matches!(stmt.op, Op::EndCycle) && !after.is_empty() {
                 let ops = std::mem::take(&mut after);
@@ -199,6 +205,19 @@ pub(super) fn over(
             }
         }
         let mut before = None;
+        if let Op::StartCycle(cycle) = &mut stmt.op
+            && stmt.skip.is_none()
+            && let Some(feed) = by_minute(cycle, walk, state, target)
+        {
+            cycle.feed = Some(feed.into());
+            let mut mode = Stmt::new(stmt.span, Op::SetFeedMode(FeedMode::PerMinute));
+            (mode.number, mode.joined) = (stmt.number.take(), stmt.joined);
+            stmt.joined = false;
+            walk.step(&mode);
+            made.push(mode);
+            state.owed.push(Op::SetFeedMode(FeedMode::PerRevolution));
+            (state.changed, state.by_minute, state.lost, state.feed) = (true, true, true, Some(feed));
+        }
         if let Op::StartCycle(cycle) = &mut stmt.op {
             match fit(cycle, walk, state, target) {
                 Ok(Some(feed)) if stmt.skip.is_some() => {
@@ -262,6 +281,24 @@ fn turned(stmt: &Stmt, state: &State) -> Option<&'static str> {
 pub(super) const LOST: &str = "a tap's feed in the place of one that only the run knows";
 
 const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
+
+/// The feed by the minute of a tap whose feed by the turn has more digits than the target writes, where it has fewer.
+fn by_minute(cycle: &Cycle, walk: &Walk, state: &State, target: &Target) -> Option<Num> {
+    let CycleKind::Tap(tap) = &cycle.kind else { return None };
+    let name = cycle.kind.name();
+    let by_feed =
+        target.caps.cycles.iter().any(|c| c.kind == name && matches!(c.form, CycleForm::Control(_)));
+    if !by_feed || tap.pitch != Pitch::Feed || walk.at.modes.feed_mode != Some(FeedMode::PerRevolution) {
+        return None;
+    }
+    let feed = cycle.feed.as_ref().map_or(state.said.feed, Expr::literal)?;
+    let (turn, unit) = in_unit(feed, walk).ok()?;
+    let digits = |nanos: Nanos| exact(nanos, unit).trimmed().scale;
+    let minute = i128::from(turn) * turns(state.said.speed).ok()? / i128::from(ONE);
+    let minute = Nanos::try_from(minute).ok()?;
+    let decimals = target.caps.feed_decimals + u8::from(unit == Unit::Inch);
+    (digits(turn) > decimals && digits(minute) <= decimals).then(|| exact(minute, unit))
+}
 
 /// Makes a tap one that the target says. Gives the feed that must be said before it, if it was changed.
 #[allow(clippy::option_option)]

@@ -19,6 +19,7 @@ use crate::expr::Expr;
 use crate::kinds::{conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar, variables};
 use crate::num::{Nanos, Num};
 use crate::program::{Move, Op, Pitch, Program, Stmt, Synchronised};
+use crate::source::Span;
 use crate::track::Tracker;
 
 /// The way out that belongs to a thread which is written with its way back.
@@ -27,6 +28,8 @@ struct WayOut {
     to: [Option<Nanos>; AXES],
     pitch: Pitch,
     turn: Turn,
+    /// The block of the way in, and its block-skip level: in a block that can be skipped both halves are of that block.
+    block: (Span, Option<u8>),
 }
 
 /// What the pass remembers from piece to piece of a body.
@@ -127,8 +130,7 @@ pub(super) fn over(
         let ops = if threads.any {
             Ok(vec![stmt.op.clone()])
         } else {
-            let skipped = stmt.skip.is_some();
-            said(m, way_out, state, (walk, &before, skipped), speed_of, threads)
+            said(m, way_out, state, (walk, &before, (span, stmt.skip)), speed_of, threads)
         };
         if threads.by_feed && original.turn.is_none() && !original.chuck {
             state.owed = speed_of.feed;
@@ -290,7 +292,7 @@ fn said(
     m: &mut Synchronised,
     way_out: Option<WayOut>,
     state: &mut State,
-    (walk, before, skipped): (&Walk, &[Option<Nanos>; AXES], bool),
+    (walk, before, block): (&Walk, &[Option<Nanos>; AXES], (Span, Option<u8>)),
     speed: Said,
     threads: Threads,
 ) -> Result<Vec<Op>, Fault> {
@@ -319,13 +321,11 @@ fn said(
         (Some(turn), false) if threads.back => {
             let Some(out) = way_out else {
                 // The way in: the way out, which has to come next, is said with it.
-                if skipped {
-                    return cannot("a rigid thread in a block that can be skipped");
-                }
                 if before[along as usize].is_none() {
                     return Err(Fault::PositionUnknown { axis: along.letter() as char });
                 }
-                state.way_out = Some(WayOut { to: *before, pitch: m.pitch.clone(), turn: turn.back() });
+                state.way_out =
+                    Some(WayOut { to: *before, pitch: m.pitch.clone(), turn: turn.back(), block });
                 let start = match turn {
                     Turn::Clockwise => Op::StartSpindleClockwise,
                     Turn::Counterclockwise => Op::StartSpindleCounterclockwise,
@@ -335,7 +335,8 @@ fn said(
             };
             let to = m.to.get(along).and_then(|word| walk.at.resolve(word, before[along as usize]));
             let same = to.is_some() && to == out.to[along as usize];
-            if !same || skipped || out.turn != turn || out.pitch != m.pitch {
+            let as_entered = out.block == block || (out.block.1, block.1) == (None, None);
+            if !same || !as_entered || out.turn != turn || out.pitch != m.pitch {
                 return cannot("a rigid thread that is not left as it was entered");
             }
             Ok(Vec::new())

@@ -1,7 +1,8 @@
 //! Walking a body of statements: where the tool stands on the way, and block skip.
 //!
 //! A stretch of blocks with one skip level is executed whole or not at all, so that what holds
-//! afterwards is what holds on both ways; within the stretch nothing is in doubt.
+//! afterwards is what holds on both ways; within the stretch nothing is in doubt. A block of modes alone
+//! (`/T2 M06`, `G17 G90`, `/G43 H2 Z5.`) does not end such a stretch.
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
 use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling, variables};
@@ -18,6 +19,9 @@ pub(super) struct Walk {
     pub(super) waiting: bool,
     /// The level of the stretch that is being walked, and the state if it is skipped.
     skipped: Option<(u8, Box<Tracker>)>,
+    /// A stretch that goes on where only modes come between: its level, the state where it is executed, and the
+    /// state where it is skipped.
+    paused: Option<(u8, Box<[Tracker; 2]>)>,
     /// Facts taken for granted that the tracker has already.
     assumed: Modes,
 }
@@ -68,16 +72,40 @@ impl Walk {
         if self.skipped.as_ref().map(|s| s.0) == skip {
             return;
         }
-        if let Some((_, before)) = self.skipped.take() {
+        if let Some((level, before)) = self.skipped.take() {
+            if skip.is_none() {
+                self.paused = Some((level, Box::new([self.at.clone(), (*before).clone()])));
+            }
             self.at.join(&before);
         }
-        self.skipped = skip.map(|level| (level, Box::new(self.at.clone())));
+        let paused = self.paused.take_if(|_| skip.is_some());
+        self.skipped = match (skip, paused) {
+            (Some(level), Some((own, states))) if own == level => {
+                let [executed, skipped] = *states;
+                self.at = executed;
+                Some((level, Box::new(skipped)))
+            }
+            _ => skip.map(|level| (level, Box::new(self.at.clone()))),
+        };
+    }
+
+    /// Takes a statement outside of skipped blocks into the states of a stretch that may go on.
+    #[cold]
+    fn pause(&mut self, op: &Op) {
+        match op {
+            modes!() => self.paused.iter_mut().flat_map(|paused| &mut *paused.1).for_each(|at| at.apply(op)),
+            Op::Comment(_) | Op::Blank => {}
+            _ => self.paused = None,
+        }
     }
 
     /// Executes a statement.
     #[inline]
     pub(super) fn step(&mut self, stmt: &Stmt) {
         self.enter(stmt.skip);
+        if self.paused.is_some() {
+            self.pause(&stmt.op);
+        }
         if stmt.op.calls_length() {
             self.waiting = true;
         } else if self.waiting && stmt.skip.is_none() && self.commands_z(&stmt.op) {
@@ -101,7 +129,8 @@ impl Walk {
                     continue;
                 }
             };
-            let plain = stmt.skip.is_none() && self.skipped.is_none() && !self.waiting && !self.at.raw;
+            let plain = stmt.skip.is_none() && self.skipped.is_none() && self.paused.is_none();
+            let plain = plain && !self.waiting && !self.at.raw;
             let plain = plain && !self.at.probing && !self.at.detour;
             if !(plain && last.note(to, motion)) {
                 self.take(&mut last);
@@ -132,7 +161,8 @@ impl Walk {
             return;
         }
         let skipped = self.skipped.as_mut().map(|s| &mut s.1.modes);
-        for modes in std::iter::once(&mut self.at.modes).chain(skipped) {
+        let paused = self.paused.iter_mut().flat_map(|paused| &mut *paused.1).map(|at| &mut at.modes);
+        for modes in std::iter::once(&mut self.at.modes).chain(skipped).chain(paused) {
             macro_rules! take {
                 ($($fact:ident)*) => {$(
                     if self.assumed.$fact.is_none() && modes.$fact.is_none() {

@@ -7,10 +7,11 @@
 //! digits. Positions must be known where axes are mixed. Words in machine coordinates stay.
 //!
 //! Refused by name: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
-//! mirrors or scales, frames that may be skipped, and frames under calls, jumps and repetitions.
+//! mirrors or scales, frames but local shifts that may be skipped, and frames under calls, jumps and repetitions.
 
 mod holes;
 mod shut;
+mod skipped;
 mod words;
 
 use super::frame_forms::{self, shifted};
@@ -179,6 +180,8 @@ struct Set {
     unplaced: Option<Plane>,
     /// Whether what is in force depends on a block-skip switch; all of it has been said as it stood.
     lost: bool,
+    /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are said.
+    others: Vec<Slots>,
 }
 
 impl Set {
@@ -190,6 +193,7 @@ impl Set {
         said_chain: false,
         unplaced: None,
         lost: false,
+        others: Vec::new(),
     };
 }
 
@@ -250,7 +254,7 @@ impl Frames<'_> {
                     // That word is left out where the target has none (`origin_shift`).
                     let is_said = |op: &&Op| **op != shift || self.target.caps.clears_shift;
                     for op in ops.iter().filter(is_said) {
-                        self.outer.step(&Stmt::new(stmt.span, op.clone()));
+                        self.outer.step(&Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op.clone()) });
                         self.note(op);
                     }
                     // Where frames are said, what is made stands where the program does.
@@ -348,8 +352,9 @@ impl Frames<'_> {
             self.inner.at.position = [None; AXES];
             return Ok((false, vec![said.clone()]));
         }
-        if self.set.lost || stmt.skip.is_some() && (sets || self.set.slots != Slots::NONE) {
-            return Err(cannot("a frame in a block that can be skipped"));
+        let in_doubt = stmt.skip.is_some() && (sets || self.set.slots != Slots::NONE);
+        if self.set.lost || in_doubt || !self.set.others.is_empty() {
+            return self.change_in_doubt(stmt).map(|ops| (false, ops));
         }
         if self.chained {
             match said {

@@ -11,12 +11,12 @@
 //!
 //! Not here: what a place of the machine does to the length (`side_effects`).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::behaviour::Behaviour;
 use crate::canon::Axis;
 use crate::kinds::flow;
-use crate::program::{Control, Op, Procedure, Stmt, Text};
+use crate::program::{Control, Op, Procedure, Reference, Stmt, Text};
 use crate::source::Span;
 
 use super::{LengthNext, SideEffects, commands_z};
@@ -47,6 +47,15 @@ enum Tail {
 /// the caller.
 pub(super) type LeftAtPlace = BTreeMap<Text, (Behaviour, bool)>;
 
+/// Procedures that leave the length of their caller active.
+pub(super) type KeepsLength = BTreeSet<Text>;
+
+/// Finds the procedures that leave the length of their caller active, and call nothing that might change it.
+pub(super) fn keeps_length(procedures: &[Procedure]) -> KeepsLength {
+    let keeps = |procedure: &&Procedure| !procedure.body.iter().any(|stmt| sets_length(&stmt.op));
+    procedures.iter().filter(keeps).map(|procedure| procedure.name.clone()).collect()
+}
+
 /// Finds the procedures that end at a place of the machine along Z.
 pub(super) fn left_at_place(procedures: &[Procedure]) -> LeftAtPlace {
     let ends = |procedure: &Procedure| match tail_of(&procedure.body) {
@@ -62,6 +71,9 @@ impl SideEffects {
     /// The length after the call of a procedure that ends at a place of the machine; `length` is that before it.
     pub(super) fn after_call(&mut self, stmt: &Stmt, length: (Option<Op>, bool)) {
         let Op::Call(call) = &stmt.op else { return };
+        if self.keeps_length.contains(&call.name) {
+            (self.length, self.length_known) = length.clone();
+        }
         let Some((behaviour, keeps)) = self.left_at_place.get(&call.name).copied() else { return };
         if keeps && stmt.skip.is_none() {
             (self.length, self.length_known) = length;
@@ -111,6 +123,28 @@ pub(super) fn either(
         }
         (Some(Say(_)), _) | (_, Some(Say(_))) => Some(Lost(span)),
     }
+}
+
+/// Labels, by their places, after which a length is called up before Z moves by one: what the length needs there, nothing
+/// asks for.
+pub(super) fn unread_at_labels(body: &[Stmt]) -> BTreeSet<u32> {
+    let (mut found, mut reads) = (BTreeSet::new(), true);
+    for stmt in body.iter().rev() {
+        let home = |to: &Reference| to.axes[Axis::Z as usize] && to.via.get(Axis::Z).is_none();
+        match &stmt.op {
+            Op::Label(_) if !reads => drop(found.insert(stmt.span.start)),
+            Op::Label(_) => {}
+            Op::ProgramEnd if stmt.skip.is_none() => reads = false,
+            Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } | Op::UseToolLength(_)
+                if stmt.skip.is_none() =>
+            {
+                reads = false;
+            }
+            Op::GoToReference(to) if stmt.skip.is_none() && home(to) => reads = false,
+            op => reads |= commands_z(op) || matches!(op, flow!()),
+        }
+    }
+    found
 }
 
 /// Whether a statement calls a length up, or may.
