@@ -5,13 +5,15 @@
 //! long besides is ended after [`GRACE`], but never while a file is being put in its place.
 
 use std::fmt;
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::{RwLock, RwLockReadGuard};
 use std::time::Duration;
 
+use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::halt;
 
-use crate::problem::Exit;
+use crate::files::Source;
+use crate::problem::{Exit, Problem};
 
 /// How long work that does not look at the request may go on.
 const GRACE: Duration = Duration::from_millis(1500);
@@ -48,6 +50,22 @@ impl fmt::Display for Interrupted {
 }
 
 impl std::error::Error for Interrupted {}
+
+/// Where a run was interrupted, as the problem of its source.
+///
+/// # Errors
+/// Reading the source.
+pub(crate) fn problem(found: &[Diagnostic], source: &mut Source) -> io::Result<Option<Problem>> {
+    let Some(fault) = found.iter().find(|d| matches!(d.fault, Fault::Interrupted { .. })) else {
+        return Ok(None);
+    };
+    source.file.seek(SeekFrom::Start(0))?;
+    let mut before = Vec::new();
+    (&mut source.file).take(u64::from(fault.span.start)).read_to_end(&mut before)?;
+    let line = memchr::memchr_iter(b'\n', &before).count() as u64 + 1;
+    let error = io::Error::other(Interrupted { line: Some(line) });
+    Ok(Some(Problem::file("read", &source.shown, &error)))
+}
 
 /// Fails if the process is to stop.
 ///

@@ -295,7 +295,8 @@ fn translated(
         destination.release(&mut outcome.output)?;
     }
     let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
-    if let Some(name) = &args.report {
+    // Of a run that was interrupted, the messages say where it was.
+    if let Some(name) = args.report.as_ref().filter(|_| !ncc_ir::halt::is_asked()) {
         files::to_file(name, &mut |out| report::write(out, &mut about, &outcome))?;
     }
     if let (Some(name), Some(record)) = (&args.map, record) {

@@ -10,6 +10,8 @@ mod diff;
 mod files;
 mod fmt;
 mod given;
+#[cfg(unix)]
+mod interrupt;
 mod linuxcnc_cases;
 mod machines;
 mod messages;
