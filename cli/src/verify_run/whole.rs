@@ -518,6 +518,10 @@ impl Verifier {
             }
             match self.run_side(1, run, &mut runners, &mut done, forks.as_deref_mut()) {
                 Ok(()) => {}
+                // What is read back has not failed: the user has stopped ncc.
+                Err(Diagnostic { fault: fault @ Fault::Interrupted { .. }, .. }) => {
+                    break Err(Ended::Source(Diagnostic::new(fault, runners[0].here())));
+                }
                 Err(fault) => {
                     let place = run.source_events.get(run.target_events.len());
                     break Err(match (target_arc(&fault.fault), place) {

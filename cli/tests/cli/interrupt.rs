@@ -57,7 +57,8 @@ fn a_run_says_where_it_was_and_leaves_nothing() {
         let (done, took) = interrupted(folder, arguments);
         let done = done.exits(130);
         assert!(took < Duration::from_secs(5), "{arguments:?}: {took:?}");
-        let named = (5..=9).any(|line| {
+        // A run with other facts may just have begun.
+        let named = (3..=9).any(|line| {
             done.err.contains(&format!("loop.nc:{line}:"))
                 || done.err.contains(&format!("line {line} of loop.nc"))
         });

@@ -5,6 +5,7 @@ mod arrow;
 mod batch;
 mod called;
 mod check;
+mod cycles;
 mod dialects;
 mod diff;
 mod files;
