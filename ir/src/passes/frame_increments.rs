@@ -263,7 +263,7 @@ struct Jumps {
 }
 
 impl Jumps {
-    fn to_label(&mut self, name: &Text, own: &Pending) {
+    fn go_to_label(&mut self, name: &Text, own: &Pending) {
         self.grown |= match self.labels.get_mut(name) {
             Some(label) => unite(label, own),
             None => {
@@ -311,8 +311,8 @@ fn pass(
                 after_call(own, ends.get(&call.name), stmt.skip.is_some());
             }
             Op::Label(name) => jumps.labels.get(name).into_iter().for_each(|from| _ = unite(own, from)),
-            Op::Goto(to) => jumps.to_label(to, own),
-            Op::RepeatBlocks(again) => jumps.to_label(&again.from, own),
+            Op::Goto(to) => jumps.go_to_label(to, own),
+            Op::RepeatBlocks(again) => jumps.go_to_label(&again.from, own),
             Op::Leave | Op::NextTurn => jumps.grown |= unite(&mut jumps.leaves, own),
             Op::Return => jumps.grown |= unite(&mut jumps.returns, own),
             Op::Control(control) if is_code(control) => own.measured = [true; 2],
