@@ -11,11 +11,11 @@ use crate::finding::{Finding, What};
 /// were not read may call them.
 pub fn never_called(program: &Program) -> Vec<Finding> {
     let mut called = BTreeSet::new();
+    let by_name = program.by_name();
     let mut open: Vec<&[Stmt]> = program.procedures.first().map(|p| p.body.as_slice()).into_iter().collect();
     while let Some(body) = open.pop() {
         calls(body, &mut |name| {
-            let target = program.procedures.iter().skip(1).position(|p| *p.name == *name);
-            if let Some(index) = target.map(|at| at + 1)
+            if let Some(index) = by_name.get(name).copied()
                 && called.insert(index)
             {
                 open.push(&program.procedures[index].body);

@@ -99,7 +99,8 @@ all options of `ncc translate --help` can be given with them.
 
 The translated program goes to stdout, everything else to stderr. Exit code: 0 done and verified;
 1 the program has errors or is not for a mill, or something would be lost; 2 wrong usage;
-3 verification failed and nothing is released; 4 a file could not be read or written.
+3 verification failed and nothing is released; 4 a file could not be read or written;
+130 interrupted by ctrl-C, and nothing is written.
 Of `ncc diff` and `ncc verify`: 1 the programs differ, or a certificate does not hold; 5 they could not be compared.";
 
 const TRANSLATE_EXAMPLES: &str = "\

@@ -55,7 +55,8 @@ pub struct CalledFile {
 impl Called {
     /// The file in which a place stands; `None` for the text's own.
     pub fn file(&self, place: u32) -> Option<&CalledFile> {
-        self.files.iter().find(|file| (file.places.0..=file.places.1).contains(&place))
+        let behind = self.files.partition_point(|file| file.places.1 < place);
+        self.files.get(behind).filter(|file| file.places.0 <= place)
     }
 }
 

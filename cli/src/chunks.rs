@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use sha2::{Digest, Sha256};
 
+use crate::interrupt;
+
 /// Bytes of a piece. Small enough that its statements stay in the second-level cache.
 const PIECE: usize = 16 * 1024;
 
@@ -23,6 +25,8 @@ pub(crate) struct Chunks<'r> {
     base: u64,
     over: bool,
     hash: Sha256,
+    /// Line ends in all that was handed out.
+    lines: u64,
 }
 
 /// A piece of the source.
@@ -37,7 +41,16 @@ pub(crate) enum Chunk {
 
 impl<'r> Chunks<'r> {
     pub(crate) fn new(from: &'r mut dyn Read) -> Chunks<'r> {
-        Chunks { from, buffer: vec![0; PIECE], filled: 0, used: 0, base: 0, over: false, hash: Sha256::new() }
+        Chunks {
+            from,
+            buffer: vec![0; PIECE],
+            filled: 0,
+            used: 0,
+            base: 0,
+            over: false,
+            hash: Sha256::new(),
+            lines: 0,
+        }
     }
 
     /// Text of a [`Chunk::Lines`].
@@ -48,8 +61,10 @@ impl<'r> Chunks<'r> {
     /// The next piece.
     ///
     /// # Errors
-    /// Reading failed, or the source is longer than 4 GiB.
+    /// Reading failed, the source is longer than 4 GiB, or ncc was interrupted.
     pub(crate) fn next(&mut self) -> io::Result<Chunk> {
+        self.lines += memchr::memchr_iter(b'\n', &self.buffer[..self.used]).count() as u64;
+        interrupt::heed(Some(self.lines + 1))?;
         self.buffer.copy_within(self.used..self.filled, 0);
         self.base += self.used as u64;
         self.filled -= self.used;

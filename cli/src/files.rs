@@ -11,6 +11,7 @@ use same_file::Handle;
 
 use crate::arrow;
 use crate::called::Called;
+use crate::interrupt;
 use crate::job::Output;
 use crate::problem::{Exit, Problem};
 use crate::project::{Settled, Used};
@@ -271,6 +272,7 @@ fn write_stdout(
     filtered: bool,
     write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Problem> {
+    interrupt::heed(None).map_err(|error| Problem::file("write", "stdout", &error))?;
     let mut stdout = io::stdout().lock();
     let written = match filtered {
         false => write(&mut stdout),
@@ -312,6 +314,7 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
         }
         Some(_) | None => {}
     }
+    let _placing = interrupt::placing()?;
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
         Some(_) | None => PathBuf::from("."),

@@ -19,6 +19,7 @@ pub mod fmt;
 pub mod given;
 pub mod guess;
 pub mod head;
+pub mod interrupt;
 pub mod job;
 pub mod judge;
 pub mod known;

@@ -3,5 +3,6 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    ncc::interrupt::listen();
     ExitCode::from(ncc::run::run(std::env::args_os().collect()) as u8)
 }

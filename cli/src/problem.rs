@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use serde::Serialize;
 
+use crate::interrupt::Interrupted;
 use crate::job::Failure;
 use crate::scratch::Lacking;
 
@@ -23,6 +24,8 @@ pub enum Exit {
     File = 4,
     /// Programs could not be compared.
     NotCompared = 5,
+    /// Ctrl-C: nothing was written (128 and the number of SIGINT, as shells have it).
+    Interrupted = 130,
 }
 
 impl Exit {
@@ -63,6 +66,13 @@ impl Problem {
         if let Some(lacking) = error.get_ref().and_then(|inner| inner.downcast_ref::<Lacking>()) {
             let message = format!("cannot {what} {name}: {lacking}");
             return Problem { exit: Exit::File, message, help: lacking.help() };
+        }
+        if let Some(interrupted) = error.get_ref().and_then(|inner| inner.downcast_ref::<Interrupted>()) {
+            let message = match interrupted.line {
+                Some(_) => format!("{interrupted} of {name}; nothing was written"),
+                None => format!("{interrupted}; {name} was not written"),
+            };
+            return Problem { exit: Exit::Interrupted, message, help: Vec::new() };
         }
         let reason = match error.kind() {
             io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),

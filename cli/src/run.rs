@@ -37,6 +37,12 @@ pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
+    let exit = run_verb(arguments);
+    // What was asked to stop may have taken that for a fault of the program.
+    if ncc_ir::halt::is_asked() { Exit::Interrupted } else { exit }
+}
+
+fn run_verb(arguments: Vec<OsString>) -> Exit {
     let mut err = Shown::new(StandardStream::stderr(choice(Color::Auto)));
     let as_json = arguments.windows(2).any(|a| a[0] == "--format" && a[1] == "json")
         || arguments.iter().any(|a| a == "--format=json");
@@ -289,7 +295,8 @@ fn translated(
         destination.release(&mut outcome.output)?;
     }
     let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
-    if let Some(name) = &args.report {
+    // Of a run that was interrupted, the messages say where it was.
+    if let Some(name) = args.report.as_ref().filter(|_| !ncc_ir::halt::is_asked()) {
         files::to_file(name, &mut |out| report::write(out, &mut about, &outcome))?;
     }
     if let (Some(name), Some(record)) = (&args.map, record) {

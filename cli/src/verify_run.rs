@@ -139,7 +139,7 @@ pub(crate) fn fixed(dialect: &Dialect) -> Modes {
 
 /// How a control says alarms.
 pub(crate) fn alarms_of(settings: &Settings) -> Option<Alarms> {
-    settings.caps().computes.and_then(|computes| computes.alarms)
+    settings.caps().computes.and_then(|computes| computes.alarms.clone())
 }
 
 /// Whether a control writes to devices.
@@ -270,7 +270,7 @@ impl Verifier {
             given: job.given.clone(),
             fineness: fineness(job),
             near: job.to.caps().computes.is_some_and(|computes| computes.near),
-            functions: job.to.caps().computes.map(|computes| computes.functions).unwrap_or_default(),
+            functions: job.to.caps().computes.map(|computes| computes.functions.clone()).unwrap_or_default(),
             last: Span::default(),
             outliving: Vec::new(),
             notes: Vec::new(),

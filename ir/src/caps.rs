@@ -1,5 +1,7 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
+use std::sync::Arc;
+
 use crate::behaviour::Behaviours;
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::compensated::Refused;
@@ -224,7 +226,7 @@ pub struct Caps {
     /// Advice that it has words for, each with its value.
     pub advice: Vec<(AdviceKind, u8)>,
     /// What it computes with when the program runs; `None` is nothing.
-    pub computes: Option<Box<Computes>>,
+    pub computes: Option<Arc<Computes>>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
 }

@@ -2,6 +2,8 @@
 //!
 //! Not here: how it spells it, and what only the digits of its words can tell (the back-end's).
 
+use std::collections::HashMap;
+
 use crate::alarms::Alarms;
 use crate::arguments;
 use crate::call_of::call_of;
@@ -311,18 +313,29 @@ impl Computes {
     /// The first call with variables of its own that stands within more others than the target takes; what calls
     /// itself may do so any number of times.
     pub fn too_deep(&self, program: &Program) -> Option<Diagnostic> {
-        fn down(program: &Program, body: &[Stmt], left: u32, shared: u32) -> Option<Span> {
+        struct Depth<'p> {
+            program: &'p Program,
+            places: HashMap<&'p str, usize>,
+            /// What was found in a procedure with so many calls left of both kinds.
+            known: HashMap<(usize, u32, u32), Option<Span>>,
+        }
+        fn down(depth: &mut Depth, body: &[Stmt], left: u32, shared: u32) -> Option<Span> {
             body.iter().find_map(|stmt| match &stmt.op {
-                Op::Control(control) => control.bodies().find_map(|body| down(program, body, left, shared)),
+                Op::Control(control) => control.bodies().find_map(|body| down(depth, body, left, shared)),
                 Op::Call(call) => {
                     let own = !call.shared || !call.arguments.is_empty();
                     let left = left.checked_sub(u32::from(own));
-                    let called = program.procedures.iter().skip(1).find(|p| p.name == call.name);
-                    match (left, called) {
+                    match (left, depth.places.get(&*call.name).copied()) {
                         (None, _) => Some(stmt.span),
-                        (Some(left), Some(called)) => {
+                        (Some(left), Some(place)) => {
                             let shared = shared.checked_sub(u32::from(!own))?;
-                            down(program, &called.body, left, shared)
+                            if let Some(found) = depth.known.get(&(place, left, shared)) {
+                                return *found;
+                            }
+                            let program = depth.program;
+                            let found = down(depth, &program.procedures[place].body, left, shared);
+                            depth.known.insert((place, left, shared), found);
+                            found
                         }
                         (Some(_), None) => None,
                     }
@@ -334,10 +347,11 @@ impl Computes {
             return None;
         }
         let most = u32::from(self.calls);
+        let mut depth = Depth { program, places: program.by_name(), known: HashMap::new() };
         let at = program
             .procedures
             .iter()
-            .find_map(|procedure| down(program, &procedure.body, most, MOST_SHARED))?;
+            .find_map(|procedure| down(&mut depth, &procedure.body, most, MOST_SHARED))?;
         Some(refuse("a call with variables of its own within so many others", at))
     }
 

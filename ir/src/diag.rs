@@ -246,6 +246,8 @@ faults! {
     NotExecuted { what: Box<str> } = 226, Error;
     /// A program that does not come to an end.
     NoEnd { steps: u64 } = 227, Error;
+    /// The user has stopped ncc while it executed the program.
+    Interrupted { steps: u64 } = 237, Error;
 
     /// A label that stands nowhere before the block that repeats from it.
     LabelUnknown { name: Box<str> } = 228, Error;

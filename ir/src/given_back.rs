@@ -11,7 +11,7 @@
 //!
 //! Not here: which statement is written how.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::canon::{FeedMode, Motion, SpindleMode, Units};
 use crate::caps::Caps;
@@ -35,9 +35,10 @@ pub fn run(program: &mut Program, entry: &Tracker, word: &str, diags: &mut Vec<D
         return diags.push(refused(word, what, Span::default()));
     };
     let mut changes: HashMap<Text, Changes> = HashMap::new();
+    let places = program.by_name();
     for procedure in program.procedures.iter().skip(1).filter(gives) {
         let mut look = Changes::default();
-        look.body(&procedure.body, program, &mut vec![procedure.name.clone()]);
+        look.body(&procedure.body, program, &places, &mut HashSet::from([&*procedure.name]));
         changes.insert(procedure.name.clone(), look);
     }
     for procedure in &mut program.procedures {
@@ -86,18 +87,26 @@ struct Changes {
 }
 
 impl Changes {
-    fn body(&mut self, body: &[Stmt], program: &Program, open: &mut Vec<Text>) {
+    /// `places` is where procedures stand by name; `seen` are those that were looked into.
+    fn body<'p>(
+        &mut self,
+        body: &'p [Stmt],
+        program: &'p Program,
+        places: &HashMap<&str, usize>,
+        seen: &mut HashSet<&'p str>,
+    ) {
         for stmt in body {
             match &stmt.op {
-                Op::Control(control) => control.bodies().for_each(|body| self.body(body, program, open)),
+                Op::Control(control) => {
+                    control.bodies().for_each(|body| self.body(body, program, places, seen))
+                }
                 Op::Call(call) => {
-                    let called = program.procedures.iter().skip(1).find(|p| p.name == call.name);
+                    let called = places.get(&*call.name).map(|place| &program.procedures[*place]);
                     if let Some(called) = called
                         && !called.attributes.contains(&Attribute::GivesBack)
-                        && !open.contains(&called.name)
+                        && seen.insert(&called.name)
                     {
-                        open.push(called.name.clone());
-                        self.body(&called.body, program, open);
+                        self.body(&called.body, program, places, seen);
                     }
                 }
                 op => self.op(op),

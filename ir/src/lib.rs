@@ -29,6 +29,7 @@ pub mod expr;
 pub mod fails;
 pub mod geometry;
 pub mod given_back;
+pub mod halt;
 mod kinds;
 pub mod letters;
 pub mod maps;

@@ -24,6 +24,8 @@ pub use machine::{
 };
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
+use std::collections::HashMap;
+
 use crate::canon::{
     AXES, AdviceKind, Axis, CornerShape, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel,
     RotaryWay, Side, SpindleMode, Turn, Units,
@@ -42,6 +44,14 @@ pub struct Program {
     pub assumed: Modes,
     /// `procedures[0]` is the main procedure.
     pub procedures: Vec<Procedure>,
+}
+
+impl Program {
+    /// Places in `procedures` of all but the main procedure, by their names; of several with one name the first counts.
+    pub fn by_name(&self) -> HashMap<&str, usize> {
+        let named = self.procedures.iter().enumerate().skip(1).rev();
+        named.map(|(place, procedure)| (&*procedure.name, place)).collect()
+    }
 }
 
 /// The program's own number and title.

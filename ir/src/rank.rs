@@ -189,6 +189,7 @@ impl Fault {
             | Fault::EntryFactNeeded { .. }
             | Fault::NotExecuted { .. }
             | Fault::NoEnd { .. }
+            | Fault::Interrupted { .. }
             | Fault::Endless
             | Fault::RadiusUnknown { .. }
             | Fault::ContourUnreachable { .. }

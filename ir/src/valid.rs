@@ -95,10 +95,12 @@ pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
                     let before = *held;
                     let mut behind = before;
                     for body in control.bodies() {
-                        // Its turns begin with what the last one leaves.
                         let mut inside = before;
                         over(body, &mut inside, at);
-                        over(body, &mut inside, at);
+                        // Its turns begin with what the last one leaves.
+                        if inside && !before {
+                            over(body, &mut inside, at);
+                        }
                         behind |= inside;
                     }
                     *held = behind;
@@ -107,17 +109,92 @@ pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
             }
         }
     }
-    fn calls_up(body: &[Stmt]) -> bool {
-        body.iter().any(|stmt| match stmt.op.unwrapped() {
-            Op::Control(control) => control.bodies().any(|body| calls_up(body)),
-            op => matches!(op, Op::StartCycle(_)),
-        })
-    }
     let (mut held, mut at) = (false, None);
     if calls_up(body) {
         over(body, &mut held, &mut at);
     }
     at
+}
+
+/// Whether a body calls up a cycle.
+fn calls_up(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match stmt.op.unwrapped() {
+        Op::Control(control) => control.bodies().any(|body| calls_up(body)),
+        op => matches!(op, Op::StartCycle(_)),
+    })
+}
+
+/// Where subprograms may end a cycle that their caller has called up, the first place of each: by a code, a move or a
+/// cycle of their own.
+pub fn ends_callers_cycle(program: &Program) -> Vec<Span> {
+    struct Look<'p> {
+        places: HashMap<&'p str, usize>,
+        /// Procedures that may be called while a cycle is in force.
+        under: Vec<bool>,
+        grown: bool,
+    }
+    /// What may be in force: a cycle, and the caller's.
+    #[derive(Clone, Copy, PartialEq)]
+    struct Held {
+        any: bool,
+        callers: bool,
+    }
+    impl Look<'_> {
+        /// `led` is what may be in force where a jump leads to.
+        fn over(&mut self, body: &[Stmt], led: Held, held: &mut Held, at: &mut Option<Span>) {
+            for stmt in body {
+                let op = stmt.op.unwrapped();
+                match op {
+                    Op::StartCycle(_) | Op::EndCycle | moves!() => {
+                        if held.callers && at.is_none() {
+                            *at = Some(stmt.span);
+                        }
+                        if stmt.skip.is_none() {
+                            *held = Held { any: false, callers: false };
+                        }
+                        held.any |= matches!(op, Op::StartCycle(_));
+                    }
+                    Op::Call(call) if held.any => {
+                        if let Some(place) = self.places.get(&*call.name) {
+                            self.grown |= !std::mem::replace(&mut self.under[*place], true);
+                        }
+                    }
+                    Op::Label(_) => {
+                        *held = Held { any: held.any || led.any, callers: held.callers || led.callers };
+                    }
+                    Op::Control(control) => {
+                        let before = *held;
+                        for body in control.bodies() {
+                            let mut inside = before;
+                            self.over(body, led, &mut inside, at);
+                            // Its turns begin with what the last one leaves.
+                            if inside.any && !before.any {
+                                self.over(body, led, &mut inside, at);
+                            }
+                            held.any |= inside.any;
+                            held.callers |= inside.callers;
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    let count = program.procedures.len();
+    let mut look = Look { places: program.by_name(), under: vec![false; count], grown: true };
+    let mut found = Vec::new();
+    while std::mem::take(&mut look.grown) {
+        found.clear();
+        for (place, procedure) in program.procedures.iter().enumerate() {
+            let under = look.under[place];
+            let mut held = Held { any: under, callers: under };
+            let led = Held { any: under || calls_up(&procedure.body), callers: under };
+            let mut at = None;
+            look.over(&procedure.body, led, &mut held, &mut at);
+            found.extend(at);
+        }
+    }
+    found
 }
 
 fn is_move(stmt: &Stmt) -> bool {

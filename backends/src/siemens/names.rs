@@ -33,22 +33,31 @@ pub(super) struct Name {
 /// Names of one text.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
-    made: BTreeMap<Box<str>, String>,
-    /// The names that were made, each behind its kind.
-    taken: BTreeSet<String>,
+    programs: Kind,
+    labels: Kind,
+    variables: Kind,
     /// Names of programs, that no variable has.
     reserved: BTreeSet<String>,
+}
+
+/// Names of one kind: a label may have the name of a program.
+#[derive(Clone, Debug, Default)]
+struct Kind {
+    /// By the source's name.
+    made: BTreeMap<Box<str>, String>,
+    /// The names that were made.
+    taken: BTreeSet<String>,
 }
 
 impl Names {
     /// The name for a subprogram.
     pub(super) fn program(&mut self, name: &str) -> Name {
-        self.unique("program ", name, program(name))
+        self.programs.unique(name, program(name))
     }
 
     /// The name for a label.
     pub(super) fn label(&mut self, name: &str) -> Name {
-        self.unique("label ", name, identifier(name, "L_"))
+        self.labels.unique(name, identifier(name, "L_"))
     }
 
     /// The name for a variable of the unit at hand; `taken` are words of the language.
@@ -58,13 +67,12 @@ impl Names {
         if taken(&wanted) || WORDS.contains(&wanted.as_str()) || programs(&wanted) {
             wanted = named(&format!("V_{wanted}"), "", LONGEST_VARIABLE);
         }
-        self.unique("variable ", name, wanted)
+        self.variables.unique(name, wanted)
     }
 
     /// The variables of another unit begin.
     pub(super) fn new_variables(&mut self) {
-        self.made.retain(|key, _| !key.starts_with("variable "));
-        self.taken.retain(|key| !key.starts_with("variable "));
+        self.variables = Kind::default();
     }
 
     /// No variable has the name of a program.
@@ -75,29 +83,29 @@ impl Names {
     /// The name for the main program, which no subprogram may have.
     pub(super) fn main(&self, name: &str) -> String {
         let name = identifier(name, "P_");
-        let taken = self.taken.contains(&format!("program {name}"));
+        let taken = self.programs.taken.contains(&name);
         if taken { format!("{}_MAIN", cut(&name, LONGEST - 5)) } else { name }
     }
 
     /// Whether a label of that name has been written.
     pub(super) fn has_label(&self, name: &str) -> bool {
-        self.made.contains_key(format!("label {name}").as_str())
+        self.labels.made.contains_key(name)
     }
+}
 
-    fn unique(&mut self, kind: &str, name: &str, wanted: String) -> Name {
-        let key = format!("{kind}{name}");
-        if let Some(made) = self.made.get(key.as_str()) {
+impl Kind {
+    fn unique(&mut self, name: &str, wanted: String) -> Name {
+        if let Some(made) = self.made.get(name) {
             return Name { text: made.clone(), changed: None };
         }
-        let taken = |text: &String| self.taken.contains(&format!("{kind}{text}"));
         let mut text = wanted.clone();
         let mut more = 2;
-        while taken(&text) {
+        while self.taken.contains(&text) {
             text = format!("{}_{more}", cut(&wanted, LONGEST - 4));
             more += 1;
         }
-        self.made.insert(key.into(), text.clone());
-        self.taken.insert(format!("{kind}{text}"));
+        self.made.insert(name.into(), text.clone());
+        self.taken.insert(text.clone());
         let changed = (!text.eq_ignore_ascii_case(name))
             .then(|| Fault::NameChanged { from: name.into(), to: text.as_str().into() });
         Name { text, changed }

@@ -218,8 +218,10 @@ impl<'d> Drive<'d> {
             self.subprogram = true;
             return true;
         }
-        let endless =
-            matches!(refusal.fault, Fault::CallRecursive { .. } | Fault::NoEnd { .. } | Fault::Endless);
+        let endless = matches!(
+            refusal.fault,
+            Fault::CallRecursive { .. } | Fault::NoEnd { .. } | Fault::Interrupted { .. } | Fault::Endless
+        );
         if endless {
             self.checker.give_up();
         }

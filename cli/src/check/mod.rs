@@ -29,6 +29,7 @@ use self::told::Program;
 use crate::args::Color;
 use crate::files::{self, Destination, Source};
 use crate::guess::better;
+use crate::interrupt;
 use crate::job::Output;
 use crate::known::Known;
 use crate::machines::pair::Machines;
@@ -103,6 +104,9 @@ fn one(
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
     let limits = limits(args, profile.or(job.machines.from.as_deref()));
     let course = drive::drive(&job, limits, args.switches.on(), &mut source).map_err(wrong)?;
+    if let Some(problem) = interrupt::problem(&course.diagnostics, &mut source).map_err(wrong)? {
+        return Err(problem);
+    }
     if say {
         let sound = course.diagnostics.iter().all(|d| d.fault.gravity() != Gravity::Error);
         questions::note(&job, &mut source, &course.diagnostics, sound, err)?;

@@ -55,7 +55,8 @@ fn severity_of(fault: &Fault) -> Severity {
         | Fault::NotExecuted { .. }
         | Fault::EntryFactNeeded { .. }
         | Fault::PositionUnknown { .. }
-        | Fault::NoEnd { .. } => Severity::Note,
+        | Fault::NoEnd { .. }
+        | Fault::Interrupted { .. } => Severity::Note,
         Fault::UnknownCode { .. } => Severity::Warning,
         _ => match fault.gravity() {
             Gravity::Error => Severity::Error,

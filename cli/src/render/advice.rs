@@ -182,7 +182,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::CallsTooDeep { .. } => own("put some of the called blocks into the programs that call them"),
         Fault::NoEnd { .. } => own("count fewer iterations for the trial, or look whether its loops end"),
-        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::Endless => Vec::new(),
+        Fault::CallRecursive { .. }
+        | Fault::ProgramTwice { .. }
+        | Fault::Endless
+        | Fault::Interrupted { .. } => Vec::new(),
         Fault::LabelUnknown { .. } => own(
             "put the label where the block looks for it: before one that repeats, in its direction from a jump",
         ),

@@ -452,6 +452,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::EntryFactNeeded { .. }
         | Fault::NotExecuted { .. }
         | Fault::NoEnd { .. }
+        | Fault::Interrupted { .. }
         | Fault::Endless
         | Fault::CannotSay { .. }
         | Fault::SecondWorkOffset { .. }

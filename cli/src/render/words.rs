@@ -380,6 +380,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             let steps = thousands(*steps);
             ("the program runs for too long to be executed".into(), format!("still running after {steps} blocks"))
         }
+        Fault::Interrupted { steps } => {
+            ("interrupted".into(), format!("the program was here, after {} blocks", thousands(*steps)))
+        }
 
         Fault::AssumedMode { fact, value } => (
             format!("{}: {} assumed", mode(*fact), plain(value)),

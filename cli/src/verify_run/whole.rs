@@ -228,7 +228,7 @@ pub(super) enum Ended {
     /// It does, for what it takes for granted of the source's numbers is not so.
     NotSo(Diagnostic),
     /// It is long enough.
-    Enough,
+    Enough(Span),
 }
 
 impl Verifier {
@@ -339,9 +339,9 @@ impl Verifier {
                 Err(Ended::Source(fault)) if !given.open.is_empty() => failed = failed.or(Some(fault)),
                 Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                 Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
-                Err(Ended::Enough) => {
+                Err(Ended::Enough(at)) => {
                     let fault = Fault::NoEnd { steps: MOST_EVENTS };
-                    return Err(Stop::Source(Diagnostic::new(fault, self.last)));
+                    return Err(Stop::Source(Diagnostic::new(fault, at)));
                 }
             }
             if let (Some(mut forks), Some(start)) = (forks, &start) {
@@ -379,9 +379,9 @@ impl Verifier {
             let to: To = (&mut gone, &mut |_| {});
             match self.run_against(&mut run, sides, given, Set::long(set), to, None) {
                 Ok(()) => failed = None,
-                Err(Ended::Enough) => {
+                Err(Ended::Enough(at)) => {
                     let fault = Fault::NoEnd { steps: MOST_EVENTS };
-                    return Err(Stop::Source(Diagnostic::new(fault, self.last)));
+                    return Err(Stop::Source(Diagnostic::new(fault, at)));
                 }
                 Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                 Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
@@ -425,7 +425,7 @@ impl Verifier {
                 let events = run.comparison.events;
                 let ended =
                     self.run_against(&mut run, sides, given, Set::short(set), (gone, &mut |_| {}), None);
-                if matches!(ended, Ok(()) | Err(Ended::Enough)) {
+                if matches!(ended, Ok(()) | Err(Ended::Enough(_))) {
                     came.events += run.comparison.events - events;
                     if first || before != (gone.source.clone(), gone.target.clone()) {
                         came.new_paths.push((at, set));
@@ -433,7 +433,7 @@ impl Verifier {
                 }
                 match ended {
                     Ok(()) => came.through = true,
-                    Err(Ended::Enough) => came.goes_on = came.goes_on.or(Some((at, set))),
+                    Err(Ended::Enough(_)) => came.goes_on = came.goes_on.or(Some((at, set))),
                     Err(Ended::Source(_)) => {}
                     Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                     Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
@@ -518,6 +518,10 @@ impl Verifier {
             }
             match self.run_side(1, run, &mut runners, &mut done, forks.as_deref_mut()) {
                 Ok(()) => {}
+                // What is read back has not failed: the user has stopped ncc.
+                Err(Diagnostic { fault: fault @ Fault::Interrupted { .. }, .. }) => {
+                    break Err(Ended::Source(Diagnostic::new(fault, runners[0].here())));
+                }
                 Err(fault) => {
                     let place = run.source_events.get(run.target_events.len());
                     break Err(match (target_arc(&fault.fault), place) {
@@ -530,7 +534,7 @@ impl Verifier {
             }
             let over = done == [true; 2];
             if run.comparison.events - first > set.most {
-                break Err(Ended::Enough);
+                break Err(Ended::Enough(runners[0].here()));
             }
             if over {
                 if let Err(fault) = run.source.no_open_corner() {
@@ -558,7 +562,7 @@ impl Verifier {
                 forks.look(run, &runners, self);
             }
         };
-        if let (Some(forks), Ok(()) | Err(Ended::Source(_) | Ended::Enough)) = (forks, &ended) {
+        if let (Some(forks), Ok(()) | Err(Ended::Source(_) | Ended::Enough(_))) = (forks, &ended) {
             forks.finish(self);
         }
         runners[0].add_taken(&mut gone.source);

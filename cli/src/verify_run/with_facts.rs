@@ -73,7 +73,7 @@ impl Verifier {
             let set = Set { number, most: self.reach[0], idle };
             let to: To = (&mut Gone::default(), &mut |_| {});
             let ended = self.run_both(&mut run, sides, given, set, to, None);
-            if matches!(ended, Err(Ended::Enough)) {
+            if matches!(ended, Err(Ended::Enough(_))) {
                 let at = run.source_events.first().map_or(self.last, |event| event.span);
                 self.untried.push((other, at));
             }
@@ -101,7 +101,7 @@ impl Verifier {
             Err(Ended::NotSo(fault)) if other.explains(run) => self.matters.push((other, fault.span)),
             Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
             // It cannot be executed so, or is long enough.
-            Ok(()) | Err(Ended::Source(_) | Ended::Enough) => {}
+            Ok(()) | Err(Ended::Source(_) | Ended::Enough(_)) => {}
         }
         Ok(())
     }
@@ -112,7 +112,7 @@ pub(super) fn tells(ended: &Result<(), Ended>, run: &Run) -> bool {
     match ended {
         Ok(()) => run.fed_otherwise().is_some(),
         Err(Ended::Source(fault)) => by_target(&fault.fault),
-        Err(Ended::Enough) => false,
+        Err(Ended::Enough(_)) => false,
         Err(Ended::Target(_) | Ended::NotSo(_)) => true,
     }
 }

@@ -5,11 +5,14 @@ mod arrow;
 mod batch;
 mod called;
 mod check;
+mod cycles;
 mod dialects;
 mod diff;
 mod files;
 mod fmt;
 mod given;
+#[cfg(unix)]
+mod interrupt;
 mod linuxcnc_cases;
 mod machines;
 mod messages;

@@ -3,7 +3,7 @@
 //! A jump looks for its label in its direction, the nearest first. Labels of one name that a jump names get names of
 //! their own, so that each jump says which it means.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::Num;
@@ -47,9 +47,13 @@ pub(super) fn resolve(
 ) -> bool {
     let before = told.len();
     let names = own_names(labels, jumps);
-    let mut found: Vec<(Text, Option<Text>)> = Vec::new();
+    let mut by_name: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (place, label) in labels.iter().enumerate() {
+        by_name.entry(&label.name).or_default().push(place);
+    }
+    let mut found: HashMap<Text, Option<Text>> = HashMap::new();
     for jump in jumps {
-        let to = aim(labels, jump);
+        let to = aim(labels, by_name.get(&*jump.name).map_or(&[], Vec::as_slice), jump);
         let quiet = jump.direction == Direction::BothQuietly;
         let refuse = match to {
             None if quiet => None,
@@ -69,15 +73,15 @@ pub(super) fn resolve(
             let fault = Fault::NotSupported { code: jump.name.clone(), name: refuse.into() };
             told.push(Diagnostic::new(fault, jump.span));
         }
-        found.push((marked(&jump.name, jump.span), to.map(|to| names[to].clone())));
+        found.insert(marked(&jump.name, jump.span), to.map(|to| names[to].clone()));
     }
-    let renamed: Vec<(u32, Text)> = labels
+    let renamed: HashMap<u32, Text> = labels
         .iter()
         .zip(&names)
         .filter(|(label, name)| label.name != **name)
         .map(|(label, name)| (label.at, name.clone()))
         .collect();
-    let mut now: Vec<(Text, Text)> = Vec::new();
+    let mut now: HashMap<Text, Text> = HashMap::new();
     join(body, &found, &renamed, &mut now);
     told.len() > before
 }
@@ -87,12 +91,12 @@ pub(super) fn marked(name: &str, span: Span) -> Text {
     format!("{name} {}", span.end).into()
 }
 
-/// The place of the label that a jump goes to.
-fn aim(labels: &[Label], jump: &Pending) -> Option<usize> {
-    let named = |label: &Label| label.name == jump.name;
+/// The place of the label that a jump goes to; `named` are those of its name, in the order of the text.
+fn aim(labels: &[Label], named: &[usize], jump: &Pending) -> Option<usize> {
     let at = jump.span.end;
-    let forward = || labels.iter().position(|label| named(label) && label.at > at);
-    let backward = || labels.iter().rposition(|label| named(label) && label.at <= at);
+    let behind = named.partition_point(|place| labels[*place].at <= at);
+    let forward = || named.get(behind).copied();
+    let backward = || behind.checked_sub(1).map(|last| named[last]);
     match jump.direction {
         Direction::Forward => forward(),
         Direction::Backward => backward(),
@@ -104,15 +108,23 @@ fn aim(labels: &[Label], jump: &Pending) -> Option<usize> {
 /// A name for each label: its own, but where jumps name one of several that have it.
 fn own_names(labels: &[Label], jumps: &[Pending]) -> Vec<Text> {
     let mut taken: HashSet<Text> = labels.iter().map(|label| label.name.clone()).collect();
+    let jumped: HashSet<&str> = jumps.iter().map(|jump| &*jump.name).collect();
+    let mut last: HashMap<&str, u32> = HashMap::new();
     let mut seen: HashSet<&str> = HashSet::new();
     let mut names = Vec::with_capacity(labels.len());
     for label in labels {
-        let again = !seen.insert(&label.name) && jumps.iter().any(|jump| jump.name == label.name);
+        let again = !seen.insert(&label.name) && jumped.contains(&*label.name);
         let name = match again {
             false => label.name.clone(),
             true => {
-                let free = (2u32..).map(|n| Text::from(format!("{}_{n}", label.name)));
-                free.into_iter().find(|name| !taken.contains(name)).unwrap_or_default()
+                let number = last.entry(&label.name).or_insert(1);
+                loop {
+                    *number += 1;
+                    let name = Text::from(format!("{}_{number}", label.name));
+                    if !taken.contains(&name) {
+                        break name;
+                    }
+                }
             }
         };
         taken.insert(name.clone());
@@ -124,30 +136,29 @@ fn own_names(labels: &[Label], jumps: &[Pending]) -> Vec<Text> {
 /// Puts the names of labels into jumps, and into labels and repetitions that have other names now.
 fn join(
     body: &mut Vec<Stmt>,
-    jumps: &[(Text, Option<Text>)],
-    renamed: &[(u32, Text)],
-    now: &mut Vec<(Text, Text)>,
+    jumps: &HashMap<Text, Option<Text>>,
+    renamed: &HashMap<u32, Text>,
+    now: &mut HashMap<Text, Text>,
 ) {
     body.retain_mut(|stmt| {
         let at = stmt.span.start;
         match &mut stmt.op {
-            Op::Goto(to) => match jumps.iter().find(|(mark, _)| mark == to) {
-                Some((_, Some(name))) => *to = name.clone(),
+            Op::Goto(to) => match jumps.get(to) {
+                Some(Some(name)) => *to = name.clone(),
                 // One that goes nowhere, and need not.
-                Some((_, None)) => return false,
+                Some(None) => return false,
                 None => {}
             },
             Op::Label(name) => {
-                let own = renamed.iter().find(|(label, _)| *label == at).map(|(_, own)| own.clone());
-                now.retain(|(written, _)| written != name);
-                if let Some(own) = own {
-                    now.push((name.clone(), own.clone()));
-                    *name = own;
+                now.remove(name);
+                if let Some(own) = renamed.get(&at) {
+                    now.insert(name.clone(), own.clone());
+                    *name = own.clone();
                 }
             }
             Op::RepeatBlocks(repeat) => {
                 for name in [Some(&mut repeat.from), repeat.to.as_mut()].into_iter().flatten() {
-                    if let Some((_, own)) = now.iter().find(|(written, _)| written == name) {
+                    if let Some(own) = now.get(name) {
                         *name = own.clone();
                     }
                 }

@@ -5,7 +5,7 @@
 //!
 //! Not here: which expressions there are (`formula`), and what they are worth.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Dialect, Operator, Quantity, RemainderRule};
 use ncc_ir::canon::Units;
@@ -49,7 +49,7 @@ pub(super) struct Computes {
     passed: BTreeSet<u32>,
     loops: Vec<Open>,
     /// How many arguments programs are called with, by their names.
-    called: Vec<(Text, usize)>,
+    called: BTreeMap<Text, usize>,
     /// Jumps to blocks whose number is computed.
     pub(super) jumps_of: Vec<JumpOf>,
     /// Calls of blocks of the main program.
@@ -130,16 +130,16 @@ pub(super) fn label(number: u32) -> Text {
 impl Computes {
     /// A program is called with so many arguments.
     pub(super) fn calls(&mut self, name: &str, arguments: usize) {
-        match self.called.iter_mut().find(|(other, _)| **other == *name) {
-            Some((_, most)) => *most = (*most).max(arguments),
-            None => self.called.push((name.into(), arguments)),
+        match self.called.get_mut(name) {
+            Some(most) => *most = (*most).max(arguments),
+            None => _ = self.called.insert(name.into(), arguments),
         }
     }
 
     /// The text is over: what is called with arguments has them as its first local variables.
     pub(super) fn give_parameters(&self, procedures: &mut [Procedure]) {
-        for (name, most) in &self.called {
-            for procedure in procedures.iter_mut().filter(|procedure| procedure.name == *name) {
+        for procedure in procedures {
+            if let Some(most) = self.called.get(&procedure.name) {
                 procedure.parameters = parameters(*most);
             }
         }

@@ -3,6 +3,8 @@
 //!
 //! The first program of a text is the main one; each further program number begins a subprogram.
 
+use std::collections::HashSet;
+
 use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Text};
@@ -86,7 +88,9 @@ pub(super) struct Frame {
     pub(super) is_binary: bool,
     control_signs: u32,
     /// Numbers and names of the programs met.
-    programs: Vec<Text>,
+    programs: HashSet<Text>,
+    /// The same, in small letters.
+    lower_case: HashSet<String>,
     /// End of what has been read.
     pub(super) end: u32,
 }
@@ -111,7 +115,8 @@ impl Frame {
             after_end: false,
             is_binary: false,
             control_signs: 0,
-            programs: Vec::new(),
+            programs: HashSet::new(),
+            lower_case: HashSet::new(),
             end: 0,
         }
     }
@@ -124,7 +129,7 @@ impl Frame {
     }
 
     /// Numbers and names of the programs met.
-    pub(super) fn programs(&self) -> &[Text] {
+    pub(super) fn programs(&self) -> &HashSet<Text> {
         &self.programs
     }
 }
@@ -294,7 +299,7 @@ impl Reader {
             .trim_end_matches('>')
             .into();
         out.name.title = Some(name);
-        self.frame.programs.push("".into());
+        self.frame.programs.insert("".into());
         self.block.title = None;
         self.block.is_empty()
     }
@@ -325,12 +330,12 @@ impl Reader {
             Some(_) | None => None,
         };
         let name = called.text();
-        if self.frame.programs.iter().any(|other| other.eq_ignore_ascii_case(&name)) {
+        if !self.frame.lower_case.insert(name.to_ascii_lowercase()) {
             out.report(Fault::ProgramTwice { name: name.clone() }, span);
             self.frame.faulty = true;
         }
         let is_main = self.frame.programs.is_empty() && !self.frame.blocks;
-        self.frame.programs.push(name.clone());
+        self.frame.programs.insert(name.clone());
         if is_main {
             match called {
                 Called::Number(number) => {

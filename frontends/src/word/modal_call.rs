@@ -8,6 +8,8 @@
 //! Refused by name: one within another, other calls and cycles while it is in force, and ways from where it is in force
 //! to where it is not.
 
+use std::collections::{BTreeSet, HashMap};
+
 use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
@@ -255,9 +257,17 @@ impl Lower {
     pub(super) fn calls_over(&mut self, out: &mut Batch) {
         self.computes.at_moves = None;
         let labels = std::mem::take(&mut self.computes.reach.labels);
+        let mut by_number: HashMap<u32, BTreeSet<u32>> = HashMap::new();
+        for (number, calls) in &labels {
+            by_number.entry(*number).or_default().insert(*calls);
+        }
+        let all: BTreeSet<u32> = labels.iter().map(|(_, calls)| *calls).collect();
         for (to, from, at) in std::mem::take(&mut self.computes.reach.jumps) {
-            let named = |label: &&(u32, u32)| to.is_none_or(|to| to == label.0);
-            if labels.iter().filter(named).any(|label| label.1 != from) {
+            let calls = match to {
+                Some(to) => by_number.get(&to),
+                None => Some(&all),
+            };
+            if calls.is_some_and(|calls| calls.iter().any(|calls| *calls != from)) {
                 self.refuse_under("jump over the beginning or end of a modal call", at, out);
             }
         }

@@ -5,6 +5,8 @@
 //! `#<_value>`, and whether it gives anything in `#<_value_returned>`. The two kinds of programs must be called by
 //! their own words.
 
+use std::collections::{HashMap, HashSet, hash_map};
+
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
@@ -40,9 +42,11 @@ pub(super) struct Outer {
 #[derive(Debug, Default)]
 pub(super) struct Subs {
     /// Names, and whether they end with M99.
-    known: Vec<(Text, bool)>,
+    known: HashMap<Text, bool>,
     /// The same of what is called, each with where, and whether the main program calls it.
     called: Vec<(Text, bool, Span, bool)>,
+    /// What the main program calls.
+    called_by_main: HashSet<Text>,
     /// Whether anything asks for the result of a call, and whether a return without one has been met before.
     pub(super) results: bool,
     plain_return: Option<Span>,
@@ -51,11 +55,12 @@ pub(super) struct Subs {
 impl Subs {
     /// A program that ends with M99.
     pub(super) fn numbered(&mut self, name: Text) {
-        self.known.push((name, true));
+        self.known.entry(name).or_insert(true);
     }
 
     /// A call of one.
     pub(super) fn calls_numbered(&mut self, name: Text, at: Span, main: bool) {
+        self.called_by_main.extend(main.then(|| name.clone()));
         self.called.push((name, true, at, main));
     }
 }
@@ -126,19 +131,16 @@ impl Reader {
             let fault = refused(&name, FlowWord::Sub, "subprogram within a loop or a decision");
             return self.sub_fault(fault, span, out);
         }
-        let calls = &self.lower.o.subs.called;
-        if !self.lower.ended && calls.iter().any(|(other, _, _, main)| *main && *other == name) {
+        if !self.lower.ended && self.lower.o.subs.called_by_main.contains(&name) {
             // The call has gone on to it, and the program comes to it once more.
             let told = "subprogram that a program calls and comes to, since nothing ends it before";
             self.sub_fault(refused(&name, FlowWord::Sub, told), span, out);
         }
-        if self.frame.programs().contains(&name)
-            || self.lower.o.subs.known.iter().any(|(other, _)| *other == name)
-        {
+        if self.frame.programs().contains(&name) || self.lower.o.subs.known.contains_key(&name) {
             self.sub_fault(Fault::ProgramTwice { name: name.clone() }, span, out);
         }
         self.frame.blocks = true;
-        self.lower.o.subs.known.push((name.clone(), false));
+        self.lower.o.subs.known.insert(name.clone(), false);
         let lower = &mut self.lower;
         let outer = Outer {
             unmoved: lower.unmoved.aside(),
@@ -235,6 +237,7 @@ impl Lower {
             return self.fault(refused(label, FlowWord::Call, told), span, out);
         }
         let main = self.sub.is_none();
+        self.o.subs.called_by_main.extend(main.then(|| name.clone()));
         self.o.subs.called.push((name.clone(), false, span, main));
         self.found_variables(out);
         self.leave_motion(None, out);
@@ -313,28 +316,29 @@ impl Lower {
     /// The text is over: calls get as many arguments as their programs have, and programs that are computed are
     /// looked for among all.
     pub(super) fn settle_calls(&mut self, out: &mut Batch) {
+        let subs = std::mem::take(&mut self.o.subs.known);
         for (name, numbered, at, _) in std::mem::take(&mut self.o.subs.called) {
-            let known = self.o.subs.known.iter().find(|(other, _)| *other == name);
-            if let Some((_, found)) = known.filter(|(_, found)| *found != numbered) {
+            if let Some(found) = subs.get(&name).filter(|found| **found != numbered) {
                 let name = format!("{name}, which {}", if *found { "ends with M99" } else { "is a sub" });
                 let code = if numbered { "M98" } else { "call" }.into();
                 out.report(Fault::NotSupported { code, name: format!("call of O{name}").into() }, at);
             }
         }
-        let subs: Vec<(Text, bool)> = std::mem::take(&mut self.o.subs.known);
-        let mut most: Vec<(Text, usize)> = Vec::new();
+        // In the order of the text, in which a computed number is compared with them.
         let mut numbers = Vec::new();
-        for (name, _) in subs.iter().filter(|(_, numbered)| !numbered) {
-            let own = out.procedures.iter().find(|p| p.name == *name).map_or(0, |p| p.parameters.len());
-            most.push((name.clone(), own));
-            numbers.extend(name.parse::<u32>().ok().map(|_| name.clone()));
+        let mut most: HashMap<Text, usize> = HashMap::new();
+        for procedure in out.procedures.iter().filter(|p| subs.get(&p.name) == Some(&false)) {
+            if let hash_map::Entry::Vacant(entry) = most.entry(procedure.name.clone()) {
+                entry.insert(procedure.parameters.len());
+                numbers.extend(procedure.name.parse::<u32>().ok().map(|_| procedure.name.clone()));
+            }
         }
         let bodies = std::iter::once(&mut out.stmts).chain(out.procedures.iter_mut().map(|p| &mut p.body));
         let mut bodies: Vec<&mut Vec<Stmt>> = bodies.collect();
         bodies.iter_mut().for_each(|body| count(body, &numbers, &mut most));
         bodies.iter_mut().for_each(|body| settle(body, &numbers, &most));
-        for (name, count) in &most {
-            for procedure in out.procedures.iter_mut().filter(|p| p.name == *name) {
+        for procedure in &mut out.procedures {
+            if let Some(count) = most.get(&procedure.name) {
                 procedure.parameters = (1..=*count).map(|n| Var::Local(n.to_string().into())).collect();
             }
         }
@@ -342,14 +346,15 @@ impl Lower {
 }
 
 /// Finds the most arguments of every program's calls.
-fn count(body: &mut [Stmt], numbers: &[Text], most: &mut [(Text, usize)]) {
+fn count(body: &mut [Stmt], numbers: &[Text], most: &mut HashMap<Text, usize>) {
     for stmt in body {
         match &mut stmt.op {
             Op::Call(call) => {
                 let computed = *call.name == *COMPUTED;
                 let given = call.arguments.len() - usize::from(computed);
-                for (name, most) in most.iter_mut() {
-                    if *name == call.name || computed && numbers.contains(name) {
+                let called = if computed { numbers } else { std::slice::from_ref(&call.name) };
+                for name in called {
+                    if let Some(most) = most.get_mut(name) {
                         *most = given.max(*most);
                     }
                 }
@@ -361,7 +366,7 @@ fn count(body: &mut [Stmt], numbers: &[Text], most: &mut [(Text, usize)]) {
 }
 
 /// Gives calls their arguments, and programs to those that are computed.
-fn settle(body: &mut [Stmt], numbers: &[Text], most: &[(Text, usize)]) {
+fn settle(body: &mut [Stmt], numbers: &[Text], most: &HashMap<Text, usize>) {
     for stmt in body {
         let span = stmt.span;
         match &mut stmt.op {
@@ -393,8 +398,8 @@ fn settle(body: &mut [Stmt], numbers: &[Text], most: &[(Text, usize)]) {
     }
 }
 
-fn pad(call: &mut Call, most: &[(Text, usize)]) {
-    if let Some((_, count)) = most.iter().find(|(name, _)| *name == call.name) {
+fn pad(call: &mut Call, most: &HashMap<Text, usize>) {
+    if let Some(count) = most.get(&call.name) {
         call.arguments.resize(*count, Expr::int(0));
     }
 }

@@ -1,5 +1,7 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
+use std::sync::Arc;
+
 use ncc_ir::alarms::Alarms;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, Side, Turn};
@@ -370,7 +372,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         stop_messages: dialect.formula.statements.contains(&Statement::Stop),
         computes: (reads_formulas(dialect) && !dialect.formula.operators.is_empty()).then(|| {
             let rules = &dialect.formula;
-            Box::new(Computes {
+            Arc::new(Computes {
                 statements: rules.statements.iter().map(|statement| (*statement).into()).collect(),
                 operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
                 functions: {

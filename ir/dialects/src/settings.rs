@@ -1,7 +1,7 @@
 //! A dialect with the choices made for its options.
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Units;
@@ -341,8 +341,9 @@ impl Settings {
         if self.writes_names() {
             caps.call_digits = 0;
         }
-        if let Some(computes) = &mut caps.computes {
-            computes.turn = self.get(ANGLE_RANGE) == "turn";
+        let turn = self.get(ANGLE_RANGE) == "turn";
+        if let Some(computes) = caps.computes.as_mut().filter(|computes| computes.turn != turn) {
+            Arc::make_mut(computes).turn = turn;
         }
         caps.behaviours = self.behaviours();
         caps.change_stops_spindle = self.change_stops_spindle();

@@ -102,6 +102,32 @@ pub(super) struct Computed<'p> {
     pub(super) terms: Box<[Option<Term>]>,
 }
 
+impl<'p> Step<'p> {
+    /// The statement that it comes from; the end of a procedure comes from none.
+    #[inline]
+    pub(super) fn stmt(&self) -> Option<&'p Stmt> {
+        match self {
+            Step::Do(stmt)
+            | Step::Compute(stmt, _)
+            | Step::Assign(stmt, _)
+            | Step::AssignElement(stmt, _)
+            | Step::Declare(stmt, _)
+            | Step::Unskipped(stmt, _)
+            | Step::Unless(stmt, ..)
+            | Step::UnlessCounted(stmt, ..)
+            | Step::Count(stmt, _)
+            | Step::Turns(stmt, ..)
+            | Step::Goto(stmt, _)
+            | Step::Call(stmt, _)
+            | Step::Return(stmt)
+            | Step::Blocks(stmt, ..)
+            | Step::Jump(stmt, _)
+            | Step::Again(stmt, _) => Some(stmt),
+            Step::End => None,
+        }
+    }
+}
+
 /// A program made ready.
 #[derive(Clone, Debug)]
 pub(super) struct Code<'p> {

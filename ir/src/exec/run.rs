@@ -14,6 +14,7 @@ use crate::canon::FeedMode;
 use crate::code_of::is_last;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Var};
+use crate::halt;
 use crate::num::{Num, ONE, Unit};
 use crate::program::{Centre, Coord, Op, Program, Stmt};
 use crate::source::Span;
@@ -24,7 +25,7 @@ const DEEPEST: usize = 64;
 
 /// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
 /// end.
-const MOST_STEPS: u64 = 200_000_000;
+const MOST_STEPS: u64 = 50_000_000;
 
 /// Most of them between two statements that are executed by themselves, and between two that anything comes of: a
 /// control that executes a thousand blocks a second stands still for half an hour with so many.
@@ -99,6 +100,12 @@ impl<'p> Runner<'p> {
                 self.variables.set(place, value);
             }
         }
+    }
+
+    /// The block of the step that was made last.
+    pub fn here(&self) -> Span {
+        let step = self.code.steps.get((self.at as usize).saturating_sub(1));
+        step.and_then(Step::stmt).map_or(Span::default(), |stmt| stmt.span)
     }
 
     /// Has a run be taken for one without an end after so many steps.
@@ -201,32 +208,17 @@ impl<'p> Runner<'p> {
             let step = &code.steps[self.at as usize];
             self.at += 1;
             self.steps += 1;
-            let stmt = match step {
-                Step::Do(stmt)
-                | Step::Compute(stmt, _)
-                | Step::Assign(stmt, _)
-                | Step::AssignElement(stmt, _)
-                | Step::Declare(stmt, _)
-                | Step::Unskipped(stmt, _)
-                | Step::Unless(stmt, ..)
-                | Step::UnlessCounted(stmt, ..)
-                | Step::Count(stmt, _)
-                | Step::Turns(stmt, ..)
-                | Step::Goto(stmt, _)
-                | Step::Call(stmt, _)
-                | Step::Return(stmt)
-                | Step::Blocks(stmt, ..)
-                | Step::Jump(stmt, _)
-                | Step::Again(stmt, _) => *stmt,
-                Step::End => {
-                    if self.leave() {
-                        continue;
-                    }
-                    exec.no_open_corner()?;
-                    return Ok(None);
+            let Some(stmt) = step.stmt() else {
+                if self.leave() {
+                    continue;
                 }
+                exec.no_open_corner()?;
+                return Ok(None);
             };
             let span = stmt.span;
+            if halt::is_asked() {
+                return Err(Diagnostic::new(Fault::Interrupted { steps: self.steps }, span));
+            }
             if self.steps > self.most {
                 return Err(Diagnostic::new(Fault::NoEnd { steps: self.most }, span));
             }

@@ -40,15 +40,17 @@ pub(super) fn some(
     diags: &mut Vec<Diagnostic>,
 ) {
     let procedures = std::mem::take(&mut program.procedures);
+    let subs = procedures.iter().skip(1).map(|p| (&*p.name, p)).collect();
+    let kept = procedures.iter().skip(1).map(|p| &*p.name).filter(|name| !names.contains(*name)).collect();
     for (at, procedure) in procedures.iter().enumerate() {
         if at > 0 && names.contains(&procedure.name) {
             continue;
         }
-        let subs = procedures.iter().skip(1);
         let mut inliner = Inliner {
-            subs: subs.map(|p| (&*p.name, p)).collect(),
-            kept: procedures.iter().skip(1).map(|p| &*p.name).filter(|name| !names.contains(*name)).collect(),
+            subs: &subs,
+            kept: &kept,
             stack: Vec::new(),
+            calls: 0,
             walk: if at == 0 { std::mem::take(walk) } else { Walk::new(Tracker::unknown()) },
             diags,
             full: false,
@@ -63,10 +65,12 @@ pub(super) fn some(
 }
 
 struct Inliner<'a> {
-    subs: HashMap<&'a str, &'a Procedure>,
+    subs: &'a HashMap<&'a str, &'a Procedure>,
     /// Those that are not written out.
-    kept: HashSet<&'a str>,
+    kept: &'a HashSet<&'a str>,
     stack: Vec<&'a str>,
+    /// Calls written out so far.
+    calls: usize,
     walk: Walk,
     diags: &'a mut Vec<Diagnostic>,
     /// There is no room for more.
@@ -164,8 +168,9 @@ impl<'a> Inliner<'a> {
         self.diags.push(Diagnostic::new(fault, span));
         self.stack.push(name);
         for _ in 0..call.times {
+            self.calls += 1;
             self.body(&sub.body, skip, made);
-            if made.out.len() > MOST_STATEMENTS && !self.full {
+            if made.out.len().max(self.calls) > MOST_STATEMENTS && !self.full {
                 self.full = true;
                 let what = "calls that are too long to be written out".into();
                 self.refuse(Fault::CannotSay { what }, span);

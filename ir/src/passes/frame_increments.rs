@@ -202,7 +202,7 @@ impl State {
             .map(|p| (p.name.clone(), [Pending::default(), Pending::default()]))
             .collect();
         for _ in 0..MOST_ROUNDS {
-            let before = ends.clone();
+            let mut grown = false;
             for at in 0..program.procedures.len() {
                 let Some(procedure) = program.procedures.get(at) else { continue };
                 let own = ends.get(&procedure.name).filter(|_| at > 0).map(|[begin, _]| begin.clone());
@@ -211,14 +211,14 @@ impl State {
                 let (goes_on, _) = reach(&procedure.body, &pending, &ends, &mut calls);
                 for (name, pending) in calls {
                     if let Some([begin, _]) = ends.get_mut(&name) {
-                        unite(begin, &pending);
+                        grown |= unite(begin, &pending);
                     }
                 }
                 if let (true, Some([_, end])) = (at > 0, ends.get_mut(&procedure.name)) {
-                    unite(end, &goes_on);
+                    grown |= unite(end, &goes_on);
                 }
             }
-            if before == ends {
+            if !grown {
                 break;
             }
         }
@@ -236,8 +236,9 @@ impl State {
     }
 }
 
-/// Both may be pending.
-fn unite(own: &mut Pending, other: &Pending) {
+/// Both may be pending; whether that is more than before.
+fn unite(own: &mut Pending, other: &Pending) -> bool {
+    let before = own.clone();
     for (own, other) in own.axes.iter_mut().zip(&other.axes) {
         if other.is_some() {
             *own = Some(None);
@@ -245,6 +246,7 @@ fn unite(own: &mut Pending, other: &Pending) {
     }
     own.rotated = std::array::from_fn(|axis| own.rotated[axis] || other.rotated[axis]);
     own.measured = std::array::from_fn(|way| own.measured[way] || other.measured[way]);
+    before != *own
 }
 
 /// What may be pending where control goes from one place of a procedure to another.
@@ -256,6 +258,22 @@ struct Jumps {
     leaves: Pending,
     /// Where the procedure goes back before its end.
     returns: Pending,
+    /// Whether any of them has become more.
+    grown: bool,
+}
+
+impl Jumps {
+    fn go_to_label(&mut self, name: &Text, own: &Pending) {
+        self.grown |= match self.labels.get_mut(name) {
+            Some(label) => unite(label, own),
+            None => {
+                let mut label = Pending::default();
+                unite(&mut label, own);
+                self.labels.insert(name.clone(), label);
+                true
+            }
+        };
+    }
 }
 
 /// What may be pending behind a body, and where it jumps to, if `before` may be before it. `calls` gets what may be
@@ -268,9 +286,10 @@ fn reach(
 ) -> (Pending, Jumps) {
     let mut jumps = Jumps::default();
     loop {
-        let (known, mut own) = (jumps.clone(), before.bits());
+        let mut own = before.bits();
+        jumps.grown = false;
         pass(body, &mut own, ends, calls, &mut jumps);
-        if known == jumps {
+        if !jumps.grown {
             unite(&mut own, &jumps.returns);
             return (own, jumps);
         }
@@ -291,11 +310,11 @@ fn pass(
                 calls.push((call.name.clone(), own.clone()));
                 after_call(own, ends.get(&call.name), stmt.skip.is_some());
             }
-            Op::Label(name) => jumps.labels.get(name).into_iter().for_each(|from| unite(own, from)),
-            Op::Goto(to) => unite(jumps.labels.entry(to.clone()).or_default(), own),
-            Op::RepeatBlocks(again) => unite(jumps.labels.entry(again.from.clone()).or_default(), own),
-            Op::Leave | Op::NextTurn => unite(&mut jumps.leaves, own),
-            Op::Return => unite(&mut jumps.returns, own),
+            Op::Label(name) => jumps.labels.get(name).into_iter().for_each(|from| _ = unite(own, from)),
+            Op::Goto(to) => jumps.go_to_label(to, own),
+            Op::RepeatBlocks(again) => jumps.go_to_label(&again.from, own),
+            Op::Leave | Op::NextTurn => jumps.grown |= unite(&mut jumps.leaves, own),
+            Op::Return => jumps.grown |= unite(&mut jumps.returns, own),
             Op::Control(control) if is_code(control) => own.measured = [true; 2],
             Op::Control(control) => within_turns(control, own, ends, calls, jumps),
             op => note(own, op, stmt.skip.is_some()),
@@ -475,15 +494,15 @@ struct Way<'s> {
 impl Way<'_> {
     fn body(&mut self, stmts: &mut [Stmt], walk: &mut Walk) {
         // Only a program that is kept whole goes another way than straight on.
-        let (_, jumps) = match stmts.iter().any(|stmt| matches!(stmt.op, flow!())) {
+        let (_, mut jumps) = match stmts.iter().any(|stmt| matches!(stmt.op, flow!())) {
             true => reach(stmts, &self.state.pending, self.program, &mut Vec::new()),
             false => Default::default(),
         };
-        self.within(stmts, walk, &jumps);
+        self.within(stmts, walk, &mut jumps);
     }
 
     /// A body, or one of a structure in it.
-    fn within(&mut self, stmts: &mut [Stmt], walk: &mut Walk, jumps: &Jumps) {
+    fn within(&mut self, stmts: &mut [Stmt], walk: &mut Walk, jumps: &mut Jumps) {
         for stmt in stmts {
             match &mut stmt.op {
                 Op::Call(call) => {
@@ -492,13 +511,12 @@ impl Way<'_> {
                 }
                 Op::Label(name) => {
                     let from = jumps.labels.get(name);
-                    from.into_iter().for_each(|from| unite(&mut self.state.pending, from));
+                    from.into_iter().for_each(|from| _ = unite(&mut self.state.pending, from));
                 }
                 Op::Control(control) if is_code(control) => self.state.pending.measured = [true; 2],
                 Op::Control(control) => {
                     let mut pending = self.state.pending.bits();
-                    let mut own = jumps.clone();
-                    within_turns(control, &mut pending, self.program, &mut Vec::new(), &mut own);
+                    within_turns(control, &mut pending, self.program, &mut Vec::new(), jumps);
                     for body in control.bodies_mut() {
                         self.state.pending = pending.clone();
                         self.within(body, &mut Walk::new(Tracker::unknown()), jumps);

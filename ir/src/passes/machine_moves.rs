@@ -19,7 +19,7 @@ use crate::canon::{Axis, Distance, Fact};
 use crate::caps::{Caps, TiltForm};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::flow;
+use crate::kinds::{flow, moves};
 use crate::num::Num;
 use crate::program::{Coord, Detour, Move, Op, Point, Probe, Program, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
@@ -36,12 +36,18 @@ pub(super) struct State {
     machine: Option<Stmt>,
     /// A return by the intermediate point comes next in this block, in moves of its own.
     intermediate: Option<Stmt>,
+    /// A return to a point of the machine became a rapid move where the motion in force is the caller's.
+    motion_lost: bool,
 }
 
 impl State {
     /// Whether something waits for the statements that come.
     pub(super) fn is_busy(&self) -> bool {
-        self.put_off.is_some() || self.lost.is_some() || self.machine.is_some() || self.intermediate.is_some()
+        self.put_off.is_some()
+            || self.lost.is_some()
+            || self.machine.is_some()
+            || self.intermediate.is_some()
+            || self.motion_lost
     }
 }
 
@@ -144,6 +150,7 @@ fn take(
             let other =
                 !caps.references.has(reference.point) || !reference.via.is_empty() && !caps.reference_via;
             if other {
+                state.motion_lost |= walk.at.modes.motion.is_none();
                 return by_machine_zero(stmt.clone(), reference, walk, state, target, made, diags);
             }
             let keeps = caps.reference_keeps_length.unwrap_or(reference.keeps_length);
@@ -157,6 +164,10 @@ fn take(
             let reference = Reference { keeps_length: keeps, ..(**reference).clone() };
             walk.step(&stmt);
             return made.push(Stmt { op: Op::GoToReference(Box::new(reference)), ..stmt });
+        }
+        Op::Position(_) if state.motion_lost => {
+            let what = "a position by the caller's motion, behind a return to a point of the machine".into();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
         }
         Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
             state.put_off = None;
@@ -176,6 +187,7 @@ fn take(
         }
         _ => {}
     }
+    state.motion_lost &= !(matches!(stmt.op, moves!()) && stmt.skip.is_none());
     walk.step(&stmt);
     made.push(stmt);
 }

@@ -19,6 +19,7 @@ mod law;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ncc_backends::{Layout, ir::Writer};
 use ncc_dialects::{Settings, builtin};
@@ -151,7 +152,7 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
 
 /// What the target computes with.
 fn computes(caps: &mut Caps) -> Result<&mut Computes, String> {
-    caps.computes.as_deref_mut().ok_or_else(|| "a target that does not compute".into())
+    caps.computes.as_mut().map(Arc::make_mut).ok_or_else(|| "a target that does not compute".into())
 }
 
 fn statement(caps: &mut Caps, statement: Said, has: bool) -> Result<(), String> {

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use ncc_dialects::{Bare, Family, Settings};
+use sha2::{Digest, Sha256};
 use similar::{DiffOp, group_diff_ops};
 
 use super::Ignore;
@@ -21,6 +22,10 @@ const AROUND: usize = 3;
 const MOST_BLOCKS: usize = 100;
 /// Differences that are kept.
 const MOST: usize = 20_000;
+/// Bytes of a block that are shown and kept: no control reads a longer one.
+const LONGEST: usize = 16 * 1024;
+/// Bytes of a block by which another one is found to say the same; of a longer one, its hash.
+const LONGEST_KEY: usize = 256;
 /// The option that says what a number without a point counts, and its value that makes them units.
 const POINT_OPTION: (&str, &str) = ("decimal_point", "calculator");
 
@@ -46,14 +51,16 @@ pub(crate) fn compare(sides: &mut [Side; 2], ignore: &[Ignore]) -> io::Result<Te
         format: ignored(Ignore::NumberFormat),
     };
     let texts = [read(&mut sides[0])?, read(&mut sides[1])?];
-    let mut ids: HashMap<Vec<u8>, u32> = HashMap::new();
+    let mut ids: HashMap<Key, u32> = HashMap::new();
     let [a, b] = [0, 1].map(|side: usize| lines(&texts[side], &sides[side].job.from, &rules, &mut ids));
     drop(ids);
     let ops = edits(&a.ids, &b.ids);
     let both = [&a, &b];
     let block = |side: usize, i: usize| {
         let line = &both[side].lines[i];
-        Block { line: u64::from(line.number), text: decoded(&texts[side][line.start..line.end]) }
+        let shown = decoded(&texts[side][line.start..line.end.min(line.start + LONGEST)]);
+        let text = if line.end - line.start > LONGEST { shown + "…" } else { shown };
+        Block { line: u64::from(line.number), text }
     };
     let mut differences = Vec::new();
     let (mut only, mut same, mut count) = ([0u64; 2], 0u64, 0u64);
@@ -169,8 +176,25 @@ fn read(side: &mut Side) -> io::Result<Vec<u8>> {
     Ok(text)
 }
 
+/// What a block says.
+#[derive(Debug, PartialEq, Eq, Hash)]
+enum Key {
+    Text(Box<[u8]>),
+    Hash([u8; 32]),
+}
+
+impl Key {
+    fn of(said: &[u8]) -> Key {
+        if said.len() <= LONGEST_KEY {
+            Key::Text(said.into())
+        } else {
+            Key::Hash(Sha256::digest(said).into())
+        }
+    }
+}
+
 /// What counts for nothing.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Rules {
     numbers: bool,
     blanks: bool,
@@ -192,10 +216,10 @@ struct Lines {
     crlf: bool,
 }
 
-fn lines(text: &[u8], settings: &Settings, rules: &Rules, ids: &mut HashMap<Vec<u8>, u32>) -> Lines {
+fn lines(text: &[u8], settings: &Settings, rules: &Rules, ids: &mut HashMap<Key, u32>) -> Lines {
     let mut out = Lines { lines: Vec::new(), ids: Vec::new(), crlf: false };
     let bare = bare(settings);
-    let mut said = Vec::new();
+    let mut own = Vec::new();
     let mut start = 0;
     let mut number = 0;
     while start < text.len() {
@@ -204,18 +228,17 @@ fn lines(text: &[u8], settings: &Settings, rules: &Rules, ids: &mut HashMap<Vec<
         out.crlf |= cr && number == 0;
         let line = &text[start..end - usize::from(cr)];
         number += 1;
-        said.clear();
-        normal(line, settings, rules, &bare, &mut said);
+        let said = if *rules == Rules::default() {
+            line
+        } else {
+            own.clear();
+            normal(line, settings, rules, &bare, &mut own);
+            &own
+        };
         let nothing = said.is_empty() && (rules.blanks || (rules.comments && !line.is_empty()));
         if !nothing {
-            let id = match ids.get(&said) {
-                Some(id) => *id,
-                None => {
-                    let next = ids.len() as u32;
-                    ids.insert(said.clone(), next);
-                    next
-                }
-            };
+            let next = ids.len() as u32;
+            let id = *ids.entry(Key::of(said)).or_insert(next);
             out.ids.push(id);
             out.lines.push(Line { number, start, end: start + line.len() });
         }

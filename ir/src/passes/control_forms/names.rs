@@ -12,6 +12,9 @@ use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
 pub(super) struct Names {
     labels: BTreeSet<Text>,
     variables: BTreeSet<Text>,
+    /// Highest number given so far, by kind; nothing is taken out of the sets.
+    last_label: BTreeMap<Text, u32>,
+    last_variable: BTreeMap<Text, u32>,
     /// Whether variables of a call have numbers, and whether any is reached by a computed number.
     numbered: bool,
     reached: bool,
@@ -59,10 +62,11 @@ impl Names {
     }
 
     /// A name that nothing has: `LEFT_1`.
-    fn fresh(names: &mut BTreeSet<Text>, kind: &str) -> Text {
-        let mut numbers = 1_u32..;
+    fn fresh(names: &mut BTreeSet<Text>, last: &mut BTreeMap<Text, u32>, kind: &str) -> Text {
+        let last = last.entry(kind.into()).or_default();
         loop {
-            let name: Text = format!("{kind}_{}", numbers.next().unwrap_or_default()).into();
+            *last += 1;
+            let name: Text = format!("{kind}_{last}").into();
             if names.insert(name.clone()) {
                 return name;
             }
@@ -70,11 +74,11 @@ impl Names {
     }
 
     pub(super) fn label(&mut self, kind: &str) -> Text {
-        Names::fresh(&mut self.labels, kind)
+        Names::fresh(&mut self.labels, &mut self.last_label, kind)
     }
 
     pub(super) fn counter(&mut self, kind: &str) -> Var {
-        Var::Local(Names::fresh(&mut self.variables, kind))
+        Var::Local(Names::fresh(&mut self.variables, &mut self.last_variable, kind))
     }
 
     /// Takes down the variables that are read too.

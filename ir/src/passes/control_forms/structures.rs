@@ -5,7 +5,7 @@
 //! branch, a variable of its own says so, and behind the loop or the decision the jump is made by that. Nothing is
 //! executed in another order, or twice. A jump into the middle of a loop goes to its head, and on from there. One that a switch may skip stays.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::conditions::opposite;
 use super::ends_elsewhere;
@@ -74,6 +74,12 @@ fn labels(body: &[Stmt]) -> BTreeSet<Text> {
 
 fn position(body: &[Stmt], name: &str) -> Option<usize> {
     body.iter().position(|stmt| matches!(&stmt.op, Op::Label(own) if **own == *name))
+}
+
+/// The place of a label, of which there is one: looked for from a place on, as a rule it is near.
+fn position_from(body: &[Stmt], from: usize, name: &str) -> Option<usize> {
+    let (before, rest) = body.split_at(from.min(body.len()));
+    position(rest, name).map(|at| before.len() + at).or_else(|| position(before, name))
 }
 
 /// Labels that stand where a place of a list is, and those behind the list if it is its end.
@@ -242,10 +248,15 @@ impl Structures<'_> {
     /// Jumps back make loops.
     fn backward(&mut self, list: &mut Vec<Stmt>, behind: &BTreeSet<Text>) {
         loop {
+            // The last statement from which there are jumps to each label.
+            let mut sources: BTreeMap<Text, usize> = BTreeMap::new();
+            for (at, stmt) in list.iter().enumerate() {
+                sources.extend(of_stmt(stmt).into_iter().map(|name| (name, at)));
+            }
             let found = list.iter().enumerate().find_map(|(at, stmt)| {
                 let Op::Label(name) = &stmt.op else { return None };
-                let last = list[at..].iter().rposition(|stmt| of_stmt(stmt).contains(name))?;
-                Some((at, at + last, name.clone()))
+                let last = sources.get(name).filter(|last| **last >= at)?;
+                Some((at, *last, name.clone()))
             });
             let Some((first, last, name)) = found else { return };
             self.steps += 1;
@@ -448,14 +459,17 @@ impl Structures<'_> {
 
     /// A jump: what it goes over is never executed, unless something else jumps there.
     fn over_dead(&mut self, list: &mut Vec<Stmt>, at: usize, name: &Text, behind: &BTreeSet<Text>) -> bool {
-        let end = match position(list, name) {
+        let end = match position_from(list, at, name) {
             Some(end) if end > at => end,
             None if behind.contains(name) => list.len(),
             _ => return false,
         };
-        let reached: BTreeSet<Text> = list[..at].iter().chain(&list[end..]).flat_map(of_stmt).collect();
-        if labels(&list[at + 1..end]).iter().any(|label| reached.contains(label)) {
-            return false;
+        let inside = labels(&list[at + 1..end]);
+        if !inside.is_empty() {
+            let reached: BTreeSet<Text> = list[..at].iter().chain(&list[end..]).flat_map(of_stmt).collect();
+            if inside.iter().any(|label| reached.contains(label)) {
+                return false;
+            }
         }
         let mut place = 0;
         list.retain(|stmt| {
@@ -489,7 +503,7 @@ impl Structures<'_> {
         let mut ways: Vec<(usize, usize)> = Vec::new();
         for (branch, name) in ends.iter().enumerate() {
             let Some(name) = name else { continue };
-            match position(list, name) {
+            match position_from(list, at, name) {
                 Some(end) if end > at => ways.push((end, branch)),
                 None if behind.contains(name) => ways.push((list.len(), branch)),
                 _ => {}
@@ -498,11 +512,13 @@ impl Structures<'_> {
         ways.sort_unstable();
         for (end, branch) in ways {
             let inside = labels(&list[at + 1..end]);
-            let mut reached: BTreeSet<Text> =
-                list[..at].iter().chain(&list[end..]).flat_map(of_stmt).collect();
-            reached.extend(jumps[branch].iter().cloned());
-            if inside.iter().any(|label| reached.contains(label)) {
-                continue;
+            if !inside.is_empty() {
+                let mut reached: BTreeSet<Text> =
+                    list[..at].iter().chain(&list[end..]).flat_map(of_stmt).collect();
+                reached.extend(jumps[branch].iter().cloned());
+                if inside.iter().any(|label| reached.contains(label)) {
+                    continue;
+                }
             }
             let moved: Vec<Stmt> = list.drain(at + 1..end).collect();
             let Op::Control(control) = &mut list[at].op else { return false };

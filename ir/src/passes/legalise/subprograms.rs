@@ -4,7 +4,7 @@
 //! What can stay a subprogram does: those alone are written out that belong to a cycle of a caller which the target
 //! says in another way, or that cannot be said by themselves.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::rc::Rc;
 
 use super::super::known_facts::has_bare_holes;
@@ -12,8 +12,7 @@ use super::*;
 use crate::canon::FeedMode;
 use crate::kinds::flow;
 use crate::program::Text;
-use crate::source::Span;
-use crate::valid::leaves_a_cycle;
+use crate::valid::{ends_callers_cycle, leaves_a_cycle};
 
 /// What is done with subprograms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,8 +101,8 @@ impl Legaliser {
             }
             own.run_whole(&mut program, Subprograms::Keep, &mut found);
             let refused = found.iter().filter(|d| d.fault.gravity() == Gravity::Error);
-            let spans: Vec<Span> = refused.map(|d| d.span).collect();
-            if spans.is_empty() {
+            let starts: HashSet<u32> = refused.map(|d| d.span.start).collect();
+            if starts.is_empty() {
                 let left: BTreeSet<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
                 found.retain(|d| !matches!(&d.fault, Fault::NameChanged { to, .. } if !left.contains(to)));
                 (*self, *rest) = (own, program);
@@ -111,9 +110,7 @@ impl Legaliser {
                 return true;
             }
             let known = names.len();
-            let has = |sub: &&Procedure| {
-                sub.body.iter().any(|stmt| spans.iter().any(|span| span.start == stmt.span.start))
-            };
+            let has = |sub: &&Procedure| sub.body.iter().any(|stmt| starts.contains(&stmt.span.start));
             names.extend(subs.clone().filter(has).map(|sub| sub.name.clone()));
             if names.len() == known {
                 return false;
@@ -178,6 +175,8 @@ impl Legaliser {
         let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
         let fault = || Fault::CannotSay { what: "a cycle that a subprogram leaves in force".into() };
         diags.extend(left.map(|at| Diagnostic::new(fault(), at)));
+        let fault = || Fault::CannotSay { what: "a subprogram that ends a cycle of its caller".into() };
+        diags.extend(ends_callers_cycle(program).into_iter().map(|at| Diagnostic::new(fault(), at)));
     }
 
     /// What holds after each call and label, where a pass asks for it.

@@ -13,7 +13,7 @@
 //!
 //! Not here: the way up in words (`side_effects`).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use crate::canon::{Axis, Distance};
 use crate::diag::{Diagnostic, Fault};
@@ -25,6 +25,9 @@ use super::{SideEffects, cuts};
 
 /// What is refused: the beginning of the message.
 pub const REFUSED: &str = "Z at machine zero after a tool change";
+
+/// Procedures by their names, each with its place.
+type Places<'p> = HashMap<&'p str, (usize, &'p Procedure)>;
 
 /// How deep calls are followed.
 const MOST_CALLS: usize = 16;
@@ -41,7 +44,12 @@ pub(super) struct WayUp {
     rapid: bool,
     /// What is refused, once each.
     refused: BTreeSet<Span>,
+    /// How calls end that were followed: by procedure, depth, and what held before and after each.
+    followed: HashMap<(usize, usize, Held), Held>,
 }
+
+/// Z up, a jump made there, the motion rapid.
+type Held = [bool; 3];
 
 impl SideEffects {
     /// The target has no words for machine zero, and is taken to move Z there at a tool change, as the source does.
@@ -69,15 +77,18 @@ impl WayUp {
             return;
         }
         let mut found = Vec::new();
+        let places: Places = procedures.iter().enumerate().rev().map(|(at, p)| (&*p.name, (at, p))).collect();
+        let procedures = &places;
         self.walk(stmts, procedures, 0, &mut found);
         if self.jumped {
             // What is jumped to may stand before.
             self.walk(stmts, procedures, 0, &mut found);
         }
+        self.followed.clear();
         diags.append(&mut found);
     }
 
-    fn walk(&mut self, stmts: &[Stmt], all: &[Procedure], depth: usize, found: &mut Vec<Diagnostic>) {
+    fn walk(&mut self, stmts: &[Stmt], all: &Places, depth: usize, found: &mut Vec<Diagnostic>) {
         let led_to = jumps(stmts);
         for stmt in stmts {
             match &stmt.op {
@@ -88,11 +99,17 @@ impl WayUp {
                 }
                 Op::Goto(_) => self.jumped |= self.up,
                 Op::Control(control) => self.bodies(control, all, depth, found),
-                Op::Call(call) => match all.iter().find(|procedure| procedure.name == call.name) {
-                    Some(procedure) if depth < MOST_CALLS => {
+                Op::Call(call) => match all.get(&*call.name) {
+                    Some((at, procedure)) if depth < MOST_CALLS => {
                         // As often as it takes to begin as it ends.
                         for _ in 0..call.times.min(2) {
+                            let key = (*at, depth, [self.up, self.jumped, self.rapid]);
+                            if let Some(after) = self.followed.get(&key) {
+                                [self.up, self.jumped, self.rapid] = *after;
+                                continue;
+                            }
                             self.walk(&procedure.body, all, depth + 1, found);
+                            self.followed.insert(key, [self.up, self.jumped, self.rapid]);
                         }
                     }
                     _ => self.refuse(stmt, found),
@@ -115,7 +132,7 @@ impl WayUp {
     }
 
     /// What a structure may leave in force is not looked for.
-    fn bodies(&mut self, control: &Control, all: &[Procedure], depth: usize, found: &mut Vec<Diagnostic>) {
+    fn bodies(&mut self, control: &Control, all: &Places, depth: usize, found: &mut Vec<Diagnostic>) {
         let before = self.up;
         let runs_again = !matches!(control, Control::If { .. });
         let mut after = before;

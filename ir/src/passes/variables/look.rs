@@ -1,6 +1,6 @@
 //! Which variables a program has, in the order of its text; and results of subprograms that nobody reads.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::each_value;
 use super::names::number_of;
@@ -22,6 +22,8 @@ pub(super) struct Seen {
 #[derive(Default)]
 pub(super) struct Look {
     pub(super) seen: Vec<Seen>,
+    /// Where each variable stands in `seen`.
+    places: HashMap<Var, usize>,
     /// Names of common variables that are read.
     read: BTreeSet<Text>,
     /// Variables whose number is computed.
@@ -71,9 +73,12 @@ impl Look {
     }
 
     fn var(&mut self, var: &Var, elements: Option<u32>, at: Span) {
-        match self.seen.iter_mut().find(|seen| seen.var == *var) {
-            Some(seen) => seen.elements = seen.elements.or(elements),
-            None => self.seen.push(Seen { var: var.clone(), elements, at }),
+        match self.places.get(var) {
+            Some(place) => self.seen[*place].elements = self.seen[*place].elements.or(elements),
+            None => {
+                self.places.insert(var.clone(), self.seen.len());
+                self.seen.push(Seen { var: var.clone(), elements, at });
+            }
         }
     }
 
@@ -112,7 +117,7 @@ pub(super) fn leave_out_results(program: &mut Program, from: &Computes, computes
         read.extend(look.read);
         all.extend(look.seen);
     }
-    let unread: Vec<Var> = all
+    let unread: HashSet<Var> = all
         .into_iter()
         .map(|seen| seen.var)
         .filter(|var| matches!(var, Var::Common(name) if !read.contains(&**name)))

@@ -231,8 +231,8 @@ impl<'c> Plan<'c> {
     /// Finds whose variables each procedure has.
     fn find_homes(&mut self, program: &Program) {
         let count = program.procedures.len();
-        let index =
-            |name: &str| program.procedures.iter().skip(1).position(|p| *p.name == *name).map(|at| at + 1);
+        let by_name = program.by_name();
+        let index = |name: &str| by_name.get(name).copied();
         let mut shared: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); count];
         let mut begins = BTreeSet::from([0]);
         for (at, procedure) in program.procedures.iter().enumerate() {
@@ -257,19 +257,24 @@ impl<'c> Plan<'c> {
             begins.iter().map(|root| (*root, group(*root))).collect();
         self.homes = vec![Home::Own; count];
         self.roots = (0..count).collect();
-        for at in 0..count {
-            let of: Vec<usize> =
-                groups.iter().filter(|(_, group)| group.contains(&at)).map(|(root, _)| *root).collect();
+        let mut roots: Vec<Vec<usize>> = vec![Vec::new(); count];
+        for (root, group) in &groups {
+            group.iter().for_each(|at| roots[*at].push(*root));
+        }
+        let users: BTreeMap<usize, usize> = groups
+            .iter()
+            .map(|(root, group)| (*root, group.iter().filter(|p| self.has_own(**p)).count()))
+            .collect();
+        for (at, of) in roots.into_iter().enumerate() {
             if let Some(root) = of.first() {
                 self.roots[at] = *root;
             }
             if self.computes.shares || !self.has_own(at) {
                 continue;
             }
-            let users = |root: &usize| groups[root].iter().filter(|p| self.has_own(**p)).count();
             self.homes[at] = match of.as_slice() {
                 [] => Home::Own,
-                [root] if *root == at && users(root) == 1 => Home::Own,
+                [root] if *root == at && users[root] == 1 => Home::Own,
                 [0] => Home::Common,
                 _ => Home::None,
             };
