@@ -483,7 +483,7 @@ impl<'j> Line<'j> {
     fn write_main(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) {
         let taken = assumed.without(&self.given);
         let lines = self.job.machines.layout().footer;
-        let end = stmts.iter().position(|s| s.op == Op::ProgramEnd);
+        let end = stmts.iter().position(|s| matches!(s.op, Op::ProgramEnd | Op::BeginAgain));
         let Some(end) = end.filter(|_| !self.footed && !lines.is_empty()) else {
             return self.writer.write(stmts, &taken, &mut self.text, found);
         };

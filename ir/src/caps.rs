@@ -554,6 +554,7 @@ impl Caps {
             | Op::Position(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | machine!()
             | miscellaneous!()

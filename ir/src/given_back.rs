@@ -135,6 +135,7 @@ impl Changes {
             | Op::Corner { .. }
             | Op::SetFeedRate(_)
             | Op::ProgramEnd
+            | Op::BeginAgain
             | Op::GoToReference(_)
             | Op::OrientToolAxis(_)
             | tooling!()

@@ -265,6 +265,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NoValue { .. } => {
             own("see which values its variables have there; a control stops with an alarm")
         }
+        Fault::BeginsOtherwise { fact } => {
+            let text =
+                format!("write the code of the {} at the start of the program", super::words::mode(*fact));
+            own(&text)
+        }
         Fault::VariableUnset { .. } => own("set the variable before it is read"),
         Fault::Computes { .. } => {
             own("`--pass flatten` executes the program, and writes the blocks that come of it")
@@ -365,6 +370,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 format!("if that point is the machine's zero: `--from-option {option}=zero`"),
                 "else write the move in machine coordinates, with G53".into(),
             ]
+        }
+        Fault::CannotSay { what } if &**what == "a program that begins again" => {
+            own("write `M30` in its place: the program then runs once")
         }
         Fault::CannotSay { what } if &**what == "an optional stop" => {
             own("`--m-code M1=drop` leaves it out: the program never stops there, as with the switch off")

@@ -396,7 +396,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::NameAsComment => "the program's name, as a comment".to_owned(),
         Fault::BlockSplit => "blocks, as several".to_owned(),
         Fault::MessageDropped => "messages to the operator".to_owned(),
-        Fault::OutputDropped => "text for a device".to_owned(),
+        Fault::OutputDropped => "text for a device or a file left out".to_owned(),
 
         // What is no verdict has no place in the account, and would be named by its message.
         Fault::RadiusUnknown { .. }
@@ -446,6 +446,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoSpeed
         | Fault::NoValue { .. }
         | Fault::VariableUnset { .. }
+        | Fault::BeginsOtherwise { .. }
         | Fault::Computes { .. }
         | Fault::NoCycle
         | Fault::CycleUpsideDown

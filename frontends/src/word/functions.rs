@@ -427,9 +427,10 @@ impl Lower {
                 self.alone.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
+            Meaning::BeginAgain => return self.begin_again(code, out),
             Meaning::Return if self.goes_on_within(code, words, src, out) => return,
             // What is called is looked at by execution: the program is kept whole from here on.
-            Meaning::Return if self.level_open() => {
+            Meaning::Return if self.level_open() && self.may_go_back() => {
                 // What called this need not know of the length.
                 return self.refuse_level(code.span, out);
             }

@@ -136,6 +136,8 @@ pub(super) struct Reported {
 pub(super) struct Alone {
     /// Where it first goes back to another.
     pub(super) returns: Option<Span>,
+    /// Where it first begins anew.
+    pub(super) begins_again: Option<Span>,
     /// Whether it ends by itself.
     pub(super) ends: bool,
 }
@@ -388,6 +390,9 @@ impl Lower {
         if let Some(at) = begins(bytes, &rules.alarm).filter(|_| !rules.alarm.is_empty()) {
             self.now.message = true;
             return self.alarm(&bytes[at..], span, out);
+        }
+        if rules.logs.iter().any(|name| begins(bytes, name).is_some()) {
+            out.report(Fault::OutputDropped, span);
         }
         if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
             let code = format!("{}{name}", rules.open).into();

@@ -101,7 +101,7 @@ fn straight(
         // Behind a step that has left nothing a block begins anew.
         stmt.joined &= steps == before + 1 && !out.is_empty();
         stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
-        let over = matches!(stmt.op, Op::ProgramEnd | Op::Alarm(_)) && stmt.skip.is_none();
+        let over = matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_)) && stmt.skip.is_none();
         if asks {
             for exec in [&mut exec].into_iter().chain(&mut other).filter(|_| !over) {
                 exec.step(&stmt, &mut unseen)?;

@@ -176,6 +176,7 @@ impl Walk {
             | Op::StartCycle(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | conduct!()
