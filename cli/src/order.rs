@@ -88,7 +88,8 @@ impl Order {
             state_units(from, known.units())?;
             m_codes::state(from, Side::From, known)?;
         }
-        let given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
+        let mut given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
+        args.value.iter().for_each(|(name, value)| given.put(name, *value));
         Ok(Order { from, machines, to, given, named, known: known.clone(), settled })
     }
 
@@ -133,6 +134,7 @@ impl Order {
             head: !args.no_head,
             start: args.standing.start.unwrap_or_default(),
             given: self.given.clone(),
+            values: args.value.clone(),
             program_number: args.program_number,
             source_name: source_name.to_owned(),
             called: None,

@@ -329,7 +329,7 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let mut program = source.clone();
-        let mut found = Vec::new();
+        let mut found = as_there::begin_with(self.job, &mut program);
         self.side_effects.run(&mut program.procedures, &mut found);
         if returns_alone(&source).is_some() {
             self.legaliser.nothing_before();

@@ -237,7 +237,6 @@ pub(crate) struct Codes {
     pub stop: Option<Code>,
     pub optional_stop: Option<Code>,
     pub end: Option<Code>,
-    /// The main program begins again, for ever.
     pub again: Option<Code>,
     pub call: Option<CallCode>,
     /// A call with arguments.
@@ -655,8 +654,7 @@ impl Codes {
             stop: code(Meaning::ProgramStop),
             optional_stop: code(Meaning::OptionalProgramStop),
             end: code(Meaning::ProgramEnd),
-            again: code(Meaning::BeginAgain)
-                .or_else(|| dialect.program.begins_again.then(|| code(Meaning::Return)).flatten()),
+            again: code(if dialect.program.begins_again { Meaning::Return } else { Meaning::BeginAgain }),
             call: find.call(Meaning::Call),
             macro_call: find.call(Meaning::CallMacro),
             calls_at_moves: find.call(Meaning::CallMacroAtMoves).zip(code(Meaning::EndCallsAtMoves)),

@@ -270,7 +270,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 format!("write the code of the {} at the start of the program", super::words::mode(*fact));
             own(&text)
         }
-        Fault::VariableUnset { .. } => own("set the variable before it is read"),
+        Fault::VariableUnset { name } => {
+            let value = format!("or state what it holds: `--value {name}=NUMBER`");
+            vec!["set the variable before it is read".into(), value]
+        }
         Fault::Computes { .. } => {
             own("`--pass flatten` executes the program, and writes the blocks that come of it")
         }

@@ -85,6 +85,7 @@ impl Lower {
             return self.fault(Fault::OutOfRange { word: name }, word, out);
         }
         out.whole = true;
+        self.centre_said_elsewhere(out);
         let shared = self.shares();
         let main = self.sub.is_none();
         self.o.subs.calls_numbered(name.clone(), block, main);
