@@ -419,6 +419,8 @@ faults! {
     OutputDropped = 424, verdict(Verdict::Reformatted);
     /// A macro whose calls give different arguments written as several, one for each set; under these names.
     MacroApart { name: Box<str>, names: Box<str> } = 425, verdict(Verdict::Expanded);
+    /// The text of an alarm has values in it, which no alarm of the output shows.
+    AlarmValues = 427, verdict(Verdict::Reformatted);
     /// What the source's control does by itself at a code, written before it as words.
     SideEffectWritten { behaviour: Behaviour } = 426, verdict(Verdict::Reformatted);
     /// A cut in machine coordinates written in the work offset in force, less the offsets.

@@ -135,6 +135,7 @@ impl Fault {
             | Fault::SideEffectWritten { .. }
             | Fault::FeedByTime
             | Fault::ValuesInFull { .. }
+            | Fault::AlarmValues
             | Fault::MacroApart { .. }
             | Fault::MachineCutExpanded { .. }
             | Fault::MachineCutFolded { .. }

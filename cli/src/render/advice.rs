@@ -331,6 +331,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::Flattened { .. }
         | Fault::AlarmsRenumbered { .. }
         | Fault::ValuesInFull { .. }
+        | Fault::AlarmValues
         | Fault::VariablesRenamed { .. }
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }

@@ -363,6 +363,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
         Fault::AlarmsRenumbered { .. } => "alarms under other numbers".to_owned(),
+        Fault::AlarmValues => "values in the text of an alarm left out".to_owned(),
         Fault::ValuesInFull { digits } => {
             format!("values in messages, with {digits} digits behind the point")
         }

@@ -475,6 +475,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::AlarmsRenumbered { map } => ("alarms have other numbers".into(), format!("in {to}, {map}")),
         Fault::OutputDropped => ("text for a device left out".into(), format!("{to} does not write it; a comment is left")),
+        Fault::AlarmValues => ("values in an alarm left out".into(), "its text has three points in their place".into()),
         Fault::ValuesInFull { digits } => (
             format!("a value in a message has {digits} digits behind its point"),
             format!("{to} does not leave out the zeros at its end"),

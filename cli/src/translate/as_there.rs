@@ -59,8 +59,32 @@ pub(super) fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
         found.push(Diagnostic::new(Fault::AssumedParameter { parameter, value: shown }, read));
         sets.push(Stmt::new(at, Op::Assign(expr::Target::Var(var), Expr::Num(*value))));
     }
-    main.body.splice(0..0, sets);
+    let at = behind_the_modes(&main.body);
+    main.body.splice(at..at, sets);
     found
+}
+
+/// Where the first block begins that does more than state modes.
+fn behind_the_modes(body: &[Stmt]) -> usize {
+    let states = |stmt: &Stmt| {
+        let plain = matches!(
+            stmt.op,
+            Op::UseLengthUnits(_)
+                | Op::SetDistanceMode(_)
+                | Op::SelectPlane(_)
+                | Op::SetFeedMode(_)
+                | Op::SetReturnLevel(_)
+                | Op::SetOriginOffsets(_)
+                | Op::EndCycle
+                | Op::StopCutterRadiusCompensation
+                | Op::UseToolLengthOffset(Expr::Num(_))
+                | Op::Comment(_)
+                | Op::Blank
+        );
+        plain && stmt.skip.is_none()
+    };
+    let first = body.iter().position(|stmt| !states(stmt)).unwrap_or(body.len());
+    (0..=first).rev().find(|at| body.get(*at).is_none_or(|stmt| !stmt.joined)).unwrap_or(0)
 }
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.

@@ -317,7 +317,11 @@ impl Lower {
             self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
-            self.state.tool = Know::Said(());
+            let number = match word.value {
+                Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
+                Value::Number(_) | Value::Computed(_) | Value::None => None,
+            };
+            self.state.tool = Know::Said(number);
             self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);

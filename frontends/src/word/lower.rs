@@ -579,10 +579,11 @@ impl Lower {
 
     /// After a refused block, what it may have said is not asked for again.
     pub(super) fn forgive(&mut self) {
-        for said in [&mut self.state.feed, &mut self.state.tool] {
-            if *said == Know::Unsaid {
-                *said = Know::Lost;
-            }
+        if self.state.feed == Know::Unsaid {
+            self.state.feed = Know::Lost;
+        }
+        if self.state.tool == Know::Unsaid {
+            self.state.tool = Know::Lost;
         }
         if self.state.motion == Know::Unsaid {
             self.state.motion = Know::Lost;
