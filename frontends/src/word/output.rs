@@ -49,10 +49,11 @@ pub(super) fn read(text: &[u8]) -> Option<Output> {
     }
 }
 
-/// As [`read`]; a line of another form is none, and is left out.
-pub(super) fn taken(text: &[u8]) -> Option<Output> {
-    let writes = || text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"DPRNT"));
-    read(text).or_else(|| writes().then(|| Output::Line(Box::new([]))))
+/// As [`read`]; a line of another form is none (`None` within), and is left out.
+pub(super) fn taken(text: &[u8]) -> Option<Option<Output>> {
+    let writes = text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"DPRNT"));
+    let read = read(text);
+    (writes || read.is_some()).then_some(read)
 }
 
 fn line(mut text: &[u8]) -> Option<Vec<Piece>> {
@@ -94,11 +95,8 @@ fn line(mut text: &[u8]) -> Option<Vec<Piece>> {
 
 impl Lower {
     /// Text for a device, with its values.
-    pub(super) fn output(&mut self, output: &Output, span: Span, src: Source, out: &mut Batch) {
-        let mut output = output.clone();
-        if read(src.bytes(span)).is_none() {
-            return self.leave_output_out(span, src, out);
-        }
+    pub(super) fn output(&mut self, output: Option<&Output>, span: Span, src: Source, out: &mut Batch) {
+        let Some(mut output) = output.cloned() else { return self.leave_output_out(span, src, out) };
         let rules = &self.settings.dialect.formula;
         let (known, most) = (rules.statements.contains(&Says::Output), rules.output_digits);
         let mut fits = known;
@@ -137,7 +135,10 @@ impl Lower {
         }
         out.report(Fault::OutputDropped, span);
         let plain = |sign: char| if "()[]".contains(sign) { ' ' } else { sign };
-        let text: String = src.text(span).chars().map(plain).collect();
+        let all = src.bytes(span);
+        let begins = all.iter().position(|b| b.eq_ignore_ascii_case(&b'D')).unwrap_or(0);
+        let own = &all[begins..begins + length(&all[begins..]).unwrap_or(all.len() - begins)];
+        let text: String = String::from_utf8_lossy(own).chars().map(plain).collect();
         self.push(span, Op::Comment(text.trim().into()), out);
     }
 }
