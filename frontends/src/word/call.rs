@@ -143,7 +143,7 @@ impl Lower {
         }
     }
 
-    fn endless(&mut self, at: Span, code: Box<str>, out: &mut Batch) {
+    pub(super) fn endless(&mut self, at: Span, code: Box<str>, out: &mut Batch) {
         let name = "return in the main program: endless repetition".into();
         self.fault(Fault::NotSupported { code, name }, at, out);
     }

@@ -441,7 +441,11 @@ impl Lower {
             Meaning::Call => return self.call(code, words, src, out),
             Meaning::EndCallsAtMoves => return self.end_calls_at_moves(code, words, out),
             Meaning::Return => {
-                if self.notes_return(code, words, src, out) {
+                let names = code.row.blocks.bytes().any(|letter| words.get(letter).is_some());
+                if names && !self.may_go_back() {
+                    // It goes on at that block of its own program.
+                    self.endless(code.span, code.row.code.as_str().into(), out);
+                } else if self.notes_return(code, words, src, out) {
                     self.return_from(code, out);
                 }
                 return;
