@@ -92,6 +92,7 @@ pub enum Happening {
     Alarm,
     OptionalStop,
     End,
+    BeginsAgain,
     /// The text is over, and the program has not said that it ends.
     TextEnd,
     Message,
@@ -276,6 +277,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Stop => Happening::Stop,
             What::OptionalStop => Happening::OptionalStop,
             What::End => Happening::End,
+            What::BeginsAgain => Happening::BeginsAgain,
             What::TextEnd => Happening::TextEnd,
             // The spindle's state shows in the events that follow.
             What::Spindle(_) => continue,
@@ -388,6 +390,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::ProgramStop => Happening::Stop,
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
+            Kind::BeginAgain => Happening::BeginsAgain,
             Kind::Message(text) if text.is_empty() => Happening::MessageCleared,
             Kind::Message(_) => Happening::Message,
             Kind::Output(written) => Happening::Output(hash_of(&written.to_string())),

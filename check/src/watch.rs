@@ -287,6 +287,8 @@ impl Checker {
                 spindle::changed(self);
                 length::changed(self, event);
             }
+            // What is on stays on for the next time.
+            Kind::BeginAgain => self.ended = true,
             Kind::ProgramEnd => {
                 left::on(self, event.span);
                 self.ended = true;

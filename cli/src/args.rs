@@ -189,6 +189,10 @@ pub struct Translate {
     /// What variables may be given before the program begins, by a caller or an operator: a TOML file
     #[arg(long, value_name = "FILE", help_heading = "What to translate")]
     pub args: Option<PathBuf>,
+    /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
+    /// output sets it [may be repeated]
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = crate::given::value, help_heading = "What to translate")]
+    pub value: Vec<(String, Num)>,
 
     /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
     #[arg(long, value_name = "NAME", value_parser = pass, help_heading = "What to translate")]

@@ -57,6 +57,7 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         Kind::ProgramStop => "a stop".to_owned(),
         Kind::OptionalProgramStop => "an optional stop".to_owned(),
         Kind::ProgramEnd => "the end".to_owned(),
+        Kind::BeginAgain => "the program that begins again".to_owned(),
         Kind::TextEnd => "the end of the text".to_owned(),
         Kind::Attribute(_) => "an attribute".to_owned(),
         Kind::Message(text) => format!("the message {text:?}"),

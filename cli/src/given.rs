@@ -1,4 +1,4 @@
-//! `--args FILE`: the values that a program may be given by who calls it, or by who set its variables before.
+//! `--args FILE` and `--value NAME=NUMBER`: the values that a program may be given by who calls it, or by who set its variables before.
 //!
 //! A TOML file with a table `[variables]`: a number, a list of numbers, or `from` and `to`, with `vacant = true` where
 //! there may be no value at all. Names are as the program has them.
@@ -10,6 +10,7 @@ use std::fs;
 use std::path::Path;
 
 use ncc_ir::exec::Runner;
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::value::Value;
 use serde::Deserialize;
 
@@ -81,7 +82,31 @@ fn plain(name: &str) -> String {
     name.trim_start_matches('#').trim_start_matches('<').trim_end_matches('>').to_ascii_lowercase()
 }
 
+/// What a variable holds at the start, as the command line says it: `#500=12.5`, `_td=0.25`, `R5=3`.
+///
+/// # Errors
+/// It is not of this form.
+pub(crate) fn value(text: &str) -> Result<(String, Num), String> {
+    let form = || "write it as NAME=NUMBER, such as _td=0.25 or 500=12".to_owned();
+    let (name, number) = text.split_once('=').ok_or_else(form)?;
+    let (whole, behind) = number.split_once('.').unwrap_or((number, ""));
+    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    let unsigned = whole.strip_prefix('-').unwrap_or(whole);
+    let fits = digits(unsigned) && digits(behind) && behind.len() <= 9 && unsigned.len() + behind.len() > 0;
+    let mantissa = format!("{whole}{behind}").parse::<i64>().ok().filter(|_| fits && !plain(name).is_empty());
+    let mantissa = mantissa.ok_or_else(form)?;
+    // Nine digits at most.
+    let scale = behind.len() as u8;
+    Ok((plain(name), Num { mantissa, scale, point: scale > 0, unit: Unit::One }))
+}
+
 impl Given {
+    /// Takes what the command line says of a variable.
+    pub(crate) fn put(&mut self, name: &str, value: Num) {
+        let number = value.mantissa as f64 / 10_f64.powi(value.scale.into());
+        self.0.insert(plain(name), Values { kind: Kind::Among(vec![number]), vacant: false });
+    }
+
     /// Reads a file.
     ///
     /// # Errors
@@ -233,6 +258,22 @@ mod tests {
         assert_eq!((given.value("1", 0, 9), given.value("1", 1, 9)), (Some(Some(1.0)), Some(Some(3.0))));
         assert_eq!(given.value("7", 2, 1), Some(None));
         assert_eq!((given.only("r5"), given.only("1"), given.only("7")), (Some(12.5), None, None));
+    }
+
+    #[test]
+    fn values_are_of_the_command_line() {
+        let mut given = Given::default();
+        for (text, name, value) in
+            [("#500=-1.25", "500", -1.25), ("#<_td>=.5", "_td", 0.5), ("R5=3", "r5", 3.0)]
+        {
+            let (own, number) = self::value(text).unwrap();
+            assert_eq!(own, name);
+            given.put(&own, number);
+            assert_eq!(given.only(name), Some(value), "{text}");
+        }
+        for wrong in ["500", "=1", "500=", "500=x", "500=1e3", "500=1.2.3", "500=--1", "500=1.1234567890"] {
+            assert!(self::value(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

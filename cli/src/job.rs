@@ -16,7 +16,7 @@ use ncc_ir::beside::Rules;
 use ncc_ir::canon::{AXES, AdviceKind};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::maps::{Maps, Numbered, Renaming};
-use ncc_ir::num::Nanos;
+use ncc_ir::num::{Nanos, Num};
 use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::{Compensating, Pass};
 use ncc_ir::program::Text;
@@ -57,6 +57,8 @@ pub struct Job {
     pub start: [Option<Nanos>; AXES],
     /// What the source's variables may be given before it begins.
     pub given: Given,
+    /// What the user states that variables hold at the start, which the output sets itself.
+    pub values: Vec<(String, Num)>,
     /// The program number of the output, where the target has one.
     pub program_number: Option<u32>,
     /// Name of the source for the head and the report: a file name without folders, or `-`.
@@ -94,6 +96,7 @@ impl Job {
             head: true,
             start: [None; AXES],
             given: Given::default(),
+            values: Vec::new(),
             program_number: None,
             source_name: source_name.into(),
             called: None,

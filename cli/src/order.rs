@@ -9,10 +9,11 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
+use ncc_ir::num::Num;
 use ncc_machines::reading::Side;
 
 use crate::args::{Eol, Translate};
-use crate::given::Given;
+use crate::given::{self, Given};
 use crate::job::Job;
 use crate::known::Known;
 use crate::m_codes;
@@ -32,6 +33,8 @@ pub(crate) struct Order {
     pub(crate) to: Settings,
     /// What variables may be given.
     given: Given,
+    /// What they hold at the start, as the user and the profile state it.
+    values: Vec<(String, Num)>,
     /// The dialect of the sources; `None` if it is to be recognised.
     pub(crate) named: Option<&'static Dialect>,
     /// The same with what was chosen of it. What a profile states is put in once: it is kept for good.
@@ -88,8 +91,14 @@ impl Order {
             state_units(from, known.units())?;
             m_codes::state(from, Side::From, known)?;
         }
-        let given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
-        Ok(Order { from, machines, to, given, named, known: known.clone(), settled })
+        let mut given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
+        let mut values = args.value.clone();
+        for (name, holds) in machines.from.iter().flat_map(|profile| profile.values()) {
+            let stated = given::value(&format!("{name}={holds}")).ok();
+            values.extend(stated.filter(|(name, _)| !args.value.iter().any(|(own, _)| own == name)));
+        }
+        values.iter().for_each(|(name, value)| given.put(name, *value));
+        Ok(Order { from, machines, to, given, values, named, known: known.clone(), settled })
     }
 
     /// The folder of outputs, where a project file names it and the command line nothing.
@@ -133,6 +142,7 @@ impl Order {
             head: !args.no_head,
             start: args.standing.start.unwrap_or_default(),
             given: self.given.clone(),
+            values: self.values.clone(),
             program_number: args.program_number,
             source_name: source_name.to_owned(),
             called: None,

@@ -109,7 +109,9 @@ fn separates(op: &Op) -> bool {
         Op::StraightFeed(m) => {
             [Axis::X, Axis::Y].into_iter().any(|axis| m.to.get(axis).is_some()) && m.to.get(Axis::Z).is_none()
         }
-        Op::ArcFeed(_) | Op::ArcForm(_) | Op::ChangeTool | Op::EndCycle | Op::ProgramEnd => true,
+        Op::ArcFeed(_) | Op::ArcForm(_) | Op::ChangeTool | Op::EndCycle | Op::ProgramEnd | Op::BeginAgain => {
+            true
+        }
         Op::Polar(polar) => !matches!(polar.op, Op::Hole(_) | Op::Position(_)),
         _ => false,
     }

@@ -332,7 +332,7 @@ impl<'j> Line<'j> {
         if self.job.from.dialect.program.macro_b {
             passed_labels::run(&mut program);
         }
-        let mut found = Vec::new();
+        let mut found = as_there::begin_with(self.job, &mut program);
         self.side_effects.run(&mut program.procedures, &mut found);
         if returns_alone(&source).is_some() {
             self.legaliser.nothing_before();
@@ -483,7 +483,7 @@ impl<'j> Line<'j> {
     fn write_main(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) {
         let taken = assumed.without(&self.given);
         let lines = self.job.machines.layout().footer;
-        let end = stmts.iter().position(|s| s.op == Op::ProgramEnd);
+        let end = stmts.iter().position(|s| matches!(s.op, Op::ProgramEnd | Op::BeginAgain));
         let Some(end) = end.filter(|_| !self.footed && !lines.is_empty()) else {
             return self.writer.write(stmts, &taken, &mut self.text, found);
         };

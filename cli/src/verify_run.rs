@@ -117,6 +117,8 @@ pub(crate) struct Verifier {
     last: Span,
     /// Variables that the source reads before it sets them, where both sides compute.
     outliving: Vec<Outliving>,
+    /// What the source takes for granted of its start so far.
+    assumed: Modes,
     /// What was not executed, or with values that were made up.
     notes: Vec<Diagnostic>,
 }
@@ -273,6 +275,7 @@ impl Verifier {
             functions: job.to.caps().computes.map(|computes| computes.functions.clone()).unwrap_or_default(),
             last: Span::default(),
             outliving: Vec::new(),
+            assumed: Modes::default(),
             notes: Vec::new(),
         }
     }
@@ -504,6 +507,7 @@ impl Verifier {
     }
 
     fn assume(&mut self, assumed: &Modes) {
+        self.assumed = *assumed;
         self.runs.iter_mut().for_each(|run| run.source.assume(assumed));
     }
 
@@ -515,6 +519,7 @@ impl Verifier {
 
     /// Takes for granted what the source does; at the beginning all controls stand where it begins.
     fn begin(&mut self, assumed: &Modes) {
+        self.assumed = *assumed;
         for run in self.runs.iter_mut().chain(&mut self.others) {
             run.source.assume(assumed);
             if !self.stood {

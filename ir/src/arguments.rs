@@ -201,7 +201,8 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         | Op::EndCycle
         | Op::ProgramStop
         | Op::OptionalProgramStop
-        | Op::ProgramEnd => Ok(()),
+        | Op::ProgramEnd
+        | Op::BeginAgain => Ok(()),
     }
 }
 

@@ -556,6 +556,7 @@ impl Caps {
             | Op::Position(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | machine!()
             | miscellaneous!()

@@ -373,7 +373,13 @@ fn refuse(what: impl Into<Text>, at: Span) -> Diagnostic {
 /// Whether an endless body can be left, as far as its statements tell. What has no end cannot be verified.
 fn ends(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.op {
-        Op::Goto(_) | Op::Return | Op::ProgramEnd | Op::Call(_) | Op::Alarm(_) | Op::Leave => true,
+        Op::Goto(_)
+        | Op::Return
+        | Op::ProgramEnd
+        | Op::BeginAgain
+        | Op::Call(_)
+        | Op::Alarm(_)
+        | Op::Leave => true,
         Op::Control(control) => control.bodies().any(|body| ends(body)),
         _ => false,
     })

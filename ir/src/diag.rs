@@ -265,6 +265,8 @@ faults! {
     Endless = 234, Error;
     /// Its control refuses it while cutter radius compensation is on.
     RefusedCompensated { what: Box<str> } = 235, Error;
+    /// A program that begins again takes a mode for granted at its start that is another at its end.
+    BeginsOtherwise { fact: ModeName } = 238, Error;
 
     /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.
@@ -416,9 +418,11 @@ faults! {
     /// Values in messages have other digits in the target: so many behind the point.
     ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
     /// Text for a device that the target does not write to.
-    OutputDropped = 424, verdict(Verdict::Dropped);
+    OutputDropped = 424, verdict(Verdict::Reformatted);
     /// A macro whose calls give different arguments written as several, one for each set; under these names.
     MacroApart { name: Box<str>, names: Box<str> } = 425, verdict(Verdict::Expanded);
+    /// The text of an alarm has values in it, which no alarm of the output shows.
+    AlarmValues = 427, verdict(Verdict::Reformatted);
     /// What the source's control does by itself at a code, written before it as words.
     SideEffectWritten { behaviour: Behaviour } = 426, verdict(Verdict::Reformatted);
     /// A cut in machine coordinates written in the work offset in force, less the offsets.

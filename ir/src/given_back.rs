@@ -144,6 +144,7 @@ impl Changes {
             | Op::Corner { .. }
             | Op::SetFeedRate(_)
             | Op::ProgramEnd
+            | Op::BeginAgain
             | Op::GoToReference(_)
             | Op::OrientToolAxis(_)
             | tooling!()

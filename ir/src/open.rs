@@ -193,7 +193,10 @@ impl Look {
                 self.meets(jumped);
                 // A jump from further down leads here.
                 self.surely.get_or_insert_with(|| Set::first(self.set.len()));
-            } else if matches!(stmt.op, Op::Leave | Op::NextTurn | Op::Return | Op::ProgramEnd) {
+            } else if matches!(
+                stmt.op,
+                Op::Leave | Op::NextTurn | Op::Return | Op::ProgramEnd | Op::BeginAgain
+            ) {
                 self.surely = None;
             }
         }

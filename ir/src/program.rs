@@ -422,6 +422,8 @@ pub enum Op {
     OptionalProgramStop,
     /// `PROGRAM_END`
     ProgramEnd,
+    /// `BEGIN_AGAIN`: the main program begins anew, for ever. Nothing of the control is reset.
+    BeginAgain,
     /// `MESSAGE`: text for the operator.
     Message(Text),
     /// `MESSAGE_OF`: text for the operator with values in it.
@@ -560,6 +562,7 @@ impl Op {
             Op::ProgramStop => "PROGRAM_STOP",
             Op::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Op::ProgramEnd => "PROGRAM_END",
+            Op::BeginAgain => "BEGIN_AGAIN",
             Op::Message(_) => "MESSAGE",
             Op::MessageOf(_) => "MESSAGE_OF",
             Op::Output(output) => match **output {

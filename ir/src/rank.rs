@@ -76,7 +76,6 @@ impl Fault {
             | Fault::PathRelaxed { .. }
             // A loss that was allowed.
             | Fault::SkipLevelLost { .. }
-            | Fault::OutputDropped
             | Fault::MessageDropped
             // Warnings.
             | Fault::NoProgramEnd
@@ -128,6 +127,7 @@ impl Fault {
             | Fault::PatternFolded { .. }
             | Fault::NameChanged { .. }
             | Fault::AdviceLeftOut { .. }
+            | Fault::OutputDropped
             | Fault::WorkOffsetLeftOut { .. }
             | Fault::Flattened { .. }
             | Fault::VariablesRenamed { .. }
@@ -135,6 +135,7 @@ impl Fault {
             | Fault::SideEffectWritten { .. }
             | Fault::FeedByTime
             | Fault::ValuesInFull { .. }
+            | Fault::AlarmValues
             | Fault::MacroApart { .. }
             | Fault::MachineCutExpanded { .. }
             | Fault::MachineCutFolded { .. }
@@ -183,6 +184,7 @@ impl Fault {
             | Fault::NoSpeed
             | Fault::NoValue { .. }
             | Fault::VariableUnset { .. }
+            | Fault::BeginsOtherwise { .. }
             | Fault::Computes { .. }
             | Fault::NoCycle
             | Fault::CycleUpsideDown

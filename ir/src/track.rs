@@ -494,7 +494,7 @@ impl Tracker {
                 _ => {}
             },
             Op::SetFeedRate(feed) => self.feed_is(feed),
-            Op::ProgramEnd | variables!() | conduct!() => {}
+            Op::ProgramEnd | Op::BeginAgain | variables!() | conduct!() => {}
         }
     }
 

@@ -112,7 +112,7 @@ fn length(value: f64) -> bool {
 }
 
 fn numbers(schema: &Schema, found: &mut Found) {
-    use crate::schema::{AxisRow, MCodeRow, Rates, Spindle, Times, ToolRow, WorkOffsetRow};
+    use crate::schema::{AxisRow, MCodeRow, Rates, Spindle, Times, ToolRow, ValueRow, WorkOffsetRow};
     let rates = &schema.rates;
     found.number::<Rates>(&rates.rapid, "rapid", above_zero);
     found.number::<Rates>(&rates.max_feed, "max_feed", above_zero);
@@ -146,6 +146,9 @@ fn numbers(schema: &Schema, found: &mut Found) {
     }
     for code in schema.m_code.iter().map(toml::Spanned::get_ref) {
         found.number::<MCodeRow>(&code.seconds, "seconds", from_zero);
+    }
+    for row in schema.value.iter().map(toml::Spanned::get_ref) {
+        found.number::<ValueRow>(&row.holds, "holds", within);
     }
 }
 

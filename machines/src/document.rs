@@ -1,7 +1,7 @@
 //! The schema in words, from the types.
 
 use crate::schema::{
-    AxisRow, Emit, MCodeRow, PowerOn, ProgramRow, Rates, Spindle, Times, ToolRow, WorkOffsetRow,
+    AxisRow, Emit, MCodeRow, PowerOn, ProgramRow, Rates, Spindle, Times, ToolRow, ValueRow, WorkOffsetRow,
 };
 use crate::table::Table;
 
@@ -17,6 +17,7 @@ pub fn tables() -> String {
         table::<WorkOffsetRow>(),
         table::<ProgramRow>(),
         table::<MCodeRow>(),
+        table::<ValueRow>(),
         table::<Emit>(),
     ];
     parts.join("\n")

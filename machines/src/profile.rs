@@ -94,6 +94,7 @@ impl Profile {
             work_offset: Vec::new(),
             program: Vec::new(),
             m_code: Vec::new(),
+            value: Vec::new(),
             emit: Default::default(),
         };
         Profile { schema, dialect }
@@ -108,6 +109,14 @@ impl Profile {
         let text = |text: &str| Fact { value: Some(text.to_owned()), ..Fact::default() };
         let row = MCodeRow { code: text(code), function: text(function), ..MCodeRow::default() };
         self.schema.m_code.push(toml::Spanned::new(0..0, row));
+    }
+
+    /// What variables hold when a program starts, by their names.
+    pub fn values(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.schema.value.iter().filter_map(|row| {
+            let row = row.get_ref();
+            Some((row.name.value.as_deref()?, row.holds.get()?))
+        })
     }
 
     /// What models of the timeline know of the machine.
@@ -194,6 +203,7 @@ impl Profile {
         rows.extend(s.work_offset.iter().map(|w| row(w.get_ref())));
         rows.extend(s.program.iter().map(|p| row(p.get_ref())));
         rows.extend(s.m_code.iter().map(|m| row(m.get_ref())));
+        rows.extend(s.value.iter().map(|v| row(v.get_ref())));
         rows.push(row(&s.emit));
         rows
     }

@@ -68,6 +68,9 @@ pub struct Schema {
     /// M codes of this machine.
     #[serde(default)]
     pub m_code: Vec<Spanned<MCodeRow>>,
+    /// What variables of this machine's control hold.
+    #[serde(default)]
+    pub value: Vec<Spanned<ValueRow>>,
     /// The shop's choices for emitted programs.
     #[serde(default)]
     pub emit: Emit,
@@ -343,6 +346,17 @@ table! {
         effect: Effect = "`none`";
         /// Seconds that it takes.
         seconds: f64 = "a number from 0";
+    }
+}
+
+table! {
+    /// What a variable holds when a program starts, that programs of this machine read and never set. The output sets it
+    /// itself, and it is told.
+    ValueRow "[[value]]" {
+        /// The variable, as programs have it: `500`, `_tool_diameter`, `R5`.
+        name: String = "text";
+        /// What it holds.
+        holds: f64 = "a number from -1000000 to 1000000";
     }
 }
 

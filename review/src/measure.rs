@@ -89,7 +89,12 @@ impl Measure {
             What::Orient => near(a.more[0], b.more[0], 0, self.degrees),
             What::Dwell => near(a.more[0], b.more[0], 0, self.seconds),
             What::Function | What::Message | What::Alarm => a.more[0] == b.more[0],
-            What::ToolChange | What::Stop | What::OptionalStop | What::End | What::TextEnd => true,
+            What::ToolChange
+            | What::Stop
+            | What::OptionalStop
+            | What::End
+            | What::BeginAgain
+            | What::TextEnd => true,
         }
     }
 

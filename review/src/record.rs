@@ -30,6 +30,7 @@ pub enum What {
     Stop,
     OptionalStop,
     End,
+    BeginAgain,
     TextEnd,
     Message,
     Alarm,
@@ -396,6 +397,7 @@ impl Recorder {
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd
+            | Kind::BeginAgain
             | Kind::TextEnd
             | Kind::Attribute(_) => more = [0; 3],
         }
@@ -441,6 +443,7 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::ProgramStop => What::Stop,
         Kind::OptionalProgramStop => What::OptionalStop,
         Kind::ProgramEnd => What::End,
+        Kind::BeginAgain => What::BeginAgain,
         Kind::TextEnd => What::TextEnd,
         Kind::Message(_) => What::Message,
         Kind::Alarm(..) => What::Alarm,

@@ -158,6 +158,10 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
         }
         ("PROGRAM_STOP", []) => m.record(What::Stop),
         ("OPTIONAL_PROGRAM_STOP", []) => m.record(What::OptionalStop),
+        ("BEGIN_AGAIN", []) => {
+            m.record(What::BeginsAgain);
+            return Ok(true);
+        }
         ("PROGRAM_END", []) => {
             m.record(What::End);
             return Ok(true);

@@ -441,7 +441,7 @@ impl Control {
                 if number(&words, 'L').is_some() || self.on.is_some() && self.depth == 0 {
                     return self.m.halt("M99 with L, or with P in the first program");
                 }
-                return Ok(Next::Back);
+                return Ok(self.back(all));
             }
             _ => {}
         }

@@ -572,6 +572,10 @@ impl Control {
                 self.m.record(What::End);
                 return Ok(Next::End);
             }
+            "BEGIN_AGAIN" => {
+                self.m.record(What::BeginsAgain);
+                return Ok(Next::End);
+            }
             "RETURN" => return Ok(Next::Back),
             "CALL" => return self.procedure(a),
             _ => return self.m.halt(format!("the function {name}")),

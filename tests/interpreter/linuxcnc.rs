@@ -376,7 +376,10 @@ impl Control {
                 return Ok(Next::End);
             }
             Some(980) => return self.call(&words, all),
-            Some(_) if self.depth == 0 => return self.m.halt("M99 in the main program"),
+            Some(_) if self.depth == 0 => {
+                self.m.record(What::BeginsAgain);
+                return Ok(Next::End);
+            }
             Some(_) => return Ok(Next::Back),
             None => {}
         }

@@ -128,6 +128,8 @@ pub enum What {
     OptionalStop,
     /// The end.
     End,
+    /// The program begins anew, for ever.
+    BeginsAgain,
     /// The end of the text, where the program has not said that it ends.
     TextEnd,
 }

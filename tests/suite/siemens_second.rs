@@ -18,7 +18,10 @@ fn runs_the_corpus() {
             let what = format!("{} world {seed} skip {skip:x}", program.file);
             let run = plain::second("siemens", &program.text, plain::setup(&world, skip));
             let Some(machine) = failures.check(&what, run) else { continue };
-            let ends = machine.events.last().is_some_and(|e| matches!(e.what, What::End | What::TextEnd));
+            let ends = machine
+                .events
+                .last()
+                .is_some_and(|e| matches!(e.what, What::End | What::BeginsAgain | What::TextEnd));
             let moves =
                 machine.events.iter().filter(|e| matches!(e.what, What::Traverse | What::Feed)).count();
             if !ends || moves < 3 {

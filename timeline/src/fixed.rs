@@ -60,6 +60,7 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd
+        | Kind::BeginAgain
         | Kind::Alarm(..) => stop(m),
         Kind::Attribute(attribute) => match attribute {
             Attribute::SelectTool(_) if machine.tool_change_on == ToolChangeOn::Select => {

@@ -47,6 +47,7 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd
+        | Kind::BeginAgain
         | Kind::TextEnd
         | Kind::Message(_)
         | Kind::Output(_)

@@ -345,7 +345,8 @@ impl Writer {
             | Op::CoolantOff
             | Op::ProgramStop
             | Op::OptionalProgramStop
-            | Op::ProgramEnd => self.open(s, out),
+            | Op::ProgramEnd
+            | Op::BeginAgain => self.open(s, out),
 
             Op::StartCutterRadiusCompensation { .. }
             | Op::Corner { .. }

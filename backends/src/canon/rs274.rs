@@ -227,6 +227,7 @@ fn rank(op: &Op) -> u8 {
         Op::ProgramStop
         | Op::OptionalProgramStop
         | Op::ProgramEnd
+        | Op::BeginAgain
         | Op::Call(_)
         | Op::Return
         | Op::RepeatBlocks(_)
@@ -471,6 +472,7 @@ impl Printer<'_> {
                 self.call("PROGRAM_STOP()");
             }
             Op::OptionalProgramStop => self.call("OPTIONAL_PROGRAM_STOP()"),
+            Op::BeginAgain => self.end(false),
             Op::ProgramEnd => {
                 let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
                 self.end(code.is_some_and(|code| code.eq_ignore_ascii_case(b"M30")));

@@ -84,6 +84,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::ProgramStop
         | Op::OptionalProgramStop
         | Op::ProgramEnd
+        | Op::BeginAgain
         | Op::Message(_)
         | Op::MessageOf(_)
         | Op::Output(_)
@@ -255,6 +256,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         | Op::ProgramStop
         | Op::OptionalProgramStop
         | Op::ProgramEnd
+        | Op::BeginAgain
         | Op::Return
         | Op::Leave
         | Op::NextTurn

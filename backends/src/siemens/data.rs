@@ -3,10 +3,11 @@
 //! A work offset counts with its new values when it is called up the next time (PGA, frames); one that is in force is
 //! called up again at once. Fine shifts of work offsets are taken for zero, and that is told.
 
-use ncc_dialects::{DataKind, DataRow, Quantity};
+use ncc_dialects::{DataKind, DataRow, Meaning, Quantity};
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::num::Unit;
 use ncc_ir::program::{Data, DataMode, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -25,6 +26,27 @@ impl Writer {
     /// # Errors
     /// A value that no variable holds, or one of a work offset that may be in force, and nobody knows.
     pub(super) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let units = self.words.tracker.modes.units;
+        let metric =
+            (units == Some(Units::Inch) && self.basic_units == Units::Mm).then(|| in_millimetres(data));
+        let Some(metric) = metric.flatten() else { return self.put(data, span, sink) };
+        let code = |units| self.dialect.code_for(Meaning::UseLengthUnits(units)).map(|row| row.code.as_str());
+        let (Some(mm), Some(inch)) = (code(Units::Mm), code(Units::Inch)) else {
+            return self.put(data, span, sink);
+        };
+        self.alone(mm, sink)?;
+        let in_force = self.words.force.units.replace(Units::Mm);
+        self.words.tracker.modes.units = Some(Units::Mm);
+        let put = self.put(&metric, span, sink);
+        self.words.tracker.modes.units = units;
+        self.words.force.units = in_force;
+        put?;
+        // A code of units loses the feed.
+        self.standing.feed_said = false;
+        self.alone(inch, sink)
+    }
+
+    fn put(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         match data {
             Data::Offset { offset, mode: DataMode::Set, words, turn: None } => {
                 let row = self.table(|row| row.kind == DataKind::Offset && *offset <= row.count);
@@ -129,7 +151,7 @@ impl Writer {
     ) -> Result<String, Fault> {
         // Tables count in the control's own unit.
         let units = self.words.tracker.modes.units.or(self.words.assumed.units);
-        if units == Some(Units::Inch) || self.inches {
+        if units == Some(Units::Inch) || units.is_none() && self.inches {
             return Err(cannot("values of tables where lengths do not count in millimetres"));
         }
         if let Expr::Node(_) = value {
@@ -164,4 +186,33 @@ impl Writer {
             false => Err(Fault::TargetRange { word: format!("G{}", 500 + number).into() }),
         }
     }
+}
+
+/// The same values in millimetres, as a control of that basic system keeps them, whose tables count in no unit of the
+/// program; `None` where one is not a number of inches.
+fn in_millimetres(data: &Data) -> Option<Data> {
+    fn metric(value: &mut Expr) -> Option<()> {
+        let Expr::Num(n) = value else { return None };
+        if n.mantissa == 0 {
+            n.unit = Unit::Mm;
+            return Some(());
+        }
+        // One that counts what is in force is inches here.
+        if !matches!(n.unit, Unit::Inch | Unit::Entry) {
+            return None;
+        }
+        (n.mantissa, n.scale, n.unit) = (n.mantissa.checked_mul(254)?, n.scale.checked_add(1)?, Unit::Mm);
+        Some(())
+    }
+    let mut data = data.clone();
+    match &mut data {
+        Data::Offset { words, turn: None, .. } => {
+            words.iter_mut().take(3).flatten().try_for_each(metric)?;
+        }
+        Data::Tool { value, .. } => metric(value)?,
+        Data::Offset { .. } | Data::Measured { .. } | Data::Position(_) | Data::ToolInSpindle(_) => {
+            return None;
+        }
+    }
+    Some(data)
 }

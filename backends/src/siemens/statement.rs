@@ -60,6 +60,11 @@ impl Writer {
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd => self.words.statement(stmt, sink),
+            Op::BeginAgain => {
+                let row = self.dialect.name_for(NameMeaning::Code(Meaning::BeginAgain));
+                let row = row.ok_or_else(|| cannot("a program that begins again"))?;
+                self.alone(&row.name, sink)
+            }
             Op::SetOriginOffsets(number) => {
                 self.settable_frame(*number, span, sink)?;
                 self.words.statement(stmt, sink)

@@ -80,7 +80,7 @@ impl Writer {
             self.standing.modal = Modal::Doubtful;
         }
         // There, the codes of the program's end lead back to what has called it.
-        for end in p.body.iter().filter(|s| matches!(s.op, Op::ProgramEnd)) {
+        for end in p.body.iter().filter(|s| matches!(s.op, Op::ProgramEnd | Op::BeginAgain)) {
             sink.report(cannot("the program's end in a subprogram"), end.span);
         }
         self.body(&p.body, &mut sink);

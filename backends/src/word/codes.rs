@@ -237,6 +237,7 @@ pub(crate) struct Codes {
     pub stop: Option<Code>,
     pub optional_stop: Option<Code>,
     pub end: Option<Code>,
+    pub again: Option<Code>,
     pub call: Option<CallCode>,
     /// A call with arguments.
     pub macro_call: Option<CallCode>,
@@ -653,6 +654,7 @@ impl Codes {
             stop: code(Meaning::ProgramStop),
             optional_stop: code(Meaning::OptionalProgramStop),
             end: code(Meaning::ProgramEnd),
+            again: code(if dialect.program.begins_again { Meaning::Return } else { Meaning::BeginAgain }),
             call: find.call(Meaning::Call),
             macro_call: find.call(Meaning::CallMacro),
             calls_at_moves: find.call(Meaning::CallMacroAtMoves).zip(code(Meaning::EndCallsAtMoves)),

@@ -28,7 +28,14 @@ impl Comments {
             upper_ascii: rules.upper_ascii,
             signs: rules.signs.clone(),
             longest: rules.longest,
-            active: rules.active.iter().chain([&rules.message]).filter(|w| !w.is_empty()).cloned().collect(),
+            active: rules
+                .active
+                .iter()
+                .chain(&rules.logs)
+                .chain([&rules.message])
+                .filter(|w| !w.is_empty())
+                .cloned()
+                .collect(),
             message: rules.message.clone(),
             shown: String::new(),
         }

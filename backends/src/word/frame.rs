@@ -109,7 +109,9 @@ impl Writer {
         self.body(&p.body, &mut sink);
         let ends =
             p.body.iter().rev().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)));
-        if !ends.is_some_and(|s| matches!(s.op, Op::Return | Op::ProgramEnd) && s.skip.is_none()) {
+        if !ends
+            .is_some_and(|s| matches!(s.op, Op::Return | Op::ProgramEnd | Op::BeginAgain) && s.skip.is_none())
+        {
             let end = ncc_ir::program::Stmt::new(p.body.last().map_or(span, |s| s.span), Op::Return);
             self.body(&[end], &mut sink);
         }
@@ -155,7 +157,7 @@ pub(super) fn ends(body: &[Stmt]) -> Option<bool> {
     {
         [then, otherwise].iter().all(|body| ends(body) == Some(true))
     } else {
-        matches!(last.op, Op::ProgramEnd | Op::Return | Op::Alarm(_))
+        matches!(last.op, Op::ProgramEnd | Op::BeginAgain | Op::Return | Op::Alarm(_))
     };
     Some(over && last.skip.is_none())
 }

@@ -272,6 +272,12 @@ impl Writer {
         self.number_jumps(stmts);
         self.look_ahead(stmts);
         self.o_main(stmts, &mut sink);
+        let silent = |s: &&Stmt| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
+        let last = stmts.iter().rev().find(silent).filter(|s| s.op == Op::BeginAgain && s.skip.is_none());
+        if let Some(last) = last.filter(|_| self.dialect.program.macro_b) {
+            // Without an end of its own such a text is a subprogram.
+            self.o_main(&[Stmt::new(last.span, Op::ProgramEnd)], &mut sink);
+        }
     }
 
     /// Takes a shop's choices for the form of the text.

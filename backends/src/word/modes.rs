@@ -103,6 +103,7 @@ impl Setting {
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd
+            | Op::BeginAgain
             | Op::Message(_)
             | Op::Call(_)
             | Op::Return

@@ -122,6 +122,7 @@ fn take(event: &Event, into: &mut DefaultHasher) {
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd
+        | Kind::BeginAgain
         | Kind::TextEnd
         // Made only where functions are narrated.
         | Kind::Attribute(_) => {}

@@ -39,7 +39,7 @@ const MOST_STRETCHES: usize = 1000;
 const MOST_PLACES: usize = 1000;
 
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
-pub const KINDS: [&str; 19] = [
+pub const KINDS: [&str; 21] = [
     "STRAIGHT_TRAVERSE",
     "STRAIGHT_FEED",
     "ARC_FEED",
@@ -59,6 +59,8 @@ pub const KINDS: [&str; 19] = [
     "ORIENT_TOOL_AXIS",
     "STRAIGHT_PROBE",
     "ALARM",
+    "OUTPUT",
+    "BEGIN_AGAIN",
 ];
 
 /// A kind's place in [`KINDS`]; `None` is no event of a comparison.
@@ -84,6 +86,7 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::Probe { .. } => 17,
         Kind::Alarm(..) => 18,
         Kind::Output(_) => 19,
+        Kind::BeginAgain => 20,
         Kind::Attribute(_) => return None,
     })
 }

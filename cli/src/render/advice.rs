@@ -284,7 +284,15 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NoValue { .. } => {
             own("see which values its variables have there; a control stops with an alarm")
         }
-        Fault::VariableUnset { .. } => own("set the variable before it is read"),
+        Fault::BeginsOtherwise { fact } => {
+            let text =
+                format!("write the code of the {} at the start of the program", super::words::mode(*fact));
+            own(&text)
+        }
+        Fault::VariableUnset { name } => {
+            let value = format!("or state what it holds: `--value {name}=NUMBER`");
+            vec!["set the variable before it is read".into(), value]
+        }
         Fault::Computes { .. } => {
             own("`--pass flatten` executes the program, and writes the blocks that come of it")
         }
@@ -342,6 +350,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::Flattened { .. }
         | Fault::AlarmsRenumbered { .. }
         | Fault::ValuesInFull { .. }
+        | Fault::AlarmValues
         | Fault::VariablesRenamed { .. }
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }
@@ -398,6 +407,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 format!("if that point is the machine's zero: `--from-option {option}=zero`"),
                 "else write the move in machine coordinates, with G53".into(),
             ]
+        }
+        Fault::CannotSay { what } if &**what == "a program that begins again" => {
+            own("write `M30` in its place: the program then runs once")
         }
         Fault::CannotSay { what } if &**what == "an optional stop" => {
             own("`--m-code M1=drop` leaves it out: the program never stops there, as with the switch off")

@@ -363,6 +363,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
         Fault::AlarmsRenumbered { .. } => "alarms under other numbers".to_owned(),
+        Fault::AlarmValues => "values in the text of an alarm left out".to_owned(),
         Fault::ValuesInFull { digits } => {
             format!("values in messages, with {digits} digits behind the point")
         }
@@ -396,7 +397,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::NameAsComment => "the program's name, as a comment".to_owned(),
         Fault::BlockSplit => "blocks, as several".to_owned(),
         Fault::MessageDropped => "messages to the operator".to_owned(),
-        Fault::OutputDropped => "text for a device".to_owned(),
+        Fault::OutputDropped => "text for a device or a file left out".to_owned(),
 
         // What is no verdict has no place in the account, and would be named by its message.
         Fault::RadiusUnknown { .. }
@@ -446,6 +447,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoSpeed
         | Fault::NoValue { .. }
         | Fault::VariableUnset { .. }
+        | Fault::BeginsOtherwise { .. }
         | Fault::Computes { .. }
         | Fault::NoCycle
         | Fault::CycleUpsideDown

@@ -185,6 +185,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("variable {name} is read and was never set"),
             "what it holds, the control alone knows".into(),
         ),
+        Fault::BeginsOtherwise { fact } => (
+            format!("{} at the end is not that of the start", mode(*fact)),
+            "the program begins again here with other modes".into(),
+        ),
         Fault::Computes { what } => (
             format!("what is computed when the program runs is not written for {to}"),
             format!("this is {what}"),
@@ -473,7 +477,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "variables, loops, jumps and subprograms are gone, with the comments beside them".into(),
         ),
         Fault::AlarmsRenumbered { map } => ("alarms have other numbers".into(), format!("in {to}, {map}")),
-        Fault::OutputDropped => ("text for a device lost".into(), format!("nothing of it is written for {to}")),
+        Fault::OutputDropped => ("text for a device left out".into(), format!("{to} does not write it; a comment is left")),
+        Fault::AlarmValues => ("values in an alarm left out".into(), "its text has three points in their place".into()),
         Fault::ValuesInFull { digits } => (
             format!("a value in a message has {digits} digits behind its point"),
             format!("{to} does not leave out the zeros at its end"),

@@ -106,6 +106,7 @@ pub(crate) fn event(record: &Record, style: &Style, texts: &[Text]) -> String {
         What::Stop => "stop".to_owned(),
         What::OptionalStop => "optional stop".to_owned(),
         What::End => "end".to_owned(),
+        What::BeginAgain => "beginning again".to_owned(),
         What::TextEnd => "end of the text".to_owned(),
         What::Message => format!("message {:?}", text()),
         What::Alarm => format!("alarm {:?}", text()),

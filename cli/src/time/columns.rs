@@ -71,6 +71,7 @@ impl Columns {
             Kind::ProgramStop => "PROGRAM_STOP",
             Kind::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Kind::ProgramEnd => "PROGRAM_END",
+            Kind::BeginAgain => "BEGIN_AGAIN",
             Kind::Message(_) => "MESSAGE",
             Kind::Output(_) => "OUTPUT",
             Kind::Alarm(..) => "ALARM",

@@ -193,6 +193,7 @@ impl<W: Write> Sink for Payload<'_, W> {
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd
+            | Kind::BeginAgain
             | Kind::TextEnd
             | Kind::Attribute(_) => Map::new(),
         };

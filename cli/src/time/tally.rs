@@ -302,6 +302,7 @@ impl Step {
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd
+            | Kind::BeginAgain
             | Kind::TextEnd
             | Kind::Message(_)
             | Kind::Output(_)

@@ -11,7 +11,9 @@ use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::{self, Expr};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::open::open_variables;
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
@@ -20,13 +22,70 @@ use ncc_ir::passes::{
     exact_comparisons, expand_repeats, leave_out_output, machine_cuts, message_values, output_elsewhere,
     own_distance, planes_checked, spindle_points, unit_in_force,
 };
-use ncc_ir::program::{Call, Program};
+use ncc_ir::program::{Call, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::{deeper_calls, labels_twice};
 use ncc_ir::world::Sideways;
 
 use crate::job::Job;
+
+/// A number as it is typed.
+fn decimal(num: Num) -> String {
+    let digits = format!("{:0>width$}", num.mantissa.unsigned_abs(), width = usize::from(num.scale) + 1);
+    let (whole, behind) = digits.split_at(digits.len() - usize::from(num.scale));
+    let sign = if num.mantissa < 0 { "-" } else { "" };
+    if behind.is_empty() { format!("{sign}{whole}") } else { format!("{sign}{whole}.{behind}") }
+}
+
+/// Has the output set at its start what the user states that variables hold there, which the program reads before it
+/// sets them.
+pub(super) fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    if job.values.is_empty() {
+        return found;
+    }
+    let open = open_variables(program);
+    let Some(main) = program.procedures.first_mut() else { return found };
+    let at = main.body.first().map_or(Span::default(), |first| first.span);
+    let mut sets = Vec::new();
+    for (var, read) in open {
+        let name = var.name();
+        let Some((_, value)) = job.values.iter().find(|(own, _)| job.given.is_name(own, &name)) else {
+            continue;
+        };
+        let parameter = format!("variable {name} at the start").into();
+        let shown = decimal(*value).into();
+        found.push(Diagnostic::new(Fault::AssumedParameter { parameter, value: shown }, read));
+        sets.push(Stmt::new(at, Op::Assign(expr::Target::Var(var), Expr::Num(*value))));
+    }
+    let at = behind_the_modes(&main.body);
+    main.body.splice(at..at, sets);
+    found
+}
+
+/// Where the first block begins that does more than state modes.
+fn behind_the_modes(body: &[Stmt]) -> usize {
+    let states = |stmt: &Stmt| {
+        let plain = matches!(
+            stmt.op,
+            Op::UseLengthUnits(_)
+                | Op::SetDistanceMode(_)
+                | Op::SelectPlane(_)
+                | Op::SetFeedMode(_)
+                | Op::SetReturnLevel(_)
+                | Op::SetOriginOffsets(_)
+                | Op::EndCycle
+                | Op::StopCutterRadiusCompensation
+                | Op::UseToolLengthOffset(Expr::Num(_))
+                | Op::Comment(_)
+                | Op::Blank
+        );
+        plain && stmt.skip.is_none()
+    };
+    let first = body.iter().position(|stmt| !states(stmt)).unwrap_or(body.len());
+    (0..=first).rev().find(|at| body.get(*at).is_none_or(|stmt| !stmt.joined)).unwrap_or(0)
+}
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.
 pub(super) fn decimals(job: &Job) -> u8 {

@@ -5,7 +5,7 @@
 
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern, Kept};
 use ncc_ir::canon::Axis;
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::exec::Again;
 use ncc_ir::expr::Var;
 use ncc_ir::open::outliving_variables;
@@ -73,6 +73,9 @@ impl Verifier {
     /// Tells where the next run of source and output would not begin alike, once both have ended.
     pub(super) fn compare_next_runs(&mut self) {
         let Some(first) = self.runs.first() else { return };
+        if let Some((fact, at)) = self.begins_otherwise() {
+            self.notes.push(Diagnostic::new(Fault::BeginsOtherwise { fact }, at));
+        }
         let behaviours = [*first.source.behaviours(), *first.target.behaviours()];
         let leaves = |run: &&Run| run.source.leaves_slots() || run.target.leaves_slots();
         let runs: Vec<&Run> = self.runs.iter().filter(leaves).collect();
@@ -104,6 +107,12 @@ impl Verifier {
             usual.0.into_iter().chain(usual.1).map(|(fault, at)| Diagnostic::new(fault, at)).collect();
         self.notes.append(&mut notes);
         self.matters.append(&mut found);
+    }
+
+    /// What a program that begins again takes for granted of its start, and has not in force where it begins again.
+    fn begins_otherwise(&self) -> Option<(ModeName, Span)> {
+        let mut found = self.runs.iter().filter_map(|run| run.source.begins_otherwise(&self.assumed));
+        found.next()
     }
 
     /// Open facts of the end of a program that are looked at, and whether each is the source's.

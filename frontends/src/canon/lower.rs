@@ -219,6 +219,7 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
         "PROGRAM_STOP" => Op::ProgramStop,
         "OPTIONAL_PROGRAM_STOP" => Op::OptionalProgramStop,
         "PROGRAM_END" => Op::ProgramEnd,
+        "BEGIN_AGAIN" => Op::BeginAgain,
         _ => return Err((Fault::UnknownCode { code: name.into() }, call.name.l, call.name.r)),
     };
     args.end()?;

@@ -20,7 +20,7 @@
 //! FLOOD_ON()  MIST_ON()  COOLANT_OFF()             ours: both at once
 //! STRAIGHT_TRAVERSE(x, y, z [, a, b, c])  STRAIGHT_FEED(x, y, z [, a, b, c])
 //! ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point [, a, b, c])
-//! PROGRAM_STOP()  OPTIONAL_PROGRAM_STOP()  PROGRAM_END()
+//! PROGRAM_STOP()  OPTIONAL_PROGRAM_STOP()  PROGRAM_END()  BEGIN_AGAIN()
 //! ```
 //!
 //! Coordinates are absolute in the program's frame; `_` is an axis that stays where it is. The axes
@@ -210,6 +210,7 @@ impl State {
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd
+            | Op::BeginAgain
             | Op::Message(_)
             | Op::MessageOf(_)
             | Op::Output(_)
@@ -381,7 +382,7 @@ impl Reader {
         if self.ended && !std::mem::replace(&mut self.after_end, true) && self.assume {
             out.diagnostics.push(Diagnostic::new(Fault::TextAfterEnd, span));
         }
-        self.ended |= matches!(op, Op::ProgramEnd) && !skipped;
+        self.ended |= matches!(op, Op::ProgramEnd | Op::BeginAgain) && !skipped;
         if !self.assume {
             return;
         }

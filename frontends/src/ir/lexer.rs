@@ -178,6 +178,7 @@ pub(crate) enum Token {
     #[token("PROGRAM_STOP", |_| Box::new(Op::ProgramStop))]
     #[token("OPTIONAL_PROGRAM_STOP", |_| Box::new(Op::OptionalProgramStop))]
     #[token("PROGRAM_END", |_| Box::new(Op::ProgramEnd))]
+    #[token("BEGIN_AGAIN", |_| Box::new(Op::BeginAgain))]
     #[token("EXACT_STOP", |_| Box::new(Op::ExactStop))]
     #[token("RETURN", |_| Box::new(Op::Return))]
     #[token("LEAVE", |_| Box::new(Op::Leave))]

@@ -24,6 +24,7 @@ use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::labels::{InPlace, Label, Pending, marked, resolve};
 use super::lower::{Head, Lower};
 use super::tree::{self, Expr as Tree, Jump, Place, Target};
+use super::unit;
 use crate::Batch;
 use crate::word::Source;
 use crate::word::facts::Know;
@@ -277,9 +278,15 @@ impl Lower {
     /// A jump without its condition; its label is found at the end.
     fn jump(&mut self, jump: &Jump, src: Source, out: &mut Batch) -> Option<Op> {
         let name: Text = match &jump.target {
-            None => {
-                self.not_supported("GOTOS", "jump to the start of the program", jump.span, out);
+            None if self.sub.is_some() || self.unit == Some(unit::Kind::Sub) => {
+                self.not_supported("GOTOS", "jump to the start of a subprogram", jump.span, out);
                 return None;
+            }
+            None => {
+                self.idle_tap_ends("GOTOS", jump.span, out);
+                self.leave_motion(jump.span, out);
+                self.flow.has_end = true;
+                return Some(Op::BeginAgain);
             }
             Some(Target::Number(number)) => numbered(number.value),
             Some(Target::Named(Tree::Place(Place { address: tree::Address::Name(name), index, .. })))

@@ -271,8 +271,7 @@ impl Sink<'_> {
 
     /// Text for a device; other words of the kind are refused.
     pub(crate) fn output(&mut self, start: usize, end: usize) {
-        let output = output::read(&self.line[start..end]);
-        self.piece(start, end, output.map(Piece::Output));
+        self.piece(start, end, output::taken(&self.line[start..end]).map(Piece::Output));
     }
 
     /// A condition, and what depends on it.

@@ -4,7 +4,7 @@
 
 use ncc_dialects::Statement;
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Call, Op, Text};
+use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
@@ -85,6 +85,7 @@ impl Lower {
             return self.fault(Fault::OutOfRange { word: name }, word, out);
         }
         out.whole = true;
+        self.centre_said_elsewhere(out);
         let shared = self.shares();
         let main = self.sub.is_none();
         self.o.subs.calls_numbered(name.clone(), block, main);
@@ -122,8 +123,16 @@ impl Lower {
 
     /// The end of the main program's text: what returns does not end by itself as well.
     pub(super) fn alone_or_main(&mut self, out: &mut Batch) {
-        if let (true, true, Some(at)) = (out.subprogram, self.alone.ends, self.alone.returns) {
-            self.endless(at, "M99".into(), out);
+        let Some(at) = self.alone.returns else { return };
+        if self.alone.ends {
+            if out.subprogram {
+                self.began_again(at, out);
+            }
+        } else if let Some(begins) = self.alone.begins_again {
+            self.endless(begins, "M99".into(), out);
+        } else if self.assume {
+            let parameter = "M99 goes back to a program that calls this one".into();
+            out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, at);
         }
         match self.alone.feed.take() {
             Some(at) if !out.subprogram || self.alone.ends => out.report(Fault::NoFeed, at),
@@ -138,28 +147,62 @@ impl Lower {
     /// Blocks stand behind the return of a text that has no end of its own before: it is a main program.
     pub(super) fn goes_on_behind_return(&mut self, out: &mut Batch) {
         if let Some(at) = self.alone.returns.take_if(|_| self.sub.is_none()) {
-            self.endless(at, "M99".into(), out);
+            self.began_again(at, out);
         }
     }
 
-    fn endless(&mut self, at: Span, code: Box<str>, out: &mut Batch) {
+    pub(super) fn endless(&mut self, at: Span, code: Box<str>, out: &mut Batch) {
         let name = "return in the main program: endless repetition".into();
         self.fault(Fault::NotSupported { code, name }, at, out);
+    }
+
+    /// What was taken for the return of a subprogram has the main program begin anew.
+    fn began_again(&mut self, at: Span, out: &mut Batch) {
+        if !self.settings.dialect.program.begins_again {
+            return self.endless(at, "M99".into(), out);
+        }
+        out.subprogram = false;
+        begin_again_there(&mut out.stmts);
+    }
+
+    /// The main program begins anew, for ever: its end, behind which nothing is reset.
+    pub(super) fn begin_again(&mut self, code: &Code, out: &mut Batch) {
+        let name = code.row.code.as_str();
+        if self.sub.is_some() {
+            let name = "a main program's beginning anew, in a subprogram".into();
+            return self.fault(
+                Fault::NotSupported { code: code.row.code.as_str().into(), name },
+                code.span,
+                out,
+            );
+        }
+        if self.within_modal(code.span, out) {
+            return;
+        }
+        if name == "M99" && !self.settings.dialect.program.begins_again {
+            return self.endless(code.span, name.into(), out);
+        }
+        self.alone.begins_again.get_or_insert(code.span);
+        self.ended |= self.now.skip.is_none();
+        self.leave_motion(None, out);
+        self.tap_elsewhere(out);
+        self.push(code.span, Op::BeginAgain, out);
+    }
+
+    /// Whether a return at hand goes back to a caller, as far as the text has been read.
+    pub(super) fn may_go_back(&self) -> bool {
+        let alone = self.settings.dialect.program.macro_b && self.now.skip.is_none();
+        self.sub.is_some() || self.returns_from_blocks() || alone && !self.alone.ends
     }
 
     /// A return to the caller. A text that ends by it and by nothing else is a subprogram that stands alone; run by
     /// itself, the control would begin anew (16-C, subprogram control: M99 in a main program).
     pub(super) fn return_from(&mut self, code: &Code, out: &mut Batch) {
         if self.sub.is_none() && !self.returns_from_blocks() {
-            let alone = self.settings.dialect.program.macro_b && self.now.skip.is_none();
+            if !self.may_go_back() {
+                return self.begin_again(code, out);
+            }
             self.alone.returns.get_or_insert(code.span);
-            if !alone || self.alone.ends {
-                return self.endless(code.span, code.row.code.as_str().into(), out);
-            }
-            if self.assume && !out.subprogram {
-                let parameter = "M99 goes back to a program that calls this one".into();
-                out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, code.span);
-            }
             (out.subprogram, out.whole) = (true, true);
         }
         if self.in_o_sub() {
@@ -174,5 +217,15 @@ impl Lower {
         self.leave_motion(None, out);
         self.tap_elsewhere(out);
         self.push(code.span, Op::Return, out);
+    }
+}
+
+fn begin_again_there(stmts: &mut [Stmt]) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            Op::Return => stmt.op = Op::BeginAgain,
+            Op::Control(control) => control.bodies_mut().for_each(|body| begin_again_there(body)),
+            _ => {}
+        }
     }
 }

@@ -282,7 +282,7 @@ impl Lower {
                 self.lose(span, out);
             }
             Statement::End(number) => self.end_loop(*number, span, out),
-            Statement::Output(output) => self.output(output, span, src, out),
+            Statement::Output(output) => self.output(output.as_ref(), span, src, out),
         }
     }
 

@@ -7,9 +7,10 @@ use ncc_dialects::{AT_ZERO, DataKind, DataRow, Meaning, Quantity, RADIUS_DATA, S
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
 use ncc_ir::code_of::of_number;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
+use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::num::Num;
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
+use ncc_ir::system::System;
 
 use super::Source;
 use super::block::{Value, Word};
@@ -84,7 +85,19 @@ impl Lower {
             }
             _ => None,
         };
-        let found = if computed.is_some() { Some(1) } else { self.whole(&entry, src, out) };
+        let found = match entry.value {
+            _ if computed.is_some() => Some(1),
+            Value::Computed(place) => {
+                let number = self.entry_number(words.exprs[usize::from(place)].clone(), &entry, out);
+                let Some(known) = self.known_number(&number) else {
+                    let code = format!("{} {}", row.name, src.text(entry.span)).into();
+                    let name = "data input for an entry whose number only the running program knows".into();
+                    return self.fault(Fault::NotSupported { code, name }, entry.span, out);
+                };
+                Some(known)
+            }
+            _ => self.whole(&entry, src, out),
+        };
         let Some(mut number) = found else { return };
         if number == 0 && row.zero_current {
             self.rely_on_frames(false, code.span, out);
@@ -162,6 +175,17 @@ impl Lower {
         self.computes.saved.entry(code.span, &row.name);
         self.push(code.span, of_number(&computed, ways.collect(), code.span), out);
         self.stands_alone();
+    }
+
+    /// A whole number that the text settles: a literal, or the tool that it has selected last by one.
+    fn known_number(&self, number: &Expr) -> Option<u32> {
+        match number {
+            Expr::Num(n) => n.whole().and_then(|n| u32::try_from(n).ok()),
+            Expr::Node(node) => match (&**node, self.state.tool) {
+                (Node::Var(Var::System(System::SelectedTool)), Know::Said(tool)) => tool,
+                _ => None,
+            },
+        }
     }
 
     /// The number of a table's entry, where it is computed.

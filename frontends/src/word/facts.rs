@@ -182,8 +182,8 @@ pub(super) struct State {
     pub(super) centre_before: Option<CentreFrom>,
     /// Whether a feed was said.
     pub(super) feed: Know<()>,
-    /// Whether a tool was selected.
-    pub(super) tool: Know<()>,
+    /// Whether a tool was selected, and by which number, where that is a literal.
+    pub(super) tool: Know<Option<u32>>,
     pub(super) cycle: InForce,
     /// The code by which the next tapping cycle is a rigid one.
     pub(super) rigid: Option<Span>,

@@ -54,7 +54,7 @@ pub(crate) enum Piece {
     While(Expr),
     Do(u32),
     End(u32),
-    Output(Output),
+    Output(Option<Output>),
     /// What is refused already.
     Refused,
 }
@@ -72,7 +72,7 @@ pub(crate) enum Statement {
     /// It ends.
     End(u32),
     /// Text for a device.
-    Output(Output),
+    Output(Option<Output>),
 }
 
 impl Formula {

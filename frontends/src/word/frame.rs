@@ -5,7 +5,7 @@
 
 use std::collections::HashSet;
 
-use ncc_dialects::Dialect;
+use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Text};
 use ncc_ir::source::Span;
@@ -231,8 +231,22 @@ impl Reader {
         if self.ends_the_file(src) {
             return;
         }
+        let begins_again = self.lower.alone.returns.or(self.lower.alone.begins_again).is_some();
         self.lower.goes_on_behind_return(out);
-        self.text_after_end(self.block.span, out);
+        // The usual last block behind a program that begins again.
+        if !(begins_again && self.is_end()) {
+            self.text_after_end(self.block.span, out);
+        }
+    }
+
+    /// Whether the block at hand says the program's end and nothing else.
+    fn is_end(&self) -> bool {
+        let [word] = &self.block.words[..] else { return false };
+        let Value::Number(digits) = word.value else { return false };
+        let tenths =
+            u32::try_from(digits.mantissa).ok().filter(|_| digits.scale == 0).and_then(|n| n.checked_mul(10));
+        let row = tenths.and_then(|tenths| self.lower.settings.dialect.code_row(word.letter, tenths));
+        row.is_some_and(|row| row.means == Some(Meaning::ProgramEnd))
     }
 
     /// A program number at the head of a block; `true` if the block is over with it.

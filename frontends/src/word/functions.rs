@@ -317,7 +317,11 @@ impl Lower {
             self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
-            self.state.tool = Know::Said(());
+            let number = match word.value {
+                Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
+                Value::Number(_) | Value::Computed(_) | Value::None => None,
+            };
+            self.state.tool = Know::Said(number);
             self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);
@@ -427,16 +431,21 @@ impl Lower {
                 self.alone.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
+            Meaning::BeginAgain => return self.begin_again(code, out),
             Meaning::Return if self.goes_on_within(code, words, src, out) => return,
             // What is called is looked at by execution: the program is kept whole from here on.
-            Meaning::Return if self.level_open() => {
+            Meaning::Return if self.level_open() && self.may_go_back() => {
                 // What called this need not know of the length.
                 return self.refuse_level(code.span, out);
             }
             Meaning::Call => return self.call(code, words, src, out),
             Meaning::EndCallsAtMoves => return self.end_calls_at_moves(code, words, out),
             Meaning::Return => {
-                if self.notes_return(code, words, src, out) {
+                let names = code.row.blocks.bytes().any(|letter| words.get(letter).is_some());
+                if names && !self.may_go_back() {
+                    // It goes on at that block of its own program.
+                    self.endless(code.span, code.row.code.as_str().into(), out);
+                } else if self.notes_return(code, words, src, out) {
                     self.return_from(code, out);
                 }
                 return;

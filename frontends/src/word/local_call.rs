@@ -207,7 +207,7 @@ fn leave_out(body: &mut [Stmt], calls: &[LocalCall]) {
 
 /// Whether nothing comes to what stands behind a statement.
 fn goes_nowhere_on(stmt: &Stmt) -> bool {
-    stmt.skip.is_none() && matches!(stmt.op, Op::ProgramEnd | Op::Return | Op::Goto(_))
+    stmt.skip.is_none() && matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain | Op::Return | Op::Goto(_))
 }
 
 /// Labels of some statements, and where they jump.

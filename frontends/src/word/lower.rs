@@ -127,6 +127,8 @@ pub(super) struct Reported {
 pub(super) struct Alone {
     /// Where it first goes back to another.
     pub(super) returns: Option<Span>,
+    /// Where it first begins anew.
+    pub(super) begins_again: Option<Span>,
     /// Whether it ends by itself.
     pub(super) ends: bool,
     /// Where it first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
@@ -383,6 +385,9 @@ impl Lower {
             self.now.message = true;
             return self.alarm(&bytes[at..], span, out);
         }
+        if rules.logs.iter().any(|name| begins(bytes, name).is_some()) {
+            out.report(Fault::OutputDropped, span);
+        }
         if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
             let code = format!("{}{name}", rules.open).into();
             self.fault(Fault::NotSupported { code, name: "comment that does something".into() }, span, out);
@@ -550,10 +555,11 @@ impl Lower {
 
     /// After a refused block, what it may have said is not asked for again.
     pub(super) fn forgive(&mut self) {
-        for said in [&mut self.state.feed, &mut self.state.tool] {
-            if *said == Know::Unsaid {
-                *said = Know::Lost;
-            }
+        if self.state.feed == Know::Unsaid {
+            self.state.feed = Know::Lost;
+        }
+        if self.state.tool == Know::Unsaid {
+            self.state.tool = Know::Lost;
         }
         if self.state.motion == Know::Unsaid {
             self.state.motion = Know::Lost;

@@ -31,8 +31,18 @@ pub(super) struct UnitsSeen {
 #[derive(Clone, Debug, Default)]
 pub(super) struct CentreSeen {
     said: Vec<CentreFrom>,
+    /// What the subprogram at hand says, where every path has come by it.
+    own: Option<OwnCentre>,
     /// For a way of measuring, the first arc that relies on the text's saying no other.
     relied: Vec<(CentreFrom, Span)>,
+}
+
+/// From where the subprogram at hand says that centres are measured.
+#[derive(Clone, Copy, Debug)]
+struct OwnCentre {
+    from: CentreFrom,
+    /// The first arc in a loop or a decision that relies on the subprogram's saying no other.
+    relied: Option<Span>,
 }
 
 fn centre_open() -> Fault {
@@ -184,6 +194,10 @@ impl Lower {
                     None => self.centre_at_start(row.value.into(), at, out),
                 };
                 let seen = &mut self.centre_seen;
+                if let Some(own) = &mut seen.own {
+                    own.relied.get_or_insert(at);
+                    return Some(own.from);
+                }
                 if seen.said.iter().any(|said| *said != from) {
                     return self.refuse(centre_open(), at, out);
                 }
@@ -207,11 +221,28 @@ impl Lower {
     /// The program says from where the words of a centre are measured.
     pub(super) fn set_centre_mode(&mut self, from: CentreFrom, out: &mut Batch) {
         (self.state.centre, self.state.centre_before) = (Know::Said(from), Some(from));
+        // In no loop and no decision of a subprogram, every path comes by it.
+        let surely = self.in_o_sub() && self.o.open.len() == 1 && self.now.skip.is_none();
         let seen = &mut self.centre_seen;
+        let other = seen.own.take_if(|own| own.from != from);
+        if let Some(at) = other.and_then(|own| own.relied) {
+            out.report(centre_open(), at);
+        }
+        if surely && seen.own.is_none() {
+            seen.own = Some(OwnCentre { from, relied: None });
+        }
         if !seen.said.contains(&from) {
             seen.said.push(from);
         }
         for (_, at) in seen.relied.extract_if(.., |(other, _)| *other != from) {
+            out.report(centre_open(), at);
+        }
+    }
+
+    /// Another subprogram may say from where they are measured: it is called, or begins or ends here.
+    pub(super) fn centre_said_elsewhere(&mut self, out: &mut Batch) {
+        let within = self.o.open.len() > 1;
+        if let Some(at) = self.centre_seen.own.take().and_then(|own| own.relied).filter(|_| within) {
             out.report(centre_open(), at);
         }
     }

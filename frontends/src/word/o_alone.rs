@@ -35,6 +35,11 @@ impl Alone {
     pub(super) fn is(&self, name: &str) -> bool {
         matches!(self, Alone::Open(own) if **own == *name)
     }
+
+    /// Whether it is open.
+    pub(super) fn is_open(&self) -> bool {
+        matches!(self, Alone::Open(_))
+    }
 }
 
 /// Whether a text is the subprogram by whose name its file is called, and nothing else: comments before and behind, the

@@ -142,6 +142,7 @@ impl Reader {
         self.frame.blocks = true;
         self.lower.o.subs.known.insert(name.clone(), false);
         let lower = &mut self.lower;
+        lower.centre_said_elsewhere(out);
         let outer = Outer {
             unmoved: lower.unmoved.aside(),
             state: std::mem::replace(&mut lower.state, State::called()),
@@ -183,6 +184,7 @@ impl Reader {
             lower.leave_motion(None, out);
         }
         let failed = lower.now.failed;
+        lower.centre_said_elsewhere(out);
         let Some(outer) = lower.close_sub(name) else {
             let fault = refused(name, FlowWord::EndSub, "end of no subprogram that is open");
             return self.sub_fault(fault, span, out);
@@ -223,6 +225,7 @@ impl Lower {
         if self.leaves_call_out(&name, span, out) {
             return;
         }
+        self.centre_said_elsewhere(out);
         if let Index::Computed(formula) = &decision.label {
             let mut number = formula.expr.clone();
             self.parameters(&mut number, span, out);
@@ -269,7 +272,7 @@ impl Lower {
     pub(super) fn o_return(&mut self, label: &str, values: Vec<Expr>, span: Span, out: &mut Batch) {
         // It goes back from the program that it stands in, whatever its label (rs274, run).
         let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(Kind::Sub(_))));
-        if own.is_none() && !self.o.alone.is(label) {
+        if own.is_none() && !self.o.alone.is_open() {
             let told = "return of no subprogram that is open";
             return self.fault(refused(label, FlowWord::Return, told), span, out);
         }

@@ -49,6 +49,13 @@ pub(super) fn read(text: &[u8]) -> Option<Output> {
     }
 }
 
+/// As [`read`]; a line of another form is none (`None` within), and is left out.
+pub(super) fn taken(text: &[u8]) -> Option<Option<Output>> {
+    let writes = text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"DPRNT"));
+    let read = read(text);
+    (writes || read.is_some()).then_some(read)
+}
+
 fn line(mut text: &[u8]) -> Option<Vec<Piece>> {
     let (mut pieces, mut plain) = (Vec::new(), String::new());
     while let Some((&byte, rest)) = text.split_first() {
@@ -88,11 +95,12 @@ fn line(mut text: &[u8]) -> Option<Vec<Piece>> {
 
 impl Lower {
     /// Text for a device, with its values.
-    pub(super) fn output(&mut self, output: &Output, span: Span, src: Source, out: &mut Batch) {
-        let mut output = output.clone();
+    pub(super) fn output(&mut self, output: Option<&Output>, span: Span, src: Source, out: &mut Batch) {
+        let Some(mut output) = output.cloned() else { return self.leave_output_out(span, src, out) };
         let rules = &self.settings.dialect.formula;
         let (known, most) = (rules.statements.contains(&Says::Output), rules.output_digits);
         let mut fits = known;
+        let before = (out.diagnostics.len(), self.now.failed);
         if let Output::Line(pieces) = &mut output {
             for piece in pieces {
                 if let Piece::Value { value, digits, places, .. } = piece {
@@ -100,6 +108,12 @@ impl Lower {
                     *value = self.value(value, span, out);
                 }
             }
+        }
+        if known && self.now.failed && !before.1 {
+            // A value of the control that has no meaning here: of the text alone, which does not matter to the cut.
+            out.diagnostics.truncate(before.0);
+            self.now.failed = before.1;
+            return self.leave_output_out(span, src, out);
         }
         if !fits {
             let name =
@@ -110,5 +124,21 @@ impl Lower {
         // What is in force may be asked.
         self.leave_motion(None, out);
         self.push(span, Op::Output(Box::new(output)), out);
+    }
+
+    /// Text for a device that no target is given: a comment of its words stays.
+    fn leave_output_out(&mut self, span: Span, src: Source, out: &mut Batch) {
+        let known = self.settings.dialect.formula.statements.contains(&Says::Output);
+        if !known {
+            let fault = Fault::NotSupported { code: src.text(span), name: "text for a device".into() };
+            return self.fault(fault, span, out);
+        }
+        out.report(Fault::OutputDropped, span);
+        let plain = |sign: char| if "()[]".contains(sign) { ' ' } else { sign };
+        let all = src.bytes(span);
+        let begins = all.iter().position(|b| b.eq_ignore_ascii_case(&b'D')).unwrap_or(0);
+        let own = &all[begins..begins + length(&all[begins..]).unwrap_or(all.len() - begins)];
+        let text: String = String::from_utf8_lossy(own).chars().map(plain).collect();
+        self.push(span, Op::Comment(text.trim().into()), out);
     }
 }

@@ -47,14 +47,23 @@ impl Lower {
 
     /// An alarm with this text.
     pub(super) fn alarm(&mut self, text: &[u8], at: Span, out: &mut Batch) {
-        if text.contains(&b'#') {
-            let fault = Fault::NotSupported {
-                code: "(ABORT,".into(),
-                name: "the value of a parameter in an alarm".into(),
-            };
-            return self.fault(fault, at, out);
+        let mut plain = Vec::new();
+        let mut rest = text;
+        while let Some(&byte) = rest.first() {
+            if let Some((_, len)) = format_of(rest) {
+                rest = &rest[len..];
+            } else if let Some((_, len)) = parameter(rest) {
+                plain.extend_from_slice(b"...");
+                rest = &rest[len..];
+            } else {
+                plain.push(byte);
+                rest = &rest[1..];
+            }
         }
-        let alarm = ncc_ir::program::Alarm { number: None, text: decode(text) };
+        if text.contains(&b'#') {
+            out.report(Fault::AlarmValues, at);
+        }
+        let alarm = ncc_ir::program::Alarm { number: None, text: decode(&plain) };
         self.push(at, Op::Alarm(Box::new(alarm)), out);
     }
 }

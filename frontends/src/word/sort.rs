@@ -305,7 +305,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::StopSpindleTurning => RANK_AFTER,
         Meaning::CoolantOff => 31,
         Meaning::ProgramStop | Meaning::OptionalProgramStop => 32,
-        Meaning::ProgramEnd => 33,
+        Meaning::ProgramEnd | Meaning::BeginAgain => 33,
         Meaning::Call
         | Meaning::CallMacro
         | Meaning::CallMacroAtMoves

@@ -104,13 +104,15 @@ fn subprograms_stand_after_the_main_program() {
     assert_eq!(out.procedures[0].body.len(), 2);
     // A subprogram that stands alone.
     assert!(errors("fanuc", "O1\nM99\n").is_empty());
-    assert_eq!(
-        errors("fanuc", "O1\nM99\nM30\n"),
-        [
-            "NotSupported { code: 'M99', name: 'return in the main program: endless repetition' } at 'M99'",
-            "TextAfterEnd at 'M30'"
-        ]
-    );
+    // One that begins again: the program's end is the usual last block behind it, and never executed.
+    assert!(errors("fanuc", "O1\nM99\nM30\n").is_empty());
+    assert_eq!(stmts(&read("fanuc", "O1\nM99\nM30\n")), ["BeginAgain"]);
+    assert_eq!(stmts(&read("fanuc", "O1\n/M99\nM30\n")), ["/1 BeginAgain", "ProgramEnd"]);
+    assert_eq!(stmts(&read("linuxcnc", "G21\nM99\n")).last().map(String::as_str), Some("BeginAgain"));
+    assert_eq!(errors("fanuc", "O1\nM99\nG21\n"), ["TextAfterEnd at 'G21'"]);
+    let name = "return in the main program: endless repetition";
+    let told = format!("NotSupported {{ code: 'M99', name: '{name}' }} at 'M99'");
+    assert_eq!(errors("fanuc", "O1\n/M99\nM99\n"), [told]);
     // One that says where its caller goes on.
     assert!(errors("fanuc", "O1\nM98 P2\nN100 M30\nO2\nM99 P100\n").is_empty());
     let name = "return to a block of a caller that is not in the text";

@@ -129,6 +129,8 @@ pub enum Meaning {
     ProgramStop,
     OptionalProgramStop,
     ProgramEnd,
+    /// The main program begins anew, for ever.
+    BeginAgain,
     Call,
     CallMacro,
     /// Such a call behind every block that moves an axis, until they end.
@@ -289,6 +291,7 @@ impl fmt::Display for Meaning {
             Meaning::ProgramStop => "PROGRAM_STOP",
             Meaning::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Meaning::ProgramEnd => "PROGRAM_END",
+            Meaning::BeginAgain => "BEGIN_AGAIN",
             Meaning::Call => "CALL",
             Meaning::CallMacro => "CALL_MACRO",
             Meaning::CallMacroAtMoves => "CALL_MACRO_AT_MOVES",
@@ -448,6 +451,7 @@ impl FromStr for Meaning {
             ("PROGRAM_STOP", "") => Meaning::ProgramStop,
             ("OPTIONAL_PROGRAM_STOP", "") => Meaning::OptionalProgramStop,
             ("PROGRAM_END", "") => Meaning::ProgramEnd,
+            ("BEGIN_AGAIN", "") => Meaning::BeginAgain,
             ("CALL", "") => Meaning::Call,
             ("CALL_MACRO", "") => Meaning::CallMacro,
             ("CALL_MACRO_AT_MOVES", "") => Meaning::CallMacroAtMoves,

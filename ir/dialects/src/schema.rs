@@ -181,6 +181,8 @@ pub struct ProgramRules {
     /// Whether a return that names a block goes on there in its own program; else it goes back, to that block of the
     /// caller.
     pub returns_within: bool,
+    /// Whether a return in the main program has it begin anew, for ever; else that is refused by name.
+    pub begins_again: bool,
     /// Names of the files in which called programs are looked for, without what stands behind the point, in
     /// this order: `{}` is the program's name, `{4}` its number with at least so many digits.
     pub called: Vec<String>,
@@ -218,6 +220,8 @@ pub struct CommentRules {
     pub shown: Vec<String>,
     /// How a comment begins that ends the program with an alarm, and its text; empty for none.
     pub alarm: String,
+    /// How comments begin that write to a file and do nothing else: they are plain comments in the output.
+    pub logs: Vec<String>,
     /// How comments begin that do something else, which is not translated.
     pub active: Vec<String>,
     /// Whether only capitals, digits and simple signs can be shown.

@@ -137,6 +137,7 @@ impl Exec {
                 }
                 self.emit(Kind::OptionalProgramStop, span, out)
             }
+            Op::BeginAgain => self.begin_again(span, out),
             _ => {
                 self.switch_off(Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd);
                 self.emit(Kind::ProgramEnd, span, out)?;
@@ -145,6 +146,23 @@ impl Exec {
                 Ok(())
             }
         }
+    }
+
+    /// The program begins anew: nothing is switched off, and all that is in force stays.
+    ///
+    /// # Errors
+    /// A cycle or a compensation that would go on into the first blocks.
+    fn begin_again(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.cycle.is_some() {
+            return self.not_executed("a program that begins again while a cycle is in force", span);
+        }
+        if self.state.compensation.side.is_some() {
+            return self.not_executed("a program that begins again under cutter radius compensation", span);
+        }
+        self.emit(Kind::BeginAgain, span, out)?;
+        self.begins_again(span);
+        self.ended = true;
+        Ok(())
     }
 
     /// The control has gone to a place of the machine along Z: the length in force may count no more.

@@ -154,7 +154,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         let span = stmt.span;
-        if on && matches!(stmt.op, Op::StopCutterRadiusCompensation | Op::ProgramEnd) {
+        if on && matches!(stmt.op, Op::StopCutterRadiusCompensation | Op::ProgramEnd | Op::BeginAgain) {
             self.end_path(span, out)?;
         }
         let mut made = Vec::new();

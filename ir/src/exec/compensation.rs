@@ -410,6 +410,7 @@ impl Exec {
             | Op::SetPole(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | flow!() => None,
         })

@@ -125,7 +125,7 @@ impl Exec {
             Part::Beside | Part::Plane(_) => {}
             Part::Other => {
                 return match &stmt.op {
-                    Op::ProgramEnd | Op::Return => no_corner(NO_NEXT, span),
+                    Op::ProgramEnd | Op::BeginAgain | Op::Return => no_corner(NO_NEXT, span),
                     _ => not_told("something other than settings between the moves of a corner", span),
                 };
             }

@@ -79,6 +79,8 @@ pub enum Kind {
     OptionalProgramStop,
     /// End.
     ProgramEnd,
+    /// The program begins anew, and goes on so for ever: execution ends here.
+    BeginAgain,
     /// The text is over, and never said so: what is still on stays on.
     TextEnd,
     /// Text for the operator.
@@ -201,6 +203,7 @@ impl Kind {
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd
+            | Kind::BeginAgain
             | Kind::TextEnd
             | Kind::Message(_)
             | Kind::Output(_)

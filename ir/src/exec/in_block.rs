@@ -80,7 +80,8 @@ impl Exec {
     /// A length moves its axis where that is not executed.
     #[cold]
     pub(super) fn settle_block(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        let ends = matches!(stmt.op, Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd);
+        let ends =
+            matches!(stmt.op, Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd | Op::BeginAgain);
         if !stmt.joined || ends {
             return self.end_block(out);
         }

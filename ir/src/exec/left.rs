@@ -7,9 +7,11 @@
 //!
 //! Not here: modes that outlive a program. What a program takes for granted of them is told, and stated in the output.
 
+use super::frame::Length;
 use super::{Exec, Frames};
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::AXES;
+use crate::canon::{AXES, Modes, Units};
+use crate::diag::ModeName;
 use crate::num::{Nanos, ONE};
 use crate::program::{FrameSlot, Slot};
 use crate::source::Span;
@@ -32,11 +34,13 @@ pub(super) struct Outlived {
     at: Option<Span>,
     /// Whether a code of the program has ended it.
     by_code: bool,
+    /// The code that has it begin anew, with all that is in force.
+    again: Option<Span>,
 }
 
 impl Default for Outlived {
     fn default() -> Self {
-        Outlived { fresh: u32::MAX, relied: 0, at: None, by_code: false }
+        Outlived { fresh: u32::MAX, relied: 0, at: None, by_code: false, again: None }
     }
 }
 
@@ -88,6 +92,38 @@ impl Exec {
         self.outlived.by_code = true;
     }
 
+    /// The program begins anew.
+    pub(super) fn begins_again(&mut self, at: Span) {
+        (self.outlived.by_code, self.outlived.again) = (true, Some(at));
+    }
+
+    /// The first mode that the program takes for granted at its start (`assumed`), and has not in force where it begins
+    /// anew, and where that is.
+    pub fn begins_otherwise(&self, assumed: &Modes) -> Option<(ModeName, Span)> {
+        let at = self.outlived.again?;
+        let length = match self.waiting.unwrap_or(self.modes.length) {
+            Length::Entry(entry) => Some(entry),
+            _ => None,
+        };
+        fn apart<T: PartialEq>(assumed: Option<T>, now: Option<T>) -> bool {
+            assumed.is_some() && assumed != now
+        }
+        let units = if self.modes.inch { Units::Inch } else { Units::Mm };
+        let modes = &self.modes;
+        [
+            (ModeName::Motion, apart(assumed.motion, Some(modes.motion))),
+            (ModeName::Distance, apart(assumed.distance, Some(modes.distance))),
+            (ModeName::Units, apart(assumed.units, Some(units))),
+            (ModeName::Plane, apart(assumed.plane, Some(modes.plane))),
+            (ModeName::FeedMode, apart(assumed.feed_mode, Some(self.state.feed_mode))),
+            (ModeName::ReturnLevel, apart(assumed.return_level, Some(modes.return_level))),
+            (ModeName::WorkOffset, apart(assumed.work_offset, Some(modes.work_offset))),
+            (ModeName::LengthOffset, apart(assumed.length_offset, length)),
+        ]
+        .into_iter()
+        .find_map(|(mode, apart)| apart.then_some((mode, at)))
+    }
+
     /// Where the program filled a slot last.
     pub fn filled_at(&self) -> Option<Span> {
         self.outlived.at
@@ -103,21 +139,22 @@ impl Exec {
     pub fn again(&self, behaviours: &Behaviours) -> Again {
         let mut left = self.slots.as_deref().cloned().unwrap_or(Frames::NONE);
         let relied = |bit: u32| self.outlived.relied & bit != 0;
+        let resets = |behaviour| behaviours.does(behaviour) && self.outlived.again.is_none();
         if !self.outlived.by_code {
             left = Frames::NONE;
         }
         for axis in 0..AXES {
-            if behaviours.does(Behaviour::ShiftAtEnd) || !relied(1 << (LOCAL + axis as u32)) {
+            if resets(Behaviour::ShiftAtEnd) || !relied(1 << (LOCAL + axis as u32)) {
                 left.local[axis] = 0;
             }
-            if behaviours.does(Behaviour::OriginAtEnd) || !relied(1 << (ORIGIN + axis as u32)) {
+            if resets(Behaviour::OriginAtEnd) || !relied(1 << (ORIGIN + axis as u32)) {
                 left.origin[axis] = None;
             }
         }
-        if behaviours.does(Behaviour::RotationAtEnd) || !relied(TURN) {
+        if resets(Behaviour::RotationAtEnd) || !relied(TURN) {
             (left.rotation, left.scale, left.mirror) = (None, None, [None; 3]);
         }
-        if behaviours.does(Behaviour::ShiftAtEnd) || !relied(CHAIN) {
+        if resets(Behaviour::ShiftAtEnd) || !relied(CHAIN) {
             left.clear(FrameSlot::Chain);
         }
         let (chain, origin) = (left.chain(), left.origin);

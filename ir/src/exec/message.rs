@@ -39,6 +39,13 @@ pub(super) fn pieces(op: &Op) -> Option<&[Piece]> {
     }
 }
 
+impl Shown {
+    /// Whether a statement is a text for a device, and nobody has it: what its values are does not matter.
+    pub(super) fn leaves_out(&self, op: &Op) -> bool {
+        self.no_output && matches!(op, Op::Output(_))
+    }
+}
+
 /// The same statement with its text as it is.
 pub(super) fn said(op: &Op, text: Text) -> Op {
     match op {

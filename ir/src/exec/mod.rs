@@ -666,7 +666,9 @@ impl Exec {
             Op::Hole(m) => self.hole(&m.to, span, out)?,
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
             Op::EndCycle => self.cycle = None,
-            Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd => self.stop(stmt, out)?,
+            Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd | Op::BeginAgain => {
+                self.stop(stmt, out)?
+            }
             Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_) => self.message(stmt, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),

@@ -547,6 +547,9 @@ impl<'p> Runner<'p> {
             }
             _ => {}
         }
+        if asked.exec.shown.leaves_out(&stmt.op) {
+            return Ok(false);
+        }
         if let Some(pieces) = message::pieces(&stmt.op) {
             let text = asked.exec.shown.clone().with_values(pieces, &mut |value| match terms.next() {
                 Some(Some(term)) => variables.value(term, asked).map_err(|why| fault(code.names.fault(why))),

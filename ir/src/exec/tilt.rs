@@ -232,6 +232,7 @@ impl Exec {
             | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | conduct!()
@@ -286,6 +287,7 @@ impl Exec {
             | Op::SetPole(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | conduct!()

@@ -178,7 +178,7 @@ fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, Option<&Point>)> {
 fn is_last(body: &[Stmt], i: usize) -> bool {
     for stmt in &body[i + 1..] {
         match stmt.op.unwrapped() {
-            Op::EndCycle | Op::ProgramEnd | moves!() if stmt.skip.is_none() => return true,
+            Op::EndCycle | Op::ProgramEnd | Op::BeginAgain | moves!() if stmt.skip.is_none() => return true,
             Op::StartCycle(_) | Op::Position(_) | flow!() => return false,
             _ => {}
         }

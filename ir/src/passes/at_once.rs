@@ -39,7 +39,7 @@ impl State {
 
     /// The end of a subprogram, which returns if nothing else is said.
     pub(super) fn end_of_sub(&mut self, body: &[Stmt], diags: &mut Vec<Diagnostic>) {
-        let ends = |s: &&Stmt| matches!(s.op, Op::ProgramEnd) && s.skip.is_none();
+        let ends = |s: &&Stmt| matches!(s.op, Op::ProgramEnd | Op::BeginAgain) && s.skip.is_none();
         if let Some(last) = body.last().filter(|s| self.length && !ends(s)) {
             self.refuse_length(last.span, diags);
         }
@@ -145,6 +145,7 @@ fn over_one(
         | Op::SetPole(_)
         | Op::SetFeedRate(_)
         | Op::ProgramEnd
+        | Op::BeginAgain
         | variables!()
         | miscellaneous!()
         | conduct!()

@@ -398,7 +398,9 @@ fn placed(body: &[Stmt]) -> Result<(), Diagnostic> {
                 [first, second].map(|axis: Axis| m.to.get(axis).map(|word| is_absolute(word, None)))
             }
             Op::ProgramEnd => return Ok(()),
-            flow!() | Op::ArcFeed(_) | Op::ArcForm(_) | Op::Polar(_) | Op::Pattern(_) => [Some(false), None],
+            flow!() | Op::BeginAgain | Op::ArcFeed(_) | Op::ArcForm(_) | Op::Polar(_) | Op::Pattern(_) => {
+                [Some(false), None]
+            }
             _ => [None, None],
         };
         match named {

@@ -547,7 +547,13 @@ fn ends_elsewhere(body: &[Stmt]) -> bool {
     body.last().is_some_and(|last| {
         let away = matches!(
             last.op,
-            Op::Goto(_) | Op::Leave | Op::NextTurn | Op::Return | Op::ProgramEnd | Op::Alarm(_)
+            Op::Goto(_)
+                | Op::Leave
+                | Op::NextTurn
+                | Op::Return
+                | Op::ProgramEnd
+                | Op::BeginAgain
+                | Op::Alarm(_)
         );
         away && last.skip.is_none()
     })

@@ -176,6 +176,7 @@ impl Converter<'_> {
             | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | flow!() => {}

@@ -341,6 +341,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd
+        | Op::BeginAgain
         | variables!()
         | miscellaneous!()
         | modes!()

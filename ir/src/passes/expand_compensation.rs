@@ -201,7 +201,7 @@ impl Expansion<'_> {
                     made.push(stmt);
                 }
             }
-            Op::ProgramEnd if self.on.is_some() => {
+            Op::ProgramEnd | Op::BeginAgain if self.on.is_some() => {
                 if let Some(contour) = self.on.take() {
                     self.end(contour, walk, made, span)?;
                 }
@@ -483,7 +483,8 @@ impl Expansion<'_> {
         if stmt.skip.is_some() {
             return cannot("the way off a contour, in a block that may be skipped,", span);
         }
-        let known = stays(&stmt.op, walk) || matches!(stmt.op, Op::EndCycle | Op::ProgramEnd);
+        let known =
+            stays(&stmt.op, walk) || matches!(stmt.op, Op::EndCycle | Op::ProgramEnd | Op::BeginAgain);
         match &mut stmt.op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) if !walk.at.raw => {
                 let named = m.to.get(first).is_some() || m.to.get(second).is_some();

@@ -183,7 +183,7 @@ pub(super) fn over(
 
 /// Whether a statement ends a cycle that is in force, or goes where this pass does not follow.
 fn ends(op: &Op) -> bool {
-    matches!(op, Op::Position(_) | Op::ProgramEnd | moves!() | flow!())
+    matches!(op, Op::Position(_) | Op::ProgramEnd | Op::BeginAgain | moves!() | flow!())
 }
 
 impl State {

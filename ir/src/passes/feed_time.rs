@@ -153,6 +153,7 @@ pub(super) fn over(
             | Op::Position(_)
             | Op::Polar(_)
             | Op::ProgramEnd
+            | Op::BeginAgain
             | drilling!()
             | flow!() => state.back(&mut stmt, &before, target, made),
             _ => {}
@@ -187,7 +188,7 @@ impl State {
         if target.caps.feed_by_time {
             said.push(Op::SetFeedMode(mode));
         }
-        if let Some(feed) = before.feed.filter(|_| !matches!(stmt.op, Op::ProgramEnd)) {
+        if let Some(feed) = before.feed.filter(|_| !matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain)) {
             said.push(Op::SetFeedRate(feed.into()));
         }
         put_before(stmt, said, made);

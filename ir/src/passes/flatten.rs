@@ -101,7 +101,7 @@ fn straight(
         // Behind a step that has left nothing a block begins anew.
         stmt.joined &= steps == before + 1 && !out.is_empty();
         stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
-        let over = matches!(stmt.op, Op::ProgramEnd | Op::Alarm(_)) && stmt.skip.is_none();
+        let over = matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_)) && stmt.skip.is_none();
         if asks {
             for exec in [&mut exec].into_iter().chain(&mut other).filter(|_| !over) {
                 exec.step(&stmt, &mut unseen)?;
@@ -203,8 +203,8 @@ fn to_seven(billionths: i64, unit: Unit) -> Expr {
 
 /// Rounds what was computed to the target's digits; a length in inches has one more.
 fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnostic> {
-    // The writer rounds a feed or a time, once, to the digits that those have.
-    let feed = matches!(stmt.op, Op::SetFeedRate(_) | Op::Dwell(_));
+    // The writer rounds a feed, a time or a value of a table, once, to the digits that those have.
+    let feed = matches!(stmt.op, Op::SetData(_) | Op::SetFeedRate(_) | Op::Dwell(_));
     arguments::each(&mut stmt.op, &mut |argument: Argument, unit| {
         let Some(n) = argument.expr().and_then(Expr::literal) else { return Ok(()) };
         let decimals = target.decimals + u8::from(inches && n.unit == Unit::Entry);

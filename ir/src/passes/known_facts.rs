@@ -540,7 +540,7 @@ impl Flow<'_> {
                 self.changed |= meet(&mut self.ways[at].exit, state.as_ref());
                 None
             }
-            Op::ProgramEnd | Op::Alarm(_) => None,
+            Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_) => None,
             Op::Call(call) => {
                 let found = *self.names.get(&call.name)?;
                 let called = &mut self.ways[found];

@@ -173,7 +173,7 @@ fn take(
             state.put_off = None;
             state.lost = None;
         }
-        Op::ProgramEnd => {
+        Op::ProgramEnd | Op::BeginAgain => {
             state.put_off = None;
             state.lost = None;
         }

@@ -42,6 +42,7 @@ macro_rules! unnumbered {
             | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | Op::Return
             | Op::RepeatBlocks(_)
             | variables!()

@@ -165,6 +165,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::SelectTool(_)
         | Op::SelectToolByName(_)
         | Op::ProgramEnd
+        | Op::BeginAgain
         | variables!()
         | Op::UseLengthUnits(_)
         | Op::SetDistanceMode(_)

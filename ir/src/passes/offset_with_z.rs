@@ -111,7 +111,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
                 walk.step(&stmt);
                 take_up(stmt, state, &mut made, diags);
             }
-            Op::ProgramEnd if state.waiting.is_some() => {
+            Op::ProgramEnd | Op::BeginAgain if state.waiting.is_some() => {
                 walk.step(&stmt);
                 match state.waiting.take() {
                     Some(waiting) if !waiting.in_force => put_before(stmt, waiting.into_stmt(), &mut made),
@@ -179,7 +179,7 @@ fn take_up(stmt: Stmt, state: &mut State, made: &mut Rebuild, diags: &mut Vec<Di
 
 /// Puts a statement into the block of another, in its place within the block.
 fn put_before(mut stmt: Stmt, mut offset: Stmt, made: &mut Rebuild) {
-    if matches!(stmt.op, flow!() | Op::ProgramEnd) {
+    if matches!(stmt.op, flow!() | Op::ProgramEnd | Op::BeginAgain) {
         // It goes into no block, but before the whole of this one.
         let block = if stmt.joined && made.is_open() {
             made.out.iter().rev().take_while(|s| s.joined).count() + 1

@@ -112,7 +112,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
                 take_up(stmt, state, 2, &mut made);
                 continue;
             }
-            flow!() | Op::ProgramEnd => {
+            flow!() | Op::ProgramEnd | Op::BeginAgain => {
                 take_up(stmt, state, 3, &mut made);
                 continue;
             }
@@ -143,7 +143,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
 
 /// Puts what waits, with the feed or without, into the block of the statement that takes it up.
 fn take_up(mut stmt: Stmt, state: &mut State, most: usize, made: &mut Rebuild) {
-    let leads_away = matches!(stmt.op, flow!() | Op::ProgramEnd);
+    let leads_away = matches!(stmt.op, flow!() | Op::ProgramEnd | Op::BeginAgain);
     for held in &mut state.held[..most] {
         let Some(mut held) = held.take() else { continue };
         // A block that may be skipped alone takes nothing up that is not skipped with it.

@@ -54,7 +54,9 @@ fn by_planes(body: &mut [Stmt], walk: &mut Walk) {
 
 /// Whether the cycle that has just been called up surely ends before the return level is another.
 fn keeps_level(after: &[Stmt]) -> bool {
-    let ends = |s: &&Stmt| matches!(s.op, Op::EndCycle | Op::ProgramEnd | moves!()) && s.skip.is_none();
+    let ends = |s: &&Stmt| {
+        matches!(s.op, Op::EndCycle | Op::ProgramEnd | Op::BeginAgain | moves!()) && s.skip.is_none()
+    };
     let changes = |s: &&Stmt| matches!(s.op, Op::SetReturnLevel(_) | flow!());
     let end = after.iter().position(|s| ends(&s));
     let change = after.iter().position(|s| changes(&s));
@@ -249,7 +251,7 @@ fn makes_more(body: &[Stmt]) -> bool {
 
 /// Whether a statement ends the cycle in force.
 fn ends(stmt: &Stmt) -> bool {
-    matches!(stmt.op.unwrapped(), Op::EndCycle | Op::ProgramEnd | moves!())
+    matches!(stmt.op.unwrapped(), Op::EndCycle | Op::ProgramEnd | Op::BeginAgain | moves!())
 }
 
 /// Whether another length or work offset comes before the cycle that has just been called up surely ends: by which

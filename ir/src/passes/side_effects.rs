@@ -652,6 +652,7 @@ fn is_code(op: &Op) -> bool {
         | Op::OptionalProgramStop
         | Op::ChangeTool
         | Op::ProgramEnd
+        | Op::BeginAgain
         | Op::GoToReference(_)
         | Op::UseMachineCoordinates { .. } => true,
         Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| is_code(&stmt.op))),

@@ -71,7 +71,7 @@ impl State {
     /// Whether a statement goes at a feed that a tap has put in the place of one that is not known.
     fn goes_lost(&mut self, stmt: &Stmt) -> bool {
         match stmt.op.unwrapped() {
-            Op::SetFeedRate(_) | Op::ProgramEnd => {
+            Op::SetFeedRate(_) | Op::ProgramEnd | Op::BeginAgain => {
                 self.lost &= stmt.skip.is_some();
                 false
             }
@@ -134,6 +134,7 @@ impl Said {
             | Op::Pattern(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | machine!()
             | frames!()
@@ -162,7 +163,9 @@ pub(super) fn over(
         walk.enter(stmt.skip);
         let ends = (state.changed || state.clockwise)
             && match stmt.op.unwrapped() {
-                Op::EndCycle | Op::StartCycle(_) | Op::ProgramEnd | moves!() | flow!() => true,
+                Op::EndCycle | Op::StartCycle(_) | Op::ProgramEnd | Op::BeginAgain | moves!() | flow!() => {
+                    true
+                }
                 Op::Position(_) => walk.at.modes.motion != Some(Motion::Cycle),
                 _ => false,
             };

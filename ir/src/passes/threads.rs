@@ -76,6 +76,7 @@ impl State {
             | Op::Pattern(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | machine!()
             | frames!()
@@ -227,7 +228,7 @@ fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
 fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(), Fault> {
     let Some(feed) = state.owed else {
         let says = |op: &Op| match op {
-            Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd => true,
+            Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd | Op::BeginAgain => true,
             Op::StartCycle(cycle) => cycle.feed.is_some(),
             _ => false,
         };
@@ -248,7 +249,9 @@ fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(
         return Ok(());
     };
     match stmt.op.unwrapped() {
-        Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd if stmt.skip.is_none() => state.owed = None,
+        Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd | Op::BeginAgain if stmt.skip.is_none() => {
+            state.owed = None
+        }
         Op::StartCycle(cycle) if cycle.feed.is_some() && stmt.skip.is_none() => state.owed = None,
         Op::StraightFeed(_)
         | Op::ArcFeed(_)

@@ -257,6 +257,7 @@ pub(super) fn over(
             | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | conduct!()

@@ -84,6 +84,7 @@ fn only_moves(op: &Op) -> bool {
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd
+            | Op::BeginAgain
     )
 }
 
@@ -104,6 +105,7 @@ fn needs_spindle(op: &Op) -> bool {
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd
+            | Op::BeginAgain
             | moves!()
             | machine!()
             | flow!()

@@ -206,6 +206,7 @@ impl Walk {
             | Op::StartCycle(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | conduct!()

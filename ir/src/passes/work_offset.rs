@@ -66,7 +66,8 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | Op::ClearFrame(_)
         | Op::SetFeedRate(_)
         | Op::EndCycle
-        | Op::ProgramEnd => false,
+        | Op::ProgramEnd
+        | Op::BeginAgain => false,
         Op::UseToolCentrePoint(_)
         | Op::SetFrame(_)
         | Op::SetSlot(_)
@@ -107,7 +108,8 @@ pub(super) fn over(
     let names = target.caps.work_offsets;
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
         state.refuse_if_used(&stmt.op, diags);
-        if matches!(stmt.op, Op::SetOriginOffsets(_) | Op::ProgramEnd) && stmt.skip.is_none() {
+        if matches!(stmt.op, Op::SetOriginOffsets(_) | Op::ProgramEnd | Op::BeginAgain) && stmt.skip.is_none()
+        {
             state.leave(diags);
         }
         let Op::SetOriginOffsets(number) = stmt.op else { return made.push(stmt) };

@@ -1,6 +1,6 @@
 //! Programs of a text, by their numbers and names, and calls of them.
 
-use super::super::Halt;
+use super::super::{Halt, What};
 use super::macro_b::jump;
 use super::{Control, Next, Word, number};
 
@@ -110,6 +110,21 @@ impl Control {
             }
         }
         Ok(Next::Block)
+    }
+
+    /// M99: back to what has called the program. A first program that ends by itself as well has nobody to go back to, and
+    /// begins anew.
+    pub(super) fn back(&mut self, all: &[Program]) -> Next {
+        let ends = |block: &str| {
+            let digits = |rest: &str| rest.chars().take_while(char::is_ascii_digit).collect::<String>();
+            block.split('M').skip(1).any(|rest| matches!(digits(rest).parse(), Ok(2_u32 | 30)))
+        };
+        let main = all.first().filter(|main| main.blocks.iter().any(|(_, block)| ends(block)));
+        if self.depth > 0 || main.is_none() {
+            return Next::Back;
+        }
+        self.m.record(What::BeginsAgain);
+        Next::End
     }
 
     /// A Haas M97: P is a block of the same program; a Fanuc's M98 without P: Q is. L is the count.

@@ -165,6 +165,10 @@ impl<'a> Control<'a> {
             // The heading of a subprogram, read at its call; what others there are.
             "PROC" | "EXTERN" => Ok(Go::On),
             "SETAL" => self.alarm(rest),
+            "GOTOS" if rest.is_empty() && self.depth == 0 => {
+                self.m.record(What::BeginsAgain);
+                Ok(Go::End)
+            }
             "RET" if rest.is_empty() && self.depth > 0 => Ok(Go::Back),
             _ => Ok(Go::Not),
         }

@@ -432,6 +432,7 @@ fn simple() -> BoxedStrategy<Op> {
         Op::ProgramStop,
         Op::OptionalProgramStop,
         Op::ProgramEnd,
+        Op::BeginAgain,
         Op::Return,
         Op::ExactStop,
         Op::TurnRotaryAxes([Some(RotaryWay::Shortest), None, Some(RotaryWay::Negative)]),

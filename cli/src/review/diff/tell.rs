@@ -304,6 +304,7 @@ fn name(what: What) -> &'static str {
         What::Stop => "stop",
         What::OptionalStop => "optional stop",
         What::End => "program end",
+        What::BeginAgain => "program that begins again",
         What::TextEnd => "end of the text without a program end",
         What::Message => "message",
         What::Alarm => "alarm",

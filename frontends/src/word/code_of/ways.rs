@@ -347,7 +347,7 @@ impl Ways<'_> {
                 }
                 return None;
             }
-            Op::Return | Op::ProgramEnd | Op::Alarm(_) => return None,
+            Op::Return | Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_) => return None,
             Op::Control(control) => {
                 if let Some(code) = code_of(control)
                     && self.saved.back.iter().any(|(span, _)| *span == stmt.span)

@@ -44,7 +44,6 @@ fn what_is_computed_and_has_no_meaning() {
     refused("D=R1", "D=R1", "computed value of this word", "D=R1");
     refused("A=DC(R1)", "A=DC(R1)", "computed angle of a way round", "A=DC(R1)");
     assert_eq!(one("GOTOF N20"), "LabelUnknown { name: 'N20' } at 'GOTOF N20'");
-    refused("GOTOS", "GOTOS", "jump to the start of the program", "GOTOS");
     refused("GOTOF \"A\"<<R1", "'A'<<R1", "jump that is computed", "'A'<<R1");
     refused("$P_UIFR[1]=5", "$P_UIFR", "variable of the control that is set", "$P_UIFR[1]=5");
     refused("SETAL(R1)", "SETAL", "alarm", "SETAL(R1)");

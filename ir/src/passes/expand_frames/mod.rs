@@ -580,6 +580,7 @@ impl Frames<'_> {
             | Op::SetFeedRate(_)
             | Op::EndCycle
             | Op::ProgramEnd
+            | Op::BeginAgain
             | variables!()
             | miscellaneous!()
             | conduct!()

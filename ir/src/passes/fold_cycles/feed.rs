@@ -38,6 +38,7 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
         | Op::Pattern(_)
         | Op::EndCycle
         | Op::ProgramEnd
+        | Op::BeginAgain
         | variables!()
         | miscellaneous!()
         | conduct!()
@@ -53,7 +54,7 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
     for stmt in rest {
         match &stmt.op {
             Op::SetFeedRate(_) if stmt.skip.is_none() => return false,
-            Op::ProgramEnd if stmt.skip.is_none() => return false,
+            Op::ProgramEnd | Op::BeginAgain if stmt.skip.is_none() => return false,
             Op::StartCycle(cycle) if cycle.feed.is_some() && stmt.skip.is_none() => return false,
             Op::StraightFeed(_)
             | Op::SynchronisedFeed(_)
@@ -68,6 +69,7 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | flow!() => return true,
             Op::SetFeedRate(_)
             | Op::ProgramEnd
+            | Op::BeginAgain
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetReturnLevel(_)

@@ -304,7 +304,9 @@ fn inherits_motion(rest: &[Stmt]) -> bool {
     for stmt in rest {
         match stmt.op.unwrapped() {
             Op::Position(_) | flow!() => return true,
-            Op::StartCycle(_) | Op::ProgramEnd | moves!() if stmt.skip.is_none() => return false,
+            Op::StartCycle(_) | Op::ProgramEnd | Op::BeginAgain | moves!() if stmt.skip.is_none() => {
+                return false;
+            }
             _ => {}
         }
     }

@@ -131,10 +131,17 @@ fn refusal<'b>(stmt: &'b Stmt, body: &[Stmt]) -> Option<&'b Expr> {
         let quiet = |stmt: &Stmt| {
             matches!(
                 stmt.op,
-                Op::Alarm(_) | Op::Comment(_) | Op::Blank | Op::Label(_) | Op::Return | Op::ProgramEnd
+                Op::Alarm(_)
+                    | Op::Comment(_)
+                    | Op::Blank
+                    | Op::Label(_)
+                    | Op::Return
+                    | Op::ProgramEnd
+                    | Op::BeginAgain
             )
         };
-        let over = |stmt: &Stmt| matches!(stmt.op, Op::Alarm(_) | Op::Return | Op::ProgramEnd);
+        let over =
+            |stmt: &Stmt| matches!(stmt.op, Op::Alarm(_) | Op::Return | Op::ProgramEnd | Op::BeginAgain);
         stmts.iter().all(quiet) && stmts.iter().any(over) && stmts.iter().all(|stmt| stmt.skip.is_none())
     };
     let Op::Control(control) = &stmt.op else { return None };

@@ -328,7 +328,7 @@ impl<'p> Ways<'p> {
                 let here = self.here.take();
                 self.returns = either(self.returns.take(), here);
             }
-            Op::ProgramEnd | Op::Alarm(_) => self.here = None,
+            Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_) => self.here = None,
             Op::Leave | Op::NextTurn => {
                 let here = self.here.take();
                 if let Some((leave, next)) = self.leaves.last_mut() {
