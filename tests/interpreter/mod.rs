@@ -459,6 +459,7 @@ impl Machine {
             by_itself: self.by_itself,
             timed: false,
         });
+        self.begun();
     }
 
     /// Rapid.
