@@ -464,6 +464,7 @@ fn beside(compensation: &Compensation) -> Option<Beside> {
         // Above that it is an edge that is no entry.
         entry: Some(compensation.radius).filter(|radius| radius >> 30 == 0),
         on_contour: compensation.on_contour,
+        again: compensation.again,
         diameter: (compensation.radius >> 30 == 1).then_some(i64::from(compensation.radius & !(1 << 30))),
     })
 }

@@ -1,5 +1,6 @@
 //! Programs that a program calls and that stand in files of their own: found in the folders of `-I`, by
-//! the names that the control's custom gives them (`[program] called` of the dictionary).
+//! the names that the control's custom gives them (`[program] called` of the dictionary), or by the number in them, as
+//! controls find programs that are called by number.
 //!
 //! They are put behind the text that calls them, each under its name, as a text with all of them in it
 //! would have them; from there on everything reads, executes and verifies one text. Which of its places
@@ -7,6 +8,7 @@
 //!
 //! Without `-I`, and without folders of a project file, nothing is looked for. Not here: what a call means.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -91,7 +93,7 @@ pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> 
             missing(&whole, settings).into_iter().filter(|name| asked.insert(name.clone())).collect();
         let mut more = false;
         for name in wanted {
-            let Some(path) = folders.find(&name, dialect) else { continue };
+            let Some(path) = folders.find(&name, dialect)? else { continue };
             let before = whole.len();
             let file = read(path, &name, dialect, &mut whole, lines)?;
             lines += count(&whole[before..]);
@@ -154,8 +156,18 @@ fn names(stmts: &[Stmt], found: &mut Vec<Text>) {
     }
 }
 
-/// Files of the folders in which called programs are looked for, by their names without extension in small letters.
-struct Folders(Vec<HashMap<String, PathBuf>>);
+/// Folders in which called programs are looked for.
+struct Folders(Vec<Folder>);
+
+/// Files of one of them.
+struct Folder {
+    /// By their names without extension in small letters.
+    named: HashMap<String, PathBuf>,
+    /// All of them, in the order of their names.
+    files: Vec<PathBuf>,
+    /// By the numbers of their programs, found out when one is first asked for that no file is named after.
+    numbered: OnceCell<HashMap<String, Vec<PathBuf>>>,
+}
 
 impl Folders {
     /// Lists them once. Of several files with one name the first counts, in the order of their full names.
@@ -164,26 +176,98 @@ impl Folders {
             let entries = fs::read_dir(folder).into_iter().flatten();
             let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
             files.sort();
-            let mut found = HashMap::with_capacity(files.len());
-            for path in files {
+            let mut named = HashMap::with_capacity(files.len());
+            // As a program is called whose file has other signs in its name than a program can have.
+            let mut plain = Vec::new();
+            for path in &files {
                 let own = path.extension().map(|own| own.to_string_lossy().into_owned());
                 let fits =
                     own.is_none_or(|own| dialect.extensions.iter().any(|e| e.eq_ignore_ascii_case(&own)));
                 if let Some(stem) = path.file_stem().filter(|_| fits && path.is_file()) {
                     let stem = stem.to_string_lossy().to_ascii_lowercase();
-                    found.entry(stem).or_insert(path);
+                    if dialect.family == Family::Sinumerik {
+                        plain.push((stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_"), path.clone()));
+                    }
+                    named.entry(stem).or_insert_with(|| path.clone());
                 }
             }
-            found
+            for (stem, path) in plain {
+                named.entry(stem).or_insert(path);
+            }
+            Folder { named, files, numbered: OnceCell::new() }
         };
         Folders(folders.iter().map(listed).collect())
     }
 
-    /// The file of a program: the first folder that has one counts, and in it the first of the names.
-    fn find(&self, name: &str, dialect: &Dialect) -> Option<&Path> {
+    /// The file of a program: the first folder that has one counts, and in it the first of the names; then, as controls
+    /// find a program by its number, the file whose program has it.
+    ///
+    /// # Errors
+    /// Two files of a folder hold a program of this number.
+    fn find(&self, name: &str, dialect: &Dialect) -> Result<Option<&Path>, Problem> {
         let stems = dialect.program.called.iter().filter_map(|form| stem(form, name));
         let stems: Vec<String> = stems.map(|stem| stem.to_ascii_lowercase()).collect();
-        self.0.iter().find_map(|files| stems.iter().find_map(|stem| files.get(stem))).map(PathBuf::as_path)
+        for folder in &self.0 {
+            let named = stems.iter().find_map(|stem| folder.named.get(stem));
+            let numbered = || folder.of_number(name, dialect);
+            match (named, named.is_none().then(numbered).flatten()) {
+                (Some(path), _) | (None, Some([path])) => return Ok(Some(path)),
+                (None, Some([first, second, ..])) => return Err(both(name, [first, second], dialect)),
+                (None, _) => {}
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl Folder {
+    /// Files that begin with the program of a number, where programs have numbers.
+    fn of_number(&self, name: &str, dialect: &Dialect) -> Option<&[PathBuf]> {
+        let numbers = dialect.program.number.is_some() && !dialect.program.o_words;
+        if !numbers || !name.bytes().all(|b| b.is_ascii_digit()) {
+            return None;
+        }
+        let numbered = self.numbered.get_or_init(|| {
+            let mut found: HashMap<String, Vec<PathBuf>> = HashMap::new();
+            for path in &self.files {
+                if let Some(number) = number_in(path, dialect) {
+                    found.entry(number).or_default().push(path.clone());
+                }
+            }
+            found
+        });
+        numbered.get(name).map(Vec::as_slice)
+    }
+}
+
+/// Bytes at the beginning of a file in which its program's number is looked for.
+const BEGINNING: u64 = 1 << 16;
+
+/// The number of the program that a file begins with; none of one that is no text, or too large for a called program.
+fn number_in(path: &Path, dialect: &Dialect) -> Option<String> {
+    let file = fs::File::open(path).ok()?;
+    let about = file.metadata().ok()?;
+    if !about.is_file() || about.len() > LARGEST {
+        return None;
+    }
+    let mut text = Vec::new();
+    file.take(BEGINNING).read_to_end(&mut text).ok()?;
+    if text.contains(&0) {
+        return None;
+    }
+    let name = program_of(&text, dialect)?.name?;
+    name.bytes().all(|b| b.is_ascii_digit()).then_some(name)
+}
+
+/// Two files with one program.
+fn both(name: &str, files: [&PathBuf; 2], dialect: &Dialect) -> Problem {
+    let [first, second] = files.map(|file| file.display().to_string());
+    let own = dialect.program.called.iter().find_map(|form| stem(form, name)).unwrap_or_default();
+    let extension = dialect.extensions.first().map(|e| e.to_ascii_lowercase()).unwrap_or_default();
+    Problem {
+        exit: Exit::Refused,
+        message: format!("program {name} is in two files: {first} and {second}"),
+        help: vec![format!("take one out of the folder, or name the right one {own}.{extension}")],
     }
 }
 

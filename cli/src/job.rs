@@ -127,6 +127,8 @@ impl Job {
     /// The way back, for a judge of what was written.
     pub fn renaming(&self) -> Renaming {
         let mut renaming = self.machines.renaming();
+        // One that the maps have no number for, as its length has another, got one here.
+        renaming.tool_names.retain(|_, name| !self.numbered_tools.iter().any(|(own, _)| own == name));
         renaming.tool_names.extend(self.numbered_tools.iter().map(|(name, number)| (*number, name.clone())));
         renaming
     }

@@ -348,6 +348,7 @@ impl<'j> Line<'j> {
         let mut own_distance = BTreeSet::new();
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
+            self.renumbering.tool_names(&mut program);
             let caps = self.job.to.caps();
             // What is folded or rewritten by name must be known when it is.
             let plainly = self.job.passes.is_empty() && self.folder.is_none();

@@ -165,6 +165,15 @@ impl Batch {
     pub(crate) fn report(&mut self, fault: Fault, span: Span) {
         self.diagnostics.push(Diagnostic::new(fault, span));
     }
+
+    /// Whether the last thing reported is an error of a word of this block.
+    pub(crate) fn refused_within(&self, block: Span) -> bool {
+        self.diagnostics.last().is_some_and(|last| {
+            last.fault.gravity() == ncc_ir::diag::Gravity::Error
+                && block.start <= last.span.start
+                && last.span.end <= block.end
+        })
+    }
 }
 
 /// The reader of one text, of whichever family its dialect is.

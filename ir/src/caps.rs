@@ -141,6 +141,8 @@ pub struct Caps {
     pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Cutter radius compensation of the active side may be switched on again without having been switched off.
+    pub compensation_again: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.
     pub call_digits: u32,
     /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.

@@ -42,8 +42,10 @@ pub fn stand_in(c: char) -> &'static str {
         '<' => " LT ",
         '>' => " GT ",
         '\\' | '|' => "/",
-        '~' | '–' | '—' | '‐' | '‑' | '−' | '·' | '•' => "-",
+        '–' | '—' | '‐' | '‑' | '−' | '·' | '•' => "-",
         '\'' | '`' | '´' | '’' | '‘' => "",
+        // A line before a number would be its sign: `~0.1 in` is about that much, and not less than nothing.
+        '~' | '≈' => " ",
         '"' | '“' | '”' | '„' | '«' | '»' | '^' | '$' | '\t' | '\u{a0}' => " ",
         '…' => "...",
         '°' | 'º' => " DEG",

@@ -43,6 +43,9 @@ pub struct World {
     pub zeroed_by_tool: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Cutter radius compensation of the active side may be switched on again: the next move in the plane goes onto the
+    /// contour anew.
+    pub compensation_again: bool,
     /// Which arcs the control accepts.
     pub arcs: ArcRule,
     /// What the control refuses while cutter radius compensation is on.
@@ -121,6 +124,9 @@ pub struct Tables {
     pub references: BTreeMap<ReferencePoint, [Option<Nanos>; AXES]>,
     /// Lengths of edge 1 of tools with a name.
     pub named_lengths: BTreeMap<i64, Nanos>,
+    /// The entry that edge 1 of a tool with a name has, as both worlds of a comparison know it: its radius is that of
+    /// this entry.
+    pub named_entries: BTreeMap<i64, u32>,
     /// The entry that edge 1 of a tool has, where it is not the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
 }
@@ -188,6 +194,7 @@ impl World {
             length_by_change: false,
             zeroed_by_tool: false,
             feed_ends_with_mode: false,
+            compensation_again: false,
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),
             behaviours: Behaviours::default(),

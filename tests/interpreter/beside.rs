@@ -19,6 +19,9 @@ pub struct Beside {
     pub diameter: Option<i64>,
     /// On an arc: F is the speed along the contour, not that of the tool centre.
     pub on_contour: bool,
+    /// G41 or G42 stood again before this move, without G40 (808D turning, p. 121; 15i-MB, p. 430): the contour is left at a
+    /// right angle and begun anew.
+    pub again: bool,
 }
 
 /// What F is the speed of on arcs beside a contour (808D milling, p. 79, of CFC and CFTCP; CFIN as it is remembered).
@@ -51,9 +54,32 @@ impl Machine {
             entry,
             diameter: None,
             on_contour: false,
+            again: false,
         });
         self.lead = true;
         Ok(())
+    }
+
+    /// The same on a control that takes the active code again.
+    ///
+    /// # Errors
+    /// Another side, plane or radius, or none.
+    pub fn go_beside_again(&mut self, left: bool, reversed: bool, entry: Option<u32>) -> Result<(), Halt> {
+        let (side, plane) = (left != reversed, self.plane);
+        match &mut self.beside {
+            Some(on) if (on.left, on.plane, on.entry) == (side, plane, entry) => {
+                (on.again, self.lead) = (true, true);
+                Ok(())
+            }
+            _ => self.go_beside(left, reversed, entry),
+        }
+    }
+
+    /// The move that begins the contour anew has been recorded.
+    pub(super) fn begun(&mut self) {
+        if let Some(beside) = self.beside.as_mut().filter(|_| !self.lead) {
+            beside.again = false;
+        }
     }
 
     /// Compensation on by a diameter in millimetres; less than nothing is the other side.
@@ -75,7 +101,11 @@ impl Machine {
             (What::Arc { sweep, .. }, ArcFeed::Inner) => left == (*sweep > 0.0),
             _ => false,
         };
-        beside.map(|beside| Beside { on_contour: of_arc(beside.left), ..beside })
+        beside.map(|beside| Beside {
+            on_contour: of_arc(beside.left),
+            again: beside.again && !self.lead,
+            ..beside
+        })
     }
 
     /// Compensation off.

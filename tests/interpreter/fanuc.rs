@@ -360,7 +360,7 @@ impl Control {
         }
         self.bare_length(length, machine, &words, old)?;
         if let Some((entry, _)) = number(&words, 'D') {
-            if self.m.beside.is_some() {
+            if self.m.beside.is_some() && self.radius != Some(entry as u32) {
                 return self.m.halt("another D under compensation");
             }
             self.radius = Some(entry as u32);
@@ -371,7 +371,7 @@ impl Control {
             let Some(reversed) = self.m.turn.reverses(first, second, normal) else {
                 return self.m.halt("compensation in a frame that makes circles ellipses");
             };
-            self.m.go_beside(left, reversed, Some(entry))?;
+            self.m.go_beside_again(left, reversed, Some(entry))?;
         }
 
         let tap = matches!(motion_last, Some(74 | 80 | 84));

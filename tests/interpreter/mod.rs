@@ -461,6 +461,7 @@ impl Machine {
             by_itself: self.by_itself,
             timed: false,
         });
+        self.begun();
     }
 
     /// Rapid.

@@ -35,6 +35,7 @@ mod rs274;
 mod schema;
 mod second;
 mod shared;
+mod shop_programs;
 mod shop_siemens;
 mod shop_stops;
 mod shop_tools;

@@ -121,7 +121,8 @@ fn every_row_with_a_meaning_is_met_in_the_corpus() {
 fn in_its_form(name: &str, valued: bool) -> String {
     match name {
         "DC" | "ACP" | "ACN" | "CAC" | "CIC" | "CDC" | "CACP" | "CACN" => format!("C={name}(1)"),
-        "EXTCALL" | "ISOCALL" => format!("{name} \"A\""),
+        "EXTCALL" => format!("{name} R1"),
+        "ISOCALL" => format!("{name} \"A\""),
         "CALL" | "PCALL" => format!("{name} A"),
         // `A3` alone would be the axis A at 3.
         _ if valued || name.ends_with(|c: char| c.is_ascii_digit()) => format!("{name}=1"),

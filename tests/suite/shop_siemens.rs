@@ -129,7 +129,7 @@ const EDGES: &[Case] = &[
     case("siemens", "fanuc", "D1 X5 / X6", Says("X5. / X6.")),
     case("siemens", "haas", "G0 X5 D1", Says("X5.")),
     case("siemens", "fanuc", "T0 M6 / G0 Z5", Says("T0 M06 / G49 G00 Z5.")),
-    case("siemens", "linuxcnc", "M5 / T0 M6 D1 / G0 Z5 / X1", Says("G49 T0 M6 / G0 Z5 / X1")),
+    case("siemens", "linuxcnc", "M5 / T0 M6 D1 / G0 Z5 / X1", Says("T0 M6 / G49 / G0 Z5 / X1")),
     case("siemens", "fanuc", "D1 X5 / Z40", Says("X5. / G43 H1 Z40.")),
 ];
 
@@ -204,7 +204,7 @@ const CHANGES: &[Case] = &[
     case("haas", "fanuc", "T2 M6 G43 H2 X1. Z20.", Says("T2 M06 / G90 G43 H2 X1. Z20.")),
     case("linuxcnc", "haas", "M5 / T2 M6 G43 H2 Z20", Says("T2 M06 / G43 H2 Z20.")),
     case("linuxcnc", "siemens", "M5 / G1 X4 F100 T2 M6", Says("M6 / G1 X4")),
-    case("fanuc", "linuxcnc", "M5 / T2 M6 G43 H2 Z20.", Says("G43 H2 Z20 T2 M6")),
+    case("fanuc", "linuxcnc", "M5 / T2 M6 G43 H2 Z20.", Says("T2 M6 / G43 H2 Z20")),
     stated(
         "fanuc",
         AFTER,

@@ -159,7 +159,7 @@ const STOPS: &[(&str, &str)] = &[
     ("F50 G0\nCYCLE85(5,0,1,-9,,,50,50)\nG1 X5", "no F"),
     ("F50 G0\nMCALL CYCLE81(5,0,1,-9)\nG18\nX5", "another plane"),
     ("F50 G0\nMCALL CYCLE81(5,0,1,-9)\nG70\nX5", "unit"),
-    ("F50 G0\nMCALL CYCLE81(5,0,1,-9)\nCYCLE801(0,0,0,5,5,2,2,1)", "appended"),
+    ("F50 G0\nMCALL CYCLE81(5,0,1,-9)\nCYCLE801(0,0,0,5,5,2,2,2)", "appended"),
     ("F50 G0\nMCALL CYCLE81(5,0,1,-9)\nCYCLE802(211111111,111111111,1,1)", "absolute"),
 ];
 

@@ -199,12 +199,15 @@ impl Block {
         let call = need.rank == Rank::Call && self.letters != 0;
         // Whether the machine does what another M code says before, with or after the change is its builder's.
         let change = self.changes && need.m > 0;
+        // A length that counts after the change reads as one before it, where its code stands first.
+        let length = self.changes && need.rank == Rank::Offset && need.g > 0;
         let moves = self.changes && self.apart.is_some_and(|from| (from..=Rank::Motion).contains(&need.rank));
         ordered
             && !dwell
             && !call
             && !change
             && !moves
+            && !length
             && self.groups & need.groups == 0
             && self.letters & need.letters == 0
             && (self.most_g == 0 || self.g + need.g <= self.most_g || need.g == 0)

@@ -130,7 +130,8 @@ fn take(event: &Event, into: &mut DefaultHasher) {
     (end, rate, inch).hash(into);
     (state.tool, state.speed, state.spindle, state.flood, state.mist).hash(into);
     (state.tip, state.tilted, state.turned, state.one_side).hash(into);
-    (state.compensation.side, state.compensation.radius, state.compensation.gap).hash(into);
+    (state.compensation.side, state.compensation.radius).hash(into);
+    (state.compensation.gap, state.compensation.again).hash(into);
     (
         state.compensation.plane,
         state.advice,

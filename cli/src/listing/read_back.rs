@@ -87,6 +87,7 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     world.backs_off = BACKS_OFF;
     world.length_by_change = true;
     world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    world.compensation_again = job.from.dialect.caps.compensation_again;
     world.arcs = job.from.arc_rule();
     world.refused_compensated = job.from.dialect.caps.refused_compensated;
     let nanos = |option| parameter(job, option).and_then(|n| n.nanos(false)).unwrap_or(0);

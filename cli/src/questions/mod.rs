@@ -18,7 +18,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 
 use ncc_dialects::{
     ARC_CENTRES, CALCULATOR, CYCLE_BESIDE_MOTION, DECIMAL_POINT, Dialect, FROM_START, FROM_ZERO,
-    MOTION_CANCELS, MOTION_DRILLED, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, Settings,
+    INTEGER_FEED, MOTION_CANCELS, MOTION_DRILLED, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, Settings,
 };
 use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::behaviour::Behaviour;
@@ -353,7 +353,9 @@ fn lengths(job: &Job, span: Span) -> Option<Candidate> {
 
 /// What numbers without a decimal point count.
 fn points(job: &Job, span: Span) -> Option<Candidate> {
-    job.from.takes(DECIMAL_POINT, INCREMENT).then_some(())?;
+    // One that was stated as whole units for feeds alone has said the rest too.
+    let open = !job.from.is_chosen(DECIMAL_POINT);
+    (open && job.from.takes(DECIMAL_POINT, INCREMENT)).then_some(())?;
     let own = job.from.get(DECIMAL_POINT);
     let answer = |value: &'static str| match job.from.takes(DECIMAL_POINT, value) {
         true => Answer::Option(DECIMAL_POINT, value),
@@ -509,8 +511,17 @@ fn decide(
     };
     // The greater value is shown first.
     let order = if candidate.fact == Fact::DecimalPoint { [1, 0] } else { [0, 1] };
+    // Where the control reads feeds alone as whole units, that is the way out for a feed.
+    let of_feed = |at: usize| {
+        let feed = matches!(shown[at], Shown::Word { feed: true, .. });
+        feed && candidate.answers[at] == Answer::WritePoints
+            && jobs[0].from.takes(DECIMAL_POINT, INTEGER_FEED)
+    };
     let reading = |at: usize| Reading {
-        answer: candidate.answers[at].clone(),
+        answer: match of_feed(at) {
+            true => Answer::Option(DECIMAL_POINT, INTEGER_FEED),
+            false => candidate.answers[at].clone(),
+        },
         taken: candidate.taken == at,
         result: shown[at].clone(),
     };

@@ -39,6 +39,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::UnexpectedCharacter { found } if at.from.comment.close == found.to_string() => {
             own("a comment ends at its first closing sign: take inner brackets away")
         }
+        Fault::UnexpectedCharacter { found: '\r' } => own(
+            "a line ends here with CR alone: save the file with line ends LF or CR LF: `tr '\\r' '\\n' < FILE > NEW`",
+        ),
         Fault::UnexpectedCharacter { .. } => {
             vec![format!("is the source really {from}? `--from auto` looks at the text and says why")]
         }
@@ -95,6 +98,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
             own("write `G80` before this block: a call or a jump may lead here with a cycle active")
         }
+        Fault::NotSupported { name, .. } if name.starts_with("computed feed that may count") => own(
+            "`--from-option feed_unit=inch` or `feed_unit=mm`: the basic system of the machine, which F counts where lengths \
+             are those of G70 or G71",
+        ),
         Fault::NotSupported { .. } => own("write this place another way, or see to it by hand"),
         Fault::CodesExclude { .. } => {
             own("put them into blocks of their own, in the order in which they shall act")
@@ -206,7 +213,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
-        Fault::CutStanding => own("write `M03` before this block"),
+        Fault::CutStanding => own("write `M03` before this block, with a speed: `S1000 M03`"),
         Fault::AssumedToolChange { .. } => {
             own("state what your machine does: `--from-option tool_with_change=named` or `=waiting`")
         }

@@ -323,7 +323,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::CutStanding => (
             "feed move with the spindle stopped".into(),
-            "no M03 or M04 is active at this move".into(),
+            "no M03 or M04 with a speed is active at this move".into(),
         ),
         Fault::AssumedToolChange { named, waiting } => (
             format!("T{named} beside M06 taken for the tool that is put in"),

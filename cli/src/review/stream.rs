@@ -147,6 +147,7 @@ pub(crate) fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
         world.behaviours = job.from.behaviours();
         world.increments = job.from.fine_increments();
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+        world.compensation_again = job.from.dialect.caps.compensation_again;
         world.arcs = job.from.arc_rule();
         world.refused_compensated = job.from.dialect.caps.refused_compensated;
         let [clearance, lift] = clearances;

@@ -656,6 +656,7 @@ fn world(plan: &Plan) -> World {
         increments: job.from.fine_increments(),
         optional_stop: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
+        compensation_again: job.from.dialect.caps.compensation_again,
         arcs: job.from.arc_rule(),
         refused_compensated: job.from.dialect.caps.refused_compensated,
         break_lift: value(BREAK_LIFT),

@@ -20,6 +20,7 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let mut source = World::generate(seed, &from).with_external();
     source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    source.compensation_again = job.from.dialect.caps.compensation_again;
     source.arcs = job.from.arc_rule();
     source.refused_compensated = job.from.dialect.caps.refused_compensated;
     source.tables.edge_entries = own_entries;
@@ -29,6 +30,8 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     target.increments = job.to.fine_increments();
     target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
+    // Between two controls it is refused; what else is written is read as the source has it.
+    target.compensation_again = source.compensation_again;
     target.arcs = job.to.arc_rule();
     target.refused_compensated = job.to.dialect.caps.refused_compensated;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
@@ -39,6 +42,10 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let named = &target.renaming.tool_names;
     source.tables.named_lengths =
         named.iter().map(|(n, name)| (named_tool(name), target.edge_length(i64::from(*n), 1))).collect();
+    source.tables.named_entries = named
+        .iter()
+        .map(|(n, name)| (named_tool(name), target.entry_number(target.edge_entry(*n))))
+        .collect();
     // A control without a word for it takes corners in its one way.
     let caps = &job.to.dialect.caps;
     let path = caps.only_path.filter(|mode| !caps.says_path(*mode));

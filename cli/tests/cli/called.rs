@@ -79,6 +79,35 @@ fn a_sinumerik_finds_its_subprograms_by_name() {
 }
 
 #[test]
+fn programs_are_found_by_the_numbers_in_their_files() {
+    let shop = folder();
+    let at = shop.path();
+    fs::create_dir(at.join("jobs")).unwrap();
+    let main = "%\nO1\nG21 G17 G90 G54 G40 G49 G80\nG0 X0 Y0\nM98 P1002\nM98 P1003\nM30\n%\n";
+    fs::write(at.join("main.nc"), main).unwrap();
+    fs::write(at.join("jobs/plate side b.cnc"), "%\n(of a job)\nO1002 (SIDE B)\nG0 X5.\nM99\n%\n").unwrap();
+    fs::write(at.join("jobs/o1003"), "O1003\nG0 X7.\nM99\n").unwrap();
+    // One with signs that no text has is passed over, and so is a folder.
+    fs::write(at.join("jobs/a.bin"), b"O1002\n\0").unwrap();
+    fs::create_dir(at.join("jobs/O1002")).unwrap();
+    let done = say(at, "fanuc to haas main.nc -I jobs").exits(0);
+    assert!(done.out.contains("X5.") && done.out.contains("X7."), "{}", done.out);
+    // A file of its name counts before one that holds its number; of two that hold it none does.
+    fs::write(at.join("jobs/copy of plate.cnc"), "O1002\nG0 X6.\nM99\n").unwrap();
+    let done = say(at, "fanuc to haas main.nc -I jobs").exits(1);
+    let both = "program 1002 is in two files: jobs/copy of plate.cnc and jobs/plate side b.cnc";
+    assert!(done.err.contains(both) && done.err.contains("name the right one O1002."), "{}", done.err);
+    fs::write(at.join("jobs/O1002.nc"), "O1002\nG0 X8.\nM99\n").unwrap();
+    let done = say(at, "fanuc to haas main.nc -I jobs").exits(0);
+    assert!(done.out.contains("X8."), "{}", done.out);
+    // A Sinumerik knows programs by the names of their files alone; signs that no name has are underscores.
+    fs::write(at.join("main.mpf"), "G71 G90 G17 G54\nG0 X0 Y0\nEXTCALL \"side b.spf\"\nM30\n").unwrap();
+    fs::write(at.join("jobs/Side b.SPF"), "G0 X9\nM17\n").unwrap();
+    let done = say(at, "siemens to fanuc main.mpf -I jobs").exits(0);
+    assert!(done.out.contains("(SIDE_B)"), "{}", done.out);
+}
+
+#[test]
 fn a_message_names_the_file_and_its_line() {
     let shop = shop();
     fs::write(shop.path().join("sub/o0008"), "G00 X1.\nG77\nM99\n").unwrap();

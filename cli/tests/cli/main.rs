@@ -26,6 +26,7 @@ mod sessions;
 mod stored;
 mod terminal;
 mod time;
+mod tools;
 mod usage;
 mod verify;
 

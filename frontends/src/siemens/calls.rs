@@ -147,6 +147,23 @@ impl Lower {
         self.call(name, head.span, Handing::Written(&[]), [&[], &[]], src, out);
     }
 
+    /// `EXTCALL "NAME"`: a program from another memory of the control, called as any subprogram. Its name is that of the
+    /// file, without folders and extension; of files of this machine it is known by the folders of called programs.
+    pub(super) fn call_external(&mut self, file: &Expr, head: &Head, src: Source, out: &mut Batch) {
+        if !self.is_text(file, src) {
+            return self.refuse_word("EXTCALL", head.span, out);
+        }
+        let Some(text) = self.known_text(file, src) else {
+            return self.not_supported("EXTCALL", "call by a text that is not known", head.span, out);
+        };
+        let name = program_in_file(&text);
+        if name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()) {
+            let what = "call of a file whose name is no name of a program";
+            return self.not_supported("EXTCALL", what, head.span, out);
+        }
+        self.call(&name, head.span, Handing::Written(&[]), [&[], &[]], src, out);
+    }
+
     /// `MCALL`, alone or with a cycle.
     pub(super) fn call_modal(&mut self, called: Option<&Called>, head: &Head, src: Source, out: &mut Batch) {
         let Some(called) = called else {
@@ -540,4 +557,16 @@ fn item_span(item: &Item) -> Span {
         Item::Set { span, .. } => *span,
         Item::Name(called) => called.span,
     }
+}
+
+/// The program that a file holds by its name: without folders, extension, and the marks of a transfer; what is no
+/// letter, digit or underscore is an underscore.
+fn program_in_file(path: &str) -> String {
+    let file = path.rsplit(['/', '\\', ':']).next().unwrap_or_default().trim().to_ascii_uppercase();
+    let file = match file.rsplit_once(['.', '_']) {
+        Some((stem, "SPF" | "MPF")) => stem,
+        _ => &file,
+    };
+    let name = file.strip_prefix("_N_").unwrap_or(file);
+    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }

@@ -143,7 +143,7 @@ impl Lower {
     }
 
     /// The whole number with a role; 0 for an empty argument, none for one that is computed or no whole number.
-    fn whole_of(&self, a: &Arguments, role: ParameterRole) -> Option<i64> {
+    pub(super) fn whole_of(&self, a: &Arguments, role: ParameterRole) -> Option<i64> {
         let Some(given) = a.row.place(role).and_then(|place| *a.given.get(place)?) else { return Some(0) };
         let digits = given.computed.is_none().then_some(given.digits)?;
         Num { mantissa: digits.mantissa, scale: digits.scale, point: true, unit: Unit::One }.whole()

@@ -457,7 +457,7 @@ impl Lower {
                 let word = if matches!(statement, Statement::CallByPath { .. }) { "PCALL" } else { "CALL" };
                 self.refuse_word(word, head.span, out);
             }
-            Statement::CallExternal(_) => self.refuse_word("EXTCALL", head.span, out),
+            Statement::CallExternal(file) => self.call_external(file, head, src, out),
             Statement::CallIso(_) => self.refuse_word("ISOCALL", head.span, out),
             Statement::Synchronous(_) => {
                 let code = src.text(head.span);

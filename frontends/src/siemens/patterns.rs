@@ -198,6 +198,32 @@ impl Lower {
         let up = self.pitch(a, Role::RowPitch, rows, zero, src, out)?;
         let right = self.sum(a, angle, Num::int(90, Unit::Degree), out)?;
         let (first, second, _) = plane.axes();
+        let begins = (columns * rows > 1).then_some([x, y]);
+        match self.whole_of(a, Role::Way) {
+            Some(0) => {}
+            // In two rows, or two columns of one, every position is on the border, in this order.
+            Some(1) if rows <= 2 || columns == 1 => {}
+            Some(1) => {
+                let (angles, pitches) = ([angle, right], [across, up]);
+                let points = border([x, y], angles, pitches, [columns, rows]);
+                let Some(points) = points else { return self.out_of_range(a, Role::ColumnPitch, out) };
+                let point = |[x, y]: [Num; 2]| {
+                    let mut point = Point::default();
+                    point.set(first, absolute(x));
+                    point.set(second, absolute(y));
+                    point
+                };
+                return Some((Pattern::List(points.into_iter().map(point).collect()), begins));
+            }
+            _ => {
+                let name = format!(
+                    "{}: positions in another order than those of a grid or a frame",
+                    a.name(Role::Way)
+                );
+                self.not_supported(&a.row.name, &name, a.at(Role::Way), out);
+                return None;
+            }
+        }
         let row = |axis: Axis, turned: Num, pitch: Num, count: u32| Row {
             along: if angle.is_zero() { Along::Axis(axis) } else { Along::Angle(Expr::Num(turned)) },
             pitch: Expr::Num(pitch),
@@ -209,7 +235,7 @@ impl Lower {
             rows: row(second, right, up, rows),
             serpentine: true,
         };
-        Some((pattern, (columns * rows > 1).then_some([x, y])))
+        Some((pattern, begins))
     }
 
     /// A distance that counts only where there is more than one hole.
@@ -297,6 +323,34 @@ fn is_never_zero(value: &Expr) -> bool {
 }
 
 /// A place at a distance and an angle from another, if it is exact along an axis.
+/// Positions on the border of a grid, round it from the first: along the first row, up the last column, and back.
+fn border(
+    from: [Num; 2],
+    [across, up]: [Num; 2],
+    pitches: [Num; 2],
+    [columns, rows]: [u32; 2],
+) -> Option<Vec<[Num; 2]>> {
+    let (last, top) = (columns - 1, rows - 1);
+    let places = (0..columns)
+        .map(|i| (i, 0))
+        .chain((1..rows).map(|j| (last, j)))
+        .chain((0..last).rev().map(|i| (i, top)))
+        .chain((1..top).rev().map(|j| (0, j)));
+    let times = |pitch: Num, n: u32| {
+        let mantissa = pitch.mantissa.checked_mul(i64::from(n))?;
+        Some(Num { mantissa, ..pitch })
+    };
+    places
+        .map(|(i, j)| {
+            let (along, over) = (times(pitches[0], i)?, times(pitches[1], j)?);
+            match across.is_zero() {
+                true => Some([from[0].plus(along)?, from[1].plus(over)?]),
+                false => shifted(shifted(from, along, across)?, over, up),
+            }
+        })
+        .collect()
+}
+
 fn shifted(from: [Num; 2], by: Num, angle: Num) -> Option<[Num; 2]> {
     // In its own unit, whatever that is.
     let [x, y] = polar(Num { unit: Unit::One, ..by }.nanos(false)?, angle.nanos(false)?);

@@ -333,6 +333,9 @@ impl Lower {
             (None, Address::Name(name)) => {
                 // What the dictionary does not have is a variable.
                 match row {
+                    Some(row) if row.zero_is_none && is_zero(value) => {
+                        out.report(Fault::AssumedNoEffect { code: src.text(span) }, span);
+                    }
                     Some(_) => self.refuse_name(name, span, src, out),
                     None => {
                         self.now.refused = true;
@@ -490,4 +493,9 @@ impl Lower {
             Err(_) => self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out),
         }
     }
+}
+
+/// Whether a value is the number 0, as it is written.
+fn is_zero(value: &Value) -> bool {
+    matches!(value, Value::Expr(Expr::Number(digits, _)) if digits.mantissa == 0)
 }

@@ -43,7 +43,10 @@ impl Lower {
         let mode = self.state.feed_mode.value().unwrap_or(FeedMode::PerMinute);
         if mode != FeedMode::PerMinute {
             let bare = matches!(word.value, Value::Number(d) if !d.point && d.mantissa != 0);
-            if bare && self.rules[Quantity::Feed as usize].bare == Bare::Increments && !self.calculator {
+            if bare
+                && self.settings.dialect.numbers(Quantity::Feed).bare == Bare::Increments
+                && !self.calculator
+            {
                 let name = "feed per turn, or by time, without a decimal point".into();
                 return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
             }

@@ -9,7 +9,9 @@
 
 use std::collections::BTreeSet;
 
-use ncc_dialects::{Address, CALCULATOR, CodeRow, DECIMAL_POINT, NumberRules, Quantity, Role, Settings};
+use ncc_dialects::{
+    Address, Bare, CALCULATOR, CodeRow, DECIMAL_POINT, INTEGER_FEED, NumberRules, Quantity, Role, Settings,
+};
 use ncc_ir::canon::{Axis, Distance, FeedMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
@@ -215,6 +217,9 @@ impl Lower {
         let mut table = [NumberRules::default(); 8];
         for quantity in rules {
             table[quantity as usize] = dialect.numbers(quantity);
+        }
+        if settings.get(DECIMAL_POINT) == INTEGER_FEED {
+            table[Quantity::Feed as usize].bare = Bare::Units;
         }
         let mut lower = Lower {
             calculator: settings.get(DECIMAL_POINT) == CALCULATOR,

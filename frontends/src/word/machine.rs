@@ -84,6 +84,10 @@ impl Lower {
         block: Span,
         out: &mut Batch,
     ) {
+        if to.is_empty() && out.refused_within(block) {
+            // An axis word stands there, and was refused.
+            return;
+        }
         let mut refuse = |name: &str| {
             let code_text = code.row.code.as_str().into();
             self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);

@@ -3,7 +3,9 @@
 //! A number without a decimal point is read by the dialect's rule, and a rule that is in doubt is
 //! reported once for each kind of quantity. Nothing is rounded.
 
-use ncc_dialects::{ARC_CENTRES, Bare, DECIMAL_POINT, FROM_START, FROM_ZERO, PointRule, Quantity};
+use ncc_dialects::{
+    ARC_CENTRES, Bare, DECIMAL_POINT, FROM_START, FROM_ZERO, INTEGER_FEED, PointRule, Quantity,
+};
 use ncc_ir::canon::{Fact, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
@@ -155,7 +157,8 @@ impl Lower {
                             num.scale = shift;
                             num.point = true;
                         }
-                        if !self.settings.is_chosen(DECIMAL_POINT) {
+                        let chosen = self.settings.is_chosen(DECIMAL_POINT);
+                        if !chosen || self.settings.get(DECIMAL_POINT) == INTEGER_FEED {
                             self.assume_bare(word, num, quantity, src, out);
                         }
                     }

@@ -43,7 +43,7 @@ impl Lower {
 
     fn lead_number(&mut self, word: &Word, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Num> {
         let bare = matches!(word.value, Value::Number(d) if !d.point);
-        if bare && self.rules[quantity as usize].bare == Bare::Increments && !self.calculator {
+        if bare && self.settings.dialect.numbers(quantity).bare == Bare::Increments && !self.calculator {
             let name = "lead of a thread without a decimal point".into();
             return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
         }

@@ -272,6 +272,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         change_stops_spindle: dialect.behaviours().surely(Behaviour::SpindleAtChange),
         behaviours: dialect.behaviours(),
         feed_ends_with_mode: dialect.can.feed_ends_with_mode,
+        compensation_again: dialect.can.compensation_again || dialect.can.everything,
         // The options decide ([`crate::Settings::caps`]).
         arcs: ArcRule::default(),
         refused_compensated: refused_compensated(dialect),

@@ -39,6 +39,9 @@ pub struct NameRow {
     /// in force wherever nothing else has been said.
     #[serde(default)]
     pub empty_brackets: bool,
+    /// Whether the value 0 of an address that is refused says nothing: it is the basic setting.
+    #[serde(default)]
+    pub zero_is_none: bool,
     /// Whether arguments belong to a word without an effect, which go with it as they are written.
     #[serde(default)]
     pub arguments: bool,
@@ -319,7 +322,7 @@ pub enum ParameterRole {
     LeastPeck,
     /// Dwell above the hole before each further peck.
     Settle,
-    /// 0 breaks the chip, 1 clears it.
+    /// 0 breaks the chip, 1 clears it; of a grid 0 is all its positions, 1 those of its border.
     Way,
     /// The cycle's own plane: 0 the one in force, 1 XY, 2 ZX, 3 YZ.
     WorkingPlane,

@@ -532,6 +532,9 @@ pub struct Can {
     pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already: the next cut needs a new one.
     pub feed_ends_with_mode: bool,
+    /// G41 or G42 of the active side may be programmed again without G40: the contour before it ends at a right angle to
+    /// its last move, and the block goes on from there in the control's own way. Of other controls it is an error.
+    pub compensation_again: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is
     /// neither gone round nor cut short, and the first move behind the contour leads to the programmed point of the
     /// plane even if it has words of none of its axes. Of others it is taken for granted that every corner is gone

@@ -38,6 +38,9 @@ pub const DECIMAL_POINT: &str = "decimal_point";
 /// Value of [`DECIMAL_POINT`]: whole units.
 pub const CALCULATOR: &str = "calculator";
 
+/// Value of [`DECIMAL_POINT`]: whole units for a feed, least increments for everything else.
+pub const INTEGER_FEED: &str = "integer-feed";
+
 /// Option of a dictionary: by which of two codes of distance in one block the words of a return to a reference point are
 /// read, the `last` one or the `first`.
 pub const RETURN_DISTANCE: &str = "return_distance";

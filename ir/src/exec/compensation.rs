@@ -25,6 +25,9 @@ pub struct Compensation {
     /// Whether two blocks or more without a move in the plane, or one that goes nowhere, stood before
     /// this move: some controls then do not look as far as this move for the corner before it.
     pub gap: bool,
+    /// Whether it was switched on again, while it was on, for this move: the contour before it ends as the control
+    /// ends one, and this move goes onto it anew.
+    pub again: bool,
     /// Of an arc: whether F counts along the contour, and not at the tool centre.
     pub on_contour: bool,
     /// The place of the radius: an entry of the table, or with `EDGE` an edge that is none; with `STATED`
@@ -42,6 +45,7 @@ impl Compensation {
             Plane::Yz => "YZ",
         };
         let feed = if self.on_contour { ", F along the contour" } else { "" };
+        let feed = if self.again { format!(", switched on again{feed}") } else { feed.to_owned() };
         match self.radius & (EDGE | STATED) {
             0 => format!("{} in {plane} by entry {}{feed}", side.name(), self.radius),
             STATED => {
@@ -62,7 +66,7 @@ impl Compensation {
 
 impl Default for Compensation {
     fn default() -> Compensation {
-        Compensation { side: None, plane: Plane::Xy, gap: false, on_contour: false, radius: 0 }
+        Compensation { side: None, plane: Plane::Xy, gap: false, again: false, on_contour: false, radius: 0 }
     }
 }
 
@@ -88,6 +92,10 @@ pub(super) struct Contour {
     entered: bool,
     /// Blocks without a move in the plane since the last one, two at most.
     still: u8,
+    /// The last of them that has words and goes nowhere.
+    nowhere: Option<Span>,
+    /// Whether it was switched on again, and no move in the plane has come since.
+    again: bool,
     /// What the block at hand has done so far.
     block: Block,
     /// Its plane.
@@ -122,7 +130,8 @@ impl Exec {
         radius: &CutterRadius,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        if self.state.compensation.side.is_some() {
+        let on = self.state.compensation;
+        if on.side.is_some() && (!self.world.compensation_again || self.centre_path.is_some()) {
             return self.not_executed("cutter radius compensation switched on twice", span);
         }
         if self.cycle.is_some() {
@@ -141,10 +150,21 @@ impl Exec {
             Some(true) => side.other(),
             None => return self.not_executed("cutter radius compensation in a plane that is tilted", span),
         };
-        self.state.compensation =
-            super::Compensation { side: Some(side), plane, radius: place, ..super::Compensation::default() };
+        let new = Compensation { side: Some(side), plane, radius: place, ..Compensation::default() };
+        let again = on.side.is_some();
+        if again && self.contour.elsewhere {
+            // A Sinumerik takes the block for the way onto a contour, a Fanuc for a part of it.
+            let what = "cutter radius compensation switched on again without G40";
+            return self.fault(Fault::CannotSay { what: what.into() }, span);
+        }
+        if again && (on.side, on.plane, on.radius) != (new.side, new.plane, new.radius) {
+            return self
+                .not_executed("cutter radius compensation of another side or radius without G40", span);
+        }
+        self.state.compensation = new;
         let Contour { elsewhere, lines, .. } = self.contour;
-        self.contour = Contour { watched: true, elsewhere, lines, plane: Some(plane), ..Contour::default() };
+        self.contour =
+            Contour { watched: true, elsewhere, lines, again, plane: Some(plane), ..Contour::default() };
         self.start_path(radius, span)
     }
 
@@ -168,8 +188,12 @@ impl Exec {
                 Err(_) => return self.fault(Fault::OutOfRange { word: "".into() }, span),
             },
             CutterRadius::Tool => u32::try_from(self.state.tool).unwrap_or(0),
-            CutterRadius::InForce => match self.waiting.unwrap_or(self.modes.length) {
+            CutterRadius::InForce => match self.length_in_force() {
                 Length::Entry(entry) => entry,
+                // A tool with a name whose number on the other control is known.
+                Length::Edge(tool, 1) if self.world.tables.named_entries.contains_key(&tool) => {
+                    return Ok(self.world.tables.named_entries[&tool] & !(EDGE | STATED));
+                }
                 Length::Edge(tool, edge) => {
                     // Any two tools of a program are told apart by this.
                     let tool = u32::try_from(tool).map_or(tool, |n| i64::from(self.world.tool_number(n)));
@@ -264,21 +288,32 @@ impl Exec {
             } else if self.contour.entered && self.contour.still > 1 && !computed {
                 if self.contour.elsewhere {
                     // The corner before them is each control's own.
-                    let what = "a compensated contour with two still blocks in a row";
-                    return self.fault(Fault::CannotSay { what: what.into() }, span);
+                    let (what, at) = match self.contour.nowhere {
+                        Some(at) => ("a compensated contour with a block that goes nowhere", at),
+                        None => ("a compensated contour with two still blocks in a row", span),
+                    };
+                    return self.fault(Fault::CannotSay { what: what.into() }, at);
                 }
                 if let Some(event) = out.get_mut(events) {
                     event.state.compensation.gap = true;
                 }
             }
+            if on
+                && std::mem::take(&mut self.contour.again)
+                && let Some(event) = out.get_mut(events)
+            {
+                event.state.compensation.again = true;
+            }
             self.contour.entered = true;
             (self.contour.still, self.contour.block) = (0, Block::Moved);
+            self.contour.nowhere = None;
         } else if self.contour.block == Block::Empty && counts(&stmt.op) && !self.contour.lines {
             self.contour.block = Block::Still;
         }
         let words = matches!(stmt.op, Op::Polar(_)) || to(&stmt.op).is_some_and(|to| !to.is_empty());
         if !moved && before == self.position && words && !self.contour.lines {
             self.contour.still = 2;
+            self.contour.nowhere = Some(span);
         }
         Ok(())
     }

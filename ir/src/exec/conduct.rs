@@ -227,6 +227,7 @@ impl Exec {
             && self.after_stop == other.after_stop
             && self.ways == other.ways
             && self.waiting == other.waiting
+            && self.zeroed == other.zeroed
             && self.along == other.along
             && self.at_place == other.at_place
             && self.is_between_blocks()
@@ -264,6 +265,7 @@ impl Exec {
         self.after_stop = other.after_stop;
         self.ways = other.ways;
         self.waiting = other.waiting;
+        self.zeroed = other.zeroed;
         self.along = other.along;
         self.at_place = other.at_place;
         self.turned_known = other.turned_known;

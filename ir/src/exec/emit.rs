@@ -39,7 +39,7 @@ impl Exec {
         if self.speed_watched {
             self.watch_speed(&kind, span)?;
         }
-        if self.state.spindle == Spindle::Stopped {
+        if self.state.spindle == Spindle::Stopped || self.standing.at_zero {
             self.stands_at(&kind, span);
         }
         if self.quiet {

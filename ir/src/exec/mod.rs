@@ -120,6 +120,9 @@ pub struct Exec {
     pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
+    /// The length called up last, where it counts as none because the operator sets the zero of Z by the tool: its radius
+    /// is in force all the same.
+    zeroed: Option<Length>,
     /// Rotary axes that the program itself has put somewhere, a bit each.
     turned_known: u8,
     /// The move at hand says itself which way round rotary axes go.
@@ -238,6 +241,7 @@ impl Exec {
             intermediate: Box::default(),
             pole: Pole::ZERO,
             waiting: None,
+            zeroed: None,
             turned_known: 0,
             own_way: false,
             along: Z,
@@ -644,13 +648,13 @@ impl Exec {
                 let Ok(entry) = entry else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
-                self.call_up(self.as_zeroed(Length::Entry(entry)), span)?;
+                self.call_up_zeroed(Length::Entry(entry), span)?;
             }
             Op::UseToolEdge { edge, .. } => {
                 let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
-                self.call_up(self.as_zeroed(self.edge(edge)), span)?;
+                self.call_up_zeroed(self.edge(edge), span)?;
             }
             Op::StartSpindleClockwise => self.turn_spindle(Spindle::Clockwise, span, out)?,
             Op::StartSpindleCounterclockwise => self.turn_spindle(Spindle::Counterclockwise, span, out)?,

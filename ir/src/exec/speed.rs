@@ -26,6 +26,7 @@ impl Exec {
             true => Nanos::try_from((i128::from(said) * METRES + 5000) / 10_000).unwrap_or(Nanos::MAX),
             false => said,
         };
+        self.speed_said();
         self.speed_watched = surface;
         if surface {
             self.state.centre = self.frame[0];

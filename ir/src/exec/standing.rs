@@ -3,12 +3,16 @@
 //! ```text
 //! S3200 M00       → M03 was meant: nothing turns
 //! G01 X10. F100.  → noted here
+//!
+//! S0 M03          → nothing turns either
+//! G01 X10. F100.  → noted here
 //! ```
 //!
 //! The first such move is noted. A spindle that the program stops at an angle is meant to stand, and so is one with a
 //! probe in it. Not here: what is reported of it.
 
 use super::{Exec, Kind};
+use crate::canon::Spindle;
 use crate::source::Span;
 
 /// What is noted.
@@ -18,6 +22,8 @@ pub(super) struct Standing {
     cut: Option<Span>,
     /// Whether the spindle is meant to stand.
     meant: bool,
+    /// Whether the speed in force is an S0 of the program.
+    pub(super) at_zero: bool,
 }
 
 impl Exec {
@@ -32,13 +38,22 @@ impl Exec {
         let standing = &mut self.standing;
         match kind {
             Kind::Orient(_) => standing.meant = true,
-            Kind::Probe { .. } => *standing = Standing { cut: None, meant: true },
+            Kind::Probe { .. } => (standing.cut, standing.meant) = (None, true),
             Kind::ToolChange => standing.meant = false,
-            Kind::Feed | Kind::Arc { .. } if !standing.meant && self.state.speed != 0 => {
+            Kind::Feed | Kind::Arc { .. }
+                if !standing.meant
+                    && (self.state.speed != 0
+                        || standing.at_zero && self.state.spindle != Spindle::Stopped) =>
+            {
                 standing.cut.get_or_insert(span);
             }
             _ => {}
         }
+    }
+
+    /// The program says a speed.
+    pub(super) fn speed_said(&mut self) {
+        self.standing.at_zero = self.state.speed == 0;
     }
 
     /// The spindle turns.

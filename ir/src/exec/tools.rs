@@ -114,6 +114,22 @@ impl Exec {
         }
     }
 
+    /// A length is called up by its place in the tables; of one by which the operator has set the zero of Z, the radius
+    /// alone counts.
+    pub(super) fn call_up_zeroed(&mut self, length: Length, span: Span) -> Result<(), Diagnostic> {
+        let counts = self.as_zeroed(length);
+        self.zeroed = (counts != length).then_some(length);
+        self.call_up(counts, span)
+    }
+
+    /// The length that is called up, whether it counts along Z or not: its place has the radius.
+    pub(super) fn length_in_force(&self) -> Length {
+        match self.waiting.unwrap_or(self.modes.length) {
+            Length::Entry(0) => self.zeroed.unwrap_or(Length::Entry(0)),
+            length => length,
+        }
+    }
+
     /// A length is called up, which the next Z takes up; offsets along X and Y count at once.
     pub(super) fn call_up(&mut self, length: Length, span: Span) -> Result<(), Diagnostic> {
         let aside = match length {

@@ -135,10 +135,8 @@ impl Renumbering {
                 }
                 Op::SelectToolByName(name) => {
                     // Without a number it stays as it is, and who has no words for it refuses it.
-                    if let Some(&number) = self.maps.tool_names.get(name) {
-                        let text = number.to_string().into();
-                        self.used.insert((Numbered::Tool, std::mem::take(name), text));
-                        stmt.op = Op::SelectTool(Expr::int(i64::from(number)));
+                    if let Some(number) = self.number_of(name) {
+                        stmt.op = Op::SelectTool(Expr::int(number));
                     }
                 }
                 Op::UseToolLength(length) => {
@@ -205,6 +203,40 @@ impl Renumbering {
                 Op::SelectTool(_) | Op::UseToolLengthOffset(_) | unnumbered!() => {}
             }
         }
+    }
+
+    /// Puts in the numbers of tools that are called by name, and nothing else: before anything is found out that holds on
+    /// all paths, so that the tool in the spindle is known by its number in loops too. Where tools have other numbers
+    /// there, nothing is done yet.
+    pub fn tool_names(&mut self, program: &mut Program) {
+        if self.maps.tools.is_some() || self.maps.tool_names.is_empty() {
+            return;
+        }
+        for procedure in &mut program.procedures {
+            self.name_tools(&mut procedure.body);
+        }
+    }
+
+    fn name_tools(&mut self, stmts: &mut [Stmt]) {
+        for stmt in stmts {
+            match &mut stmt.op {
+                Op::SelectToolByName(name) => {
+                    if let Some(number) = self.number_of(name) {
+                        stmt.op = Op::SelectTool(Expr::int(number));
+                    }
+                }
+                Op::Control(control) => control.bodies_mut().for_each(|body| self.name_tools(body)),
+                _ => {}
+            }
+        }
+    }
+
+    /// The target's number of a tool that is called by name, if it has one.
+    fn number_of(&mut self, name: &mut Text) -> Option<i64> {
+        let number = *self.maps.tool_names.get(name)?;
+        let text = number.to_string().into();
+        self.used.insert((Numbered::Tool, std::mem::take(name), text));
+        Some(i64::from(number))
     }
 
     /// The same for a program that is kept whole: names of its subprograms too.

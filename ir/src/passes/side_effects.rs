@@ -107,6 +107,11 @@ pub struct SideEffects {
     entered: bool,
     /// An optional stop that stops a spindle of which it is not known whether it turns, and no spindle code since.
     lost_stop: Option<Span>,
+    /// Words of this pass have stopped the spindle before a stop, and nothing starts it since: M05 of the program is one
+    /// too many.
+    stopped_in_words: bool,
+    /// The statement that began the block at hand was left out.
+    opens: bool,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -153,6 +158,8 @@ impl SideEffects {
             entries: None,
             entered: false,
             lost_stop: None,
+            stopped_in_words: false,
+            opens: false,
         }
     }
 
@@ -264,7 +271,7 @@ impl SideEffects {
 
     /// A body begins, or ends, that may be executed several times or not at all; `keeps`: it switches nothing.
     fn enter(&mut self, keeps: bool) {
-        self.entered = true;
+        (self.entered, self.stopped_in_words) = (true, false);
         if keeps {
             (self.z_home, self.machine) = (false, false);
         } else {
@@ -274,7 +281,7 @@ impl SideEffects {
 
     /// Control comes from elsewhere.
     fn elsewhere(&mut self) {
-        self.entered = true;
+        (self.entered, self.stopped_in_words) = (true, false);
         (self.spindle, self.coolant) = (Switch::Unknown, Switch::Unknown);
         self.again = [None, None];
         self.tools.elsewhere();
@@ -283,6 +290,14 @@ impl SideEffects {
     }
 
     fn statement(&mut self, mut stmt: Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        if std::mem::take(&mut self.opens) {
+            stmt.joined = false;
+        }
+        let bare = stmt.skip.is_none() && stmt.number.is_none() && stmt.comment.is_none();
+        if self.stopped_in_words && bare && matches!(stmt.op, Op::StopSpindleTurning) {
+            self.opens = !stmt.joined;
+            return self.note(&stmt);
+        }
         if std::mem::take(&mut self.entered)
             && let Some(at) = self.entries.as_ref().and_then(|known| known.before(&stmt))
         {
@@ -384,6 +399,8 @@ impl SideEffects {
             let fault = Fault::CannotSay { what: STOP_BESIDE.into() };
             return diags.push(Diagnostic::new(fault, stmt.span));
         }
+        self.stopped_in_words |=
+            stmt.skip.is_none() && off.iter().any(|(_, op)| matches!(op, Op::StopSpindleTurning));
         let at = insertion(made, stmt);
         let found = off.iter().map(|(behaviour, _)| {
             Diagnostic::new(Fault::SideEffectWritten { behaviour: *behaviour }, stmt.span)
@@ -523,6 +540,7 @@ impl SideEffects {
     fn note(&mut self, stmt: &Stmt) {
         let sure = stmt.skip.is_none();
         self.tools.note(stmt);
+        self.stopped_in_words &= !starts_spindle(&stmt.op);
         let [spindle, coolant] = &mut self.again;
         match &stmt.op {
             op @ (Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise) => {
@@ -676,5 +694,16 @@ fn commands_z(op: &Op) -> bool {
         Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) => to.to.get(Axis::Z).is_some(),
         Op::GoToReference(to) => to.axes[Axis::Z as usize] || to.via.get(Axis::Z).is_some(),
         op => cuts(op),
+    }
+}
+
+/// Whether a statement may start the spindle.
+fn starts_spindle(op: &Op) -> bool {
+    match op {
+        Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise => true,
+        Op::OrientSpindle(_) | Op::SynchronisedFeed(_) => true,
+        Op::StartCycle(cycle) => cycle.kind.drives_spindle(),
+        flow!() => true,
+        _ => false,
     }
 }

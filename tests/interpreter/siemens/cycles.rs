@@ -481,9 +481,11 @@ impl Control<'_> {
 
     fn positions(&self, name: &str, given: &[Argument]) -> Result<Vec<(f64, f64)>, Halt> {
         let a = Arguments { given, unit: self.unit() };
+        // _VARI 1 of CYCLE801 is a frame: the border of the grid (reference, 9).
+        let frame = name == "CYCLE801" && a.or_zero(7) == 1.0;
         let appended = match name {
             "HOLES1" | "HOLES2" => 6,
-            "CYCLE801" => 7,
+            "CYCLE801" => 7 + usize::from(frame),
             _ => return self.points(&a),
         };
         let last = if name == "CYCLE801" { 13 } else { 10 };
@@ -520,6 +522,20 @@ impl Control<'_> {
             _ => {
                 let (columns, rows) = (count(5)?, count(6)?);
                 let mut list = Vec::new();
+                if frame && columns > 1 && rows > 2 {
+                    // Once round: to the right, up, to the left and down, a side each.
+                    let (mut column, mut row) = (0, 0);
+                    for (dx, dy, steps) in
+                        [(1, 0, columns - 1), (0, 1, rows - 1), (-1, 0, columns - 1), (0, -1, rows - 1)]
+                    {
+                        for _ in 0..steps {
+                            let (x, y) = (f64::from(column) * length(3), f64::from(row) * length(4));
+                            list.push(turned(x, y, number(2)));
+                            (column, row) = (column + dx, row + dy);
+                        }
+                    }
+                    return Ok(list);
+                }
                 for row in 0..rows {
                     for k in 0..columns {
                         // Every other row is run backwards.

@@ -76,13 +76,16 @@ impl<'a> Control<'a> {
     /// A block of words, or one that repeats a part of the program.
     fn other(&mut self, unit: &'a Unit, at: usize, block: &Block) -> Result<Next, Halt> {
         if let Some((word, rest)) = shape::first_word(&block.rest)
-            && word == "CALL"
+            && (word == "CALL" || word == "EXTCALL")
         {
             let mut reader = Reader::new(rest, &self.variables);
             return match reader.expression() {
                 Ok(Worth::Text(name)) if reader.over() => {
                     let alone = Words { names: vec![""], ..Words::default() };
-                    self.call(&name.to_ascii_uppercase(), &alone, 0, &[])
+                    // A program from another memory is known by the name of its file.
+                    let name = name.to_ascii_uppercase();
+                    let name = name.strip_suffix(".SPF").filter(|_| word == "EXTCALL").unwrap_or(&name);
+                    self.call(name, &alone, 0, &[])
                 }
                 Ok(_) => self.m.halt("CALL of what is no text"),
                 Err(why) => self.m.halt(why),

@@ -41,7 +41,7 @@ impl Control<'_> {
             1 => Some(self.m.tool.unwrap_or(0)),
             _ => None,
         };
-        self.m.go_beside(left, reversed, entry)
+        self.m.go_beside_again(left, reversed, entry)
     }
 
     pub(super) fn go(&mut self, w: &Words, axes: &[usize]) -> Result<(), Halt> {

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
-use ncc_dialects::{Bare, Family, Settings};
+use ncc_dialects::{Bare, Family, INTEGER_FEED, Quantity, Settings};
 use sha2::{Digest, Sha256};
 use similar::{DiffOp, group_diff_ops};
 
@@ -254,7 +254,8 @@ fn bare(settings: &Settings) -> [bool; 26] {
     let units = dialect.option.iter().any(|o| o.name == POINT_OPTION.0)
         && settings.get(POINT_OPTION.0) == POINT_OPTION.1;
     for row in dialect.address.iter().filter(|row| row.letter.is_ascii_uppercase()) {
-        let rule = dialect.numbers(row.quantity).bare;
+        let whole = row.quantity == Quantity::Feed && settings.get(POINT_OPTION.0) == INTEGER_FEED;
+        let rule = if whole { Bare::Units } else { dialect.numbers(row.quantity).bare };
         all[(row.letter as u8 - b'A') as usize] = rule == Bare::Increments && !units;
     }
     all

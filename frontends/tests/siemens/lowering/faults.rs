@@ -89,7 +89,12 @@ fn words_that_are_known_and_not_translated() {
     refused("TRAORI(2)", "TRAORI", "transformation with parameters", "TRAORI(2)");
     refused("TRACYL(40)", "TRACYL", "transformation of axes", "TRACYL(40)");
     refused("ID=1 WHEN $A DO M8", "ID=1 WHEN $A DO M8", "synchronised action", "ID=1 WHEN $A DO M8");
-    refused("EXTCALL \"A\"", "EXTCALL", "call by path", "EXTCALL 'A'");
+    refused(
+        "EXTCALL R1",
+        "EXTCALL",
+        "call of a program from another memory by what is no text",
+        "EXTCALL R1",
+    );
     refused("PCALL /_N_X/NAME", "PCALL", "call by path", "PCALL /_N_X/NAME");
     refused("CALL \"/A/B\"", "CALL", "call by path", "CALL '/A/B'");
     refused("PROC A_B SAVE", "SAVE", "attribute of a subprogram", "SAVE");

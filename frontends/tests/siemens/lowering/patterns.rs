@@ -75,8 +75,8 @@ fn patterns_that_are_none() {
     assert_eq!(one("HOLES2(0,0,5,0,0,R1)"), counted("R1"));
     assert_eq!(one("CYCLE801(R1,0,0,5,5,2,2)"), counted("R1"));
     assert_eq!(
-        one("CYCLE801(0,0,0,5,5,2,2,1)"),
-        "NotSupported { code: 'CYCLE801', name: '_VARI: a frame of positions' } at '1'"
+        one("CYCLE801(0,0,0,5,5,2,2,2)"),
+        "NotSupported { code: 'CYCLE801', name: '_VARI: positions in another order than those of a grid or a frame' } at '2'"
     );
     assert_eq!(
         one("CYCLE802(111111112,111111111,1,2)"),
