@@ -17,7 +17,7 @@ pub mod words;
 use std::io;
 
 use codespan_reporting::diagnostic::Severity;
-use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
@@ -133,7 +133,7 @@ impl About<'_> {
             Gravity::Error | Gravity::Warning => None,
         };
         let severity = match gravity {
-            Gravity::Error if words::is_own(fault) => Severity::Bug,
+            Gravity::Error if is_own(fault) => Severity::Bug,
             _ if self.job.refuses(diagnostic) => Severity::Error,
             Gravity::Warning => Severity::Warning,
             Gravity::Verdict(verdict) if verdict.stops() => Severity::Warning,
@@ -164,4 +164,9 @@ impl About<'_> {
             excerpt,
         })
     }
+}
+
+/// Whether it is a fault of this compiler, not of the program.
+fn is_own(fault: &Fault) -> bool {
+    matches!(fault, Fault::NotTheSame { .. } | Fault::NotReadBack { .. })
 }

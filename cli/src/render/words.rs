@@ -655,11 +655,6 @@ fn related(fault: &Fault) -> &'static str {
     }
 }
 
-/// Whether it is a fault of this compiler, not of the program.
-pub fn is_own(fault: &Fault) -> bool {
-    matches!(fault, Fault::NotTheSame { .. } | Fault::NotReadBack { .. })
-}
-
 /// A modal fact's name.
 pub fn mode(fact: ModeName) -> &'static str {
     match fact {

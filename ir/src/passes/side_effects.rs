@@ -22,6 +22,7 @@ mod arc_feed;
 mod beside;
 mod insert;
 mod joins;
+mod kinds;
 mod way_up;
 
 use super::fine_digits;
@@ -33,7 +34,7 @@ use crate::canon::{AXES, Axis, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Increments;
 use crate::expr::Expr;
-use crate::kinds::{drilling, flow, moves, polar};
+use crate::kinds::flow;
 use crate::num::Num;
 use crate::program::{
     Control, FrameSlot, Lines, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt,
@@ -44,6 +45,7 @@ use arc_feed::{compensated, states};
 use beside::{OPTIONAL_STOP, STOP_BESIDE, stands_alone};
 use insert::{insert, insertion};
 use joins::{KeepsLength, LeftAtPlace, Length, either, only_sense};
+use kinds::{at_end, commands_z, cuts, is_code, is_zero, starts_spindle, switches};
 use way_up::WayUp;
 
 pub use way_up::REFUSED as NEEDS_Z;
@@ -634,76 +636,5 @@ impl SideEffects {
             _ => {}
         }
         self.machine = false;
-    }
-}
-
-/// What decides whether a control keeps what is in a slot at the end of the program.
-fn at_end(slot: FrameSlot) -> Option<Behaviour> {
-    match slot {
-        FrameSlot::Local | FrameSlot::Chain => Some(Behaviour::ShiftAtEnd),
-        FrameSlot::Shift => Some(Behaviour::OriginAtEnd),
-        FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror => Some(Behaviour::RotationAtEnd),
-        FrameSlot::Polar | FrameSlot::Tilt => None,
-    }
-}
-
-/// Whether an operation switches spindle or coolant, or may.
-fn switches(op: &Op) -> bool {
-    match op {
-        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op))),
-        Op::StartCycle(cycle) => cycle.kind.drives_spindle(),
-        Op::StartSpindleClockwise
-        | Op::StartSpindleCounterclockwise
-        | Op::StopSpindleTurning
-        | Op::OrientSpindle(_)
-        | Op::FloodOn
-        | Op::MistOn
-        | Op::CoolantOff => true,
-        op => is_code(op) || matches!(op, flow!()),
-    }
-}
-
-/// Whether a code does something besides its name on some control.
-fn is_code(op: &Op) -> bool {
-    match op {
-        Op::ProgramStop
-        | Op::OptionalProgramStop
-        | Op::ChangeTool
-        | Op::ProgramEnd
-        | Op::BeginAgain
-        | Op::GoToReference(_)
-        | Op::UseMachineCoordinates { .. } => true,
-        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| is_code(&stmt.op))),
-        _ => false,
-    }
-}
-
-/// Whether a statement cuts, or may.
-fn cuts(op: &Op) -> bool {
-    !matches!(op, Op::StraightTraverse(_) | Op::SetPole(_))
-        && matches!(op, Op::Position(_) | drilling!() | moves!() | polar!() | flow!())
-}
-
-fn is_zero(entry: &Expr) -> bool {
-    entry.literal().is_some_and(|n| n.mantissa == 0)
-}
-
-/// Whether a statement commands Z, or may.
-fn commands_z(op: &Op) -> bool {
-    match op {
-        Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) => to.to.get(Axis::Z).is_some(),
-        Op::GoToReference(to) => to.axes[Axis::Z as usize] || to.via.get(Axis::Z).is_some(),
-        op => cuts(op),
-    }
-}
-
-/// Whether a statement may start the spindle.
-fn starts_spindle(op: &Op) -> bool {
-    match op {
-        Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise => true,
-        Op::OrientSpindle(_) | Op::SynchronisedFeed(_) => true,
-        Op::StartCycle(cycle) => cycle.kind.drives_spindle(),
-        flow!() => true,
-        _ => false,
     }
 }

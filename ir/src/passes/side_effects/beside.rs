@@ -6,7 +6,8 @@
 //! Not here: what stops do (`side_effects`).
 
 use super::super::known_facts::{self, Known};
-use super::{SideEffects, commands_z, cuts};
+use super::SideEffects;
+use super::kinds::{commands_z, cuts};
 use crate::program::{Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
 

@@ -19,7 +19,8 @@ use crate::kinds::flow;
 use crate::program::{Control, Op, Procedure, Reference, Stmt, Text};
 use crate::source::Span;
 
-use super::{LengthNext, SideEffects, commands_z};
+use super::kinds::commands_z;
+use super::{LengthNext, SideEffects};
 
 /// The length of the tool where paths join.
 #[derive(Clone, Debug)]

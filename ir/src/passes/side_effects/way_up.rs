@@ -21,7 +21,8 @@ use crate::kinds::flow;
 use crate::program::{Control, Op, Point, Procedure, Stmt};
 use crate::source::Span;
 
-use super::{SideEffects, cuts};
+use super::SideEffects;
+use super::kinds::cuts;
 
 /// What is refused: the beginning of the message.
 pub const REFUSED: &str = "Z at machine zero after a tool change";
