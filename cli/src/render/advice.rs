@@ -390,7 +390,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         {
             own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
         }
-        Fault::CannotSay { what } if what.starts_with("a compensated contour with two still blocks") => own(
+        Fault::CannotSay { what } if what.starts_with("a compensated contour with ") => own(
             "leave out the blocks here that move by less than the target's least increment, or not in the plane",
         ),
         Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {

@@ -123,6 +123,7 @@ impl Lower {
 
     /// The end of the main program's text: what returns does not end by itself as well.
     pub(super) fn alone_or_main(&mut self, out: &mut Batch) {
+        self.callers_feed(out);
         let Some(at) = self.alone.returns else { return };
         if self.alone.ends {
             if out.subprogram {
@@ -134,6 +135,10 @@ impl Lower {
             let parameter = "M99 goes back to a program that calls this one".into();
             out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, at);
         }
+    }
+
+    /// A feed that the text has not stated is that of its caller, if it has one.
+    fn callers_feed(&mut self, out: &mut Batch) {
         match self.alone.feed.take() {
             Some(at) if !out.subprogram || self.alone.ends => out.report(Fault::NoFeed, at),
             Some(at) if self.assume => {

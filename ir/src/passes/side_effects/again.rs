@@ -1,6 +1,7 @@
 //! What the target's control alone has switched off, started again.
 
 use super::SideEffects;
+use super::kinds::starts_spindle;
 use crate::diag::{Diagnostic, Fault};
 use crate::passes::side_effects::OPTIONAL_STOP;
 use crate::program::{Op, Stmt};
@@ -29,6 +30,7 @@ impl SideEffects {
         let mut new = Vec::new();
         for (behaviour, ops) in self.again.iter_mut().filter_map(Option::take) {
             diags.push(Diagnostic::new(Fault::StartedAgain { behaviour }, span));
+            self.stopped_in_words &= !ops.iter().any(starts_spindle);
             new.extend(ops.into_iter().map(|op| Stmt::new(span, op)));
         }
         for (place, stmt) in new.iter_mut().enumerate() {
