@@ -3,7 +3,7 @@
 
 use ncc::job::Job;
 use ncc_dialects::builtin;
-use ncc_ir::world::World;
+use ncc_exec::world::World;
 
 use crate::plain::{Happening, Plain};
 

@@ -6,16 +6,16 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::rc::Rc;
 
+use ncc_exec::world::World;
+use ncc_exec::{Compensation, Event, Kind, Stored, by_control};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, SpindleMode,
     Turn, Units,
 };
-use ncc_ir::exec::{Compensation, Event, Kind, Stored, by_control};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::expr::system::Kept;
 use ncc_ir::program::{ReferencePoint, ToolValue};
-use ncc_ir::system::Kept;
-use ncc_ir::world::World;
 
 use crate::besides::{Unsaid, cuts, switched};
 pub use crate::corners::Corners;
@@ -158,7 +158,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
             mm(if by_hand.zeroed_by_tool { by_hand.edge_length(own, 1) } else { 0 })
         }),
         named_tool: Box::new(move |name| {
-            let tool = ncc_ir::exec::named_tool(name);
+            let tool = ncc_exec::named_tool(name);
             named.borrow_mut().insert(by_name(tool), tool);
             by_name(tool)
         }),

@@ -10,11 +10,11 @@ use ncc::render::About;
 use ncc::render::human::{self, Loudness};
 use ncc::rewrite::pass;
 use ncc_dialects::{Settings, builtin};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::program::{Procedure, Program};
-use ncc_ir::world::World;
 
 use crate::corpus;
 
@@ -50,7 +50,7 @@ pub fn straight_job(program: &corpus::Program, to: &str) -> Job {
 
 /// Whether a program computes, decides or jumps, so that a target may take its straight blocks alone.
 pub fn computes(program: &corpus::Program) -> bool {
-    read(program.dialect, &program.text).is_ok_and(|read| ncc_ir::valid::anything(&read).is_some())
+    read(program.dialect, &program.text).is_ok_and(|read| ncc_ir::program::valid::anything(&read).is_some())
 }
 
 /// Translates; the text is what would be released, or empty.

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Procedure, Program, Stmt};
 
 use crate::characters::encode;

@@ -1,7 +1,7 @@
 //! Findings: which rule, where, and the figures that belong to it. No words.
 
 use ncc_ir::canon::Axis;
-use ncc_ir::num::{Nanos, Num};
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 

@@ -1,8 +1,8 @@
 //! What is known of the machine, and what could not be checked because it is not.
 
+use ncc_exec::world::Tables;
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::num::Nanos;
-use ncc_ir::world::Tables;
+use ncc_ir::expr::num::Nanos;
 
 /// Facts of a machine that rules hold a program against, each as far as it is stated.
 #[derive(Clone, Debug, Default)]

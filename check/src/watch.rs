@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use ncc_exec::{Attribute, Event, Exec, Kind};
 use ncc_ir::canon::{AXES, Axis, Distance, Motion, same_point};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Attribute, Event, Exec, Kind};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{FrameSlot, Op, Point, Stmt};
 use ncc_ir::source::Span;
 

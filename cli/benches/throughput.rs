@@ -9,10 +9,10 @@ use ncc::job::Job;
 use ncc::translate::translate;
 use ncc_backends::{Layout, Writer};
 use ncc_dialects::{Settings, builtin};
+use ncc_exec::Exec;
+use ncc_exec::world::World;
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
-use ncc_ir::exec::Exec;
-use ncc_ir::world::World;
 
 mod workload;
 use workload::Workload;

@@ -9,8 +9,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use ncc_backends::Numbering;
 use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::diag::Verdict;
-use ncc_ir::num::{Nanos, Num, Unit};
-use ncc_ir::passes::Pass;
+use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_passes::Pass;
 
 use crate::m_codes::{self, MCode};
 use crate::milling::Assumed;

@@ -1,9 +1,9 @@
 //! A difference of two canonical streams in words, for the diagnostic of a failed verification.
 
+use ncc_exec::verify::{Aspect, Difference};
+use ncc_exec::{Event, Kind, State};
 use ncc_ir::canon::{Axis, Spindle, SpindleMode, Turn};
-use ncc_ir::exec::{Event, Kind, State};
-use ncc_ir::num::{Num, ONE, Unit};
-use ncc_ir::verify::{Aspect, Difference};
+use ncc_ir::expr::num::{Num, ONE, Unit};
 
 /// Both sides of a difference.
 pub(crate) fn describe(difference: &Difference) -> String {

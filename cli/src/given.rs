@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use ncc_ir::exec::Runner;
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::value::Value;
+use ncc_exec::Runner;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::value::Value;
 use serde::Deserialize;
 
 use crate::problem::{Exit, Problem};

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use ncc_dialects::Dialect;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict};
-use ncc_ir::maps::Numbered;
 use ncc_ir::program::Text;
+use ncc_ir::program::numbered::Numbered;
 
 use crate::job::Job;
 use crate::questions::Question;

@@ -2,7 +2,7 @@
 //! code is 130.
 //!
 //! A run of a program stops by itself ([`ncc_ir::halt`]), and so does the reading of a source (`chunks`). What takes
-//! long besides is ended after [`GRACE`], but never while a file is being put in its place.
+//! long besides is ended after `GRACE`, but never while a file is being put in its place.
 
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom, Write};

@@ -9,18 +9,19 @@ use std::sync::Arc;
 
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
+use ncc_exec::maps::{Maps, Renaming};
 use ncc_frontends::Reader;
-use ncc_ir::arc_feed::ArcFeed;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
-use ncc_ir::beside::Rules;
 use ncc_ir::canon::{AXES, AdviceKind};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
-use ncc_ir::maps::{Maps, Numbered, Renaming};
-use ncc_ir::num::{Nanos, Num};
-use ncc_ir::passes::side_effects::SideEffects;
-use ncc_ir::passes::{Compensating, Pass};
+use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::geometry::arc_feed::ArcFeed;
+use ncc_ir::geometry::beside::Rules;
 use ncc_ir::program::Text;
+use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side};
+use ncc_passes::modes::side_effects::SideEffects;
+use ncc_passes::{Compensating, Pass};
 
 use crate::called::Called;
 use crate::given::Given;

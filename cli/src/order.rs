@@ -9,7 +9,7 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
 use crate::args::{Eol, Translate};

@@ -7,9 +7,9 @@
 use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
+use ncc_passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 
 /// Statements that are held back at most; a program of holes alone is folded in stretches.
 const MOST_HELD: usize = 1 << 16;

@@ -9,7 +9,7 @@ use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
 use ncc_dialects::{Dialect, SettingError, Settings};
 use ncc_ir::canon::Units;
-use ncc_ir::passes::PASSES;
+use ncc_passes::PASSES;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
 use crate::files::{self, Destination, Source};

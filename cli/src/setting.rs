@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_timeline::{Model, ToolChangeOn};
 
 use crate::args::{Eol, Start, decimal, pair, start};

@@ -15,18 +15,18 @@ use with_facts::MOST_WITH_FACT;
 pub(crate) use worlds::worlds_of;
 
 use ncc_dialects::{BREAK_LIFT, Dialect, PECK_CLEARANCE, Quantity, Settings};
+use ncc_exec::verify::{self, Comparison, Difference, Pair, Resolution};
+use ncc_exec::{Event, Exec};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Modes};
-use ncc_ir::computes::Said;
+use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
-use ncc_ir::exec::{Event, Exec};
 use ncc_ir::expr::Function;
-use ncc_ir::num::Nanos;
-use ncc_ir::passes::variables::Fineness;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
+use ncc_passes::values::variables::Fineness;
 
 use crate::difference;
 use crate::given::Given;
@@ -204,7 +204,7 @@ impl Verifier {
                 let [source, target] = worlds_of(job, seed);
                 let mut comparison = Comparison::new(finest, source.start);
                 comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
-                comparison.see(job.to.dialect.caps.seen());
+                comparison.see(ncc_exec::Seen::by(&job.to.dialect.caps));
                 comparison.say_alarms(alarms_of(&job.to));
                 if stops_differ(job) {
                     comparison.optional_stops();

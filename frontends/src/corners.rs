@@ -7,7 +7,7 @@
 use ncc_dialects::{PATH_TOLERANCE, Settings};
 use ncc_ir::canon::{PathMode, Units};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Op, PathControl, Stmt};
 
 /// What plain rounding of a control amounts to.

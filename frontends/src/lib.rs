@@ -18,7 +18,7 @@ use corners::Corners;
 use ncc_dialects::{Dialect, Family, Settings};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, ProgramName, Stmt};
 use ncc_ir::source::Span;
 

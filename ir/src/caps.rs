@@ -5,22 +5,20 @@ use std::sync::Arc;
 use crate::behaviour::Behaviours;
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::compensated::Refused;
-use crate::computes::Computes;
-use crate::cycle::{CycleKind, Shift, Tap};
-use crate::exec::Seen;
+use crate::computed::computes::Computes;
 use crate::expr::Expr;
-use crate::kinds::{
+use crate::expr::num::Num;
+use crate::geometry::round::ArcRule;
+use crate::program::cycle::{CycleKind, Shift, Tap};
+use crate::program::kinds::{
     conduct, drilling, flow, machine, miscellaneous, modes, moves, polar, tooling, variables,
 };
-use crate::num::Num;
-use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
-use crate::round::ArcRule;
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Caps {
-    /// Cycles that it has words for, by [`crate::cycle::CycleKind::name`], each with the return
+    /// Cycles that it has words for, by [`crate::program::cycle::CycleKind::name`], each with the return
     /// levels that it can ask for.
     pub cycles: Vec<CycleCap>,
     /// Patterns that it has words for.
@@ -230,7 +228,7 @@ pub struct Caps {
     /// What it computes with when the program runs; `None` is nothing.
     pub computes: Option<Arc<Computes>>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
-    pub approach: Option<crate::cycle::Approach>,
+    pub approach: Option<crate::program::cycle::Approach>,
 }
 
 /// How a target says that points are those of the tool's tip.
@@ -516,17 +514,6 @@ impl Caps {
                 let [.., x, y] = self.tool_data;
                 x && y && if *adds { added } else { stated }
             }
-        }
-    }
-
-    /// What of a machine's state its words tell apart.
-    pub fn seen(&self) -> Seen {
-        Seen {
-            modes: self.path_modes,
-            in_rapids: self.path_in_rapids,
-            merges: self.path_merges,
-            path: true,
-            advice: seen_advice(self),
         }
     }
 

@@ -4,10 +4,10 @@
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
 use crate::behaviour::{Behaviour, Kept};
-use crate::beside::Unreachable;
 use crate::canon::Axis;
-use crate::maps::Numbered;
-use crate::num::Num;
+use crate::expr::num::Num;
+use crate::geometry::beside::Unreachable;
+use crate::program::numbered::Numbered;
 use crate::source::Span;
 
 /// What was found, and where.

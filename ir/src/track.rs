@@ -12,19 +12,19 @@ mod known;
 use known::{Known, Polarly, Turning};
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
-use crate::code_of::code_of;
-use crate::cycle::{Cycle, CycleKind, Pattern};
-use crate::entry_of::is_about_entries;
+use crate::computed::code_of::code_of;
+use crate::computed::entry_of::is_about_entries;
 use crate::expr::Expr;
+use crate::expr::num::{Nanos, Num};
 use crate::geometry;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
-use crate::num::{Nanos, Num};
-use crate::places::Places;
-use crate::polar::{self, Pole};
+use crate::geometry::places::Places;
+use crate::geometry::polar::{self, Pole};
+use crate::geometry::round::{MOST_SHORT, round};
+use crate::program::cycle::{Cycle, CycleKind, Pattern};
+use crate::program::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
 use crate::program::{
     Arc, ArcForm, Coord, Data, FrameSlot, Move, Op, Point, Polar, SetPole, Shape, Stmt, ToolLength, ToolValue,
 };
-use crate::round::{MOST_SHORT, round};
 
 /// State of the abstract execution.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -137,7 +137,7 @@ impl Tracker {
     #[inline]
     pub fn nanos(&self, value: &Expr) -> Option<Nanos> {
         let n = value.literal()?;
-        if n.unit == crate::num::Unit::Entry && !n.is_zero() {
+        if n.unit == crate::expr::num::Unit::Entry && !n.is_zero() {
             return n.nanos(self.modes.units? == Units::Inch);
         }
         n.nanos(false)

@@ -7,8 +7,9 @@
 use std::collections::BTreeMap;
 
 use ncc_dialects::Dialect;
-use ncc_ir::maps::{Maps, Numbered, Renaming};
+use ncc_exec::maps::{Maps, Renaming};
 use ncc_ir::program::Text;
+use ncc_ir::program::numbered::Numbered;
 
 use crate::fact::Fact;
 use crate::profile::Profile;

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use ncc_dialects::Dialect;
+use ncc_exec::world::Tables;
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::world::Tables;
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_timeline::{AxisFacts, Machine, ToolChangeOn};
 
 use crate::check::check;

@@ -9,7 +9,7 @@ use std::fmt;
 
 use ncc_dialects::{BREAK_LIFT, CallRow, Dialect, PECK_CLEARANCE, Role};
 use ncc_ir::diag::{Fault, ModeName};
-use ncc_ir::maps::Numbered;
+use ncc_ir::program::numbered::Numbered;
 
 /// One of the two machines of a translation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

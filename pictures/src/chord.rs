@@ -3,9 +3,9 @@
 //! A function has its arc in machine coordinates. What lies between them and the program's in the arc's
 //! plane (a turn, a scale, a mirror) the caller says; shifts follow from where the arc starts in both.
 
+use ncc_exec::Kind;
 use ncc_ir::canon::{AXES, Turn};
-use ncc_ir::exec::Kind;
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_timeline::{Act, path};
 
 /// Chords of a whole circle. They leave it by less than a sixth of a pixel where its radius is 500.

@@ -5,9 +5,9 @@
 
 use std::collections::HashSet;
 
+use ncc_exec::{Attribute, Kind, Movement};
 use ncc_ir::canon::{AXES, Spindle};
-use ncc_ir::exec::{Attribute, Kind, Movement};
-use ncc_ir::num::ONE;
+use ncc_ir::expr::num::ONE;
 use ncc_timeline::{Place, Timed, path};
 
 use crate::chord::{Turned, chords, place};

@@ -6,9 +6,9 @@
 
 use std::collections::HashMap;
 
+use ncc_exec::Compensation;
 use ncc_ir::canon::{AXES, Spindle, SpindleMode};
-use ncc_ir::exec::Compensation;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 
 use crate::measure::{Measure, Shift, bits};
 use crate::record::{Length, Record, Still, Style, What};

@@ -2,17 +2,17 @@
 
 use proptest::prelude::*;
 
-use ncc_ir::verify::Resolution;
+use ncc_exec::verify::Resolution;
 
 use crate::change::Collector;
 use crate::measure::{Measure, Shift};
 use crate::record::{Batch, Record, Recorder, WORLDS};
 use crate::resync::{Rules, Tape, compare};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Kind, State};
 use ncc_ir::canon::AXES;
-use ncc_ir::exec::{Event, Exec, Kind, State};
-use ncc_ir::num::ONE;
+use ncc_ir::expr::num::ONE;
 use ncc_ir::source::Span;
-use ncc_ir::world::World;
 
 /// A step of a random program: a kind, a place of a few, a feed.
 type Step = (bool, i64, i64, u8);

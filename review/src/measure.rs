@@ -1,8 +1,8 @@
 //! When two records are the same: within how much, and in which respects they are not.
 
+use ncc_exec::verify::Resolution;
 use ncc_ir::canon::{AXES, Spindle};
-use ncc_ir::num::{Nanos, POW10};
-use ncc_ir::verify::Resolution;
+use ncc_ir::expr::num::{Nanos, POW10};
 
 use crate::record::{Record, Still, Style, What};
 

@@ -6,11 +6,11 @@
 
 use std::collections::HashMap;
 
+use ncc_exec::verify::{Part, part};
+use ncc_exec::{Attribute, Compensation, Event, Exec, Kind, State};
 use ncc_ir::canon::{AXES, Axis, Plane, Turn, same_point};
-use ncc_ir::exec::{Attribute, Compensation, Event, Exec, Kind, State};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::Text;
-use ncc_ir::verify::{Part, part};
 
 /// Generated worlds beside the plain one.
 pub const WORLDS: usize = 2;
@@ -363,7 +363,7 @@ impl Recorder {
                 let text = match &event.kind {
                     Kind::Data(stored) => stored.to_string(),
                     Kind::Output(written) => written.to_string(),
-                    Kind::Alarm(Some(number), text) => format!("{} {text}", number / ncc_ir::num::ONE),
+                    Kind::Alarm(Some(number), text) => format!("{} {text}", number / ncc_ir::expr::num::ONE),
                     Kind::Alarm(None, text) => text.to_string(),
                     _ => String::new(),
                 };
@@ -374,7 +374,7 @@ impl Recorder {
             Kind::Tilt(_) | Kind::OrientToolAxis(_) | Kind::Probe { .. } => {
                 let text = match &event.kind {
                     Kind::Probe { to, probe } => {
-                        let [x, y, z] = [0, 1, 2].map(|axis| to[axis] as f64 / ncc_ir::num::ONE as f64);
+                        let [x, y, z] = [0, 1, 2].map(|axis| to[axis] as f64 / ncc_ir::expr::num::ONE as f64);
                         let until = if probe.away { "off a contact" } else { "into a contact" };
                         let error = if probe.error { ", or an error" } else { "" };
                         format!("probing {until} on the way to X{x} Y{y} Z{z}{error}")

@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 
 use ncc_ir::canon::AXES;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::Text;
 
 use crate::align::{Run, between_anchors, myers};

@@ -13,14 +13,14 @@ use ncc::job::Failure;
 use ncc_dialects::builtin;
 use ncc_ir::canon::{AXES, Distance, Fact, Modes, Plane, Side, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::num::{Num, ONE, Unit};
-use ncc_ir::passes::{Compensating, PASSES, Target};
+use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::{
     Arc, Centre, CentreFrom, Coord, CutterRadius, Move, Op, Point, Procedure, Program, Stmt,
 };
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_machines::Profile;
+use ncc_passes::{Compensating, PASSES, Target};
 use ncc_tests::expect::Failures;
 use ncc_tests::{corpus, translate};
 

@@ -157,9 +157,9 @@ fn the_compiler_makes_the_cited_moves() {
         let result = translate::read(c.dialect, c.text.as_bytes()).and_then(|program| {
             let mut world = plain::world(0);
             world.start = c.start.map(|mm| (mm * 1e9).round() as i64);
-            world.peck_clearance = ncc_ir::num::ONE;
-            world.break_lift = ncc_ir::num::ONE;
-            world.break_lift = ncc_ir::num::ONE;
+            world.peck_clearance = ncc_ir::expr::num::ONE;
+            world.break_lift = ncc_ir::expr::num::ONE;
+            world.break_lift = ncc_ir::expr::num::ONE;
             let events = translate::execute(&program, &world, 0)?;
             let made = bare(plain::of_events(&events, c.start));
             plain::compare(&joined(&c.moves), &joined(&made), c.within)

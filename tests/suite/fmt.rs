@@ -11,7 +11,7 @@ use ncc::args::{Cli, Verb};
 use ncc::known::Known;
 use ncc::problem::Exit;
 use ncc_dialects::{Family, builtin};
-use ncc_ir::exec::Event;
+use ncc_exec::Event;
 use ncc_tests::corpus::{self, files, shared};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::page;

@@ -14,7 +14,7 @@ mod siemens;
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc::job::{Failure, Job};
-use ncc_ir::world::World;
+use ncc_exec::world::World;
 use ncc_tests::besides;
 use ncc_tests::corpus::DIALECTS;
 use ncc_tests::expect::Failures;

@@ -7,9 +7,9 @@ use ncc_dialects::{Family, Meaning, builtin};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Fault, Gravity, ModeName};
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::passes::Legaliser;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Op;
+use ncc_passes::Legaliser;
 use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::interpreter::{PowerOn, Setup};
@@ -330,8 +330,8 @@ fn expansion_equals_execution() {
         expanded += usize::from(!found.is_empty());
         for seed in [0, 1, 2] {
             let mut world = plain::world(seed);
-            world.peck_clearance = ncc_ir::num::ONE;
-            world.break_lift = ncc_ir::num::ONE;
+            world.peck_clearance = ncc_ir::expr::num::ONE;
+            world.break_lift = ncc_ir::expr::num::ONE;
             let start = world.start.map(|n| n as f64 / 1e9);
             for skip in [0, 0x7fe] {
                 let list = |p: &ncc_ir::program::Program| {

@@ -30,6 +30,7 @@ mod passes;
 mod provenance;
 mod questions;
 mod recognise;
+mod rooms;
 mod rows;
 mod rs274;
 mod schema;

@@ -1,8 +1,8 @@
 //! What a machine's options make of the same words: fixed, from the sources that the options' rows name, and
 //! without a look at the rows.
 
-use ncc_ir::exec::{Event, Kind};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_exec::{Event, Kind};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_tests::plain;
 use ncc_tests::translate::{execute, job, read_as, rendered, settings, translate};
 

@@ -12,8 +12,8 @@
 
 use ncc::job::Failure;
 use ncc::judge::Judge;
-use ncc_ir::num::ONE;
-use ncc_ir::world::World;
+use ncc_exec::world::World;
+use ncc_ir::expr::num::ONE;
 use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};

@@ -15,11 +15,11 @@ use ncc::provenance::args::Why;
 use ncc::provenance::trace::Asked;
 use ncc::provenance::{map, why};
 use ncc::render::About;
+use ncc_exec::verify::{Comparison, Pair, Resolution};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Kind};
 use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
-use ncc_ir::exec::{Event, Kind};
 use ncc_ir::source::Span;
-use ncc_ir::verify::{Comparison, Pair, Resolution};
-use ncc_ir::world::World;
 use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
@@ -108,7 +108,7 @@ fn pairs(job: &Job, source: &[u8], output: &[u8]) -> Result<Vec<Pair>, String> {
     let rough = Resolution { mm: 2, inch: 3, degree: 2, feed: 1, feed_inch: 2, second: 2, speed: 0 };
     let mut comparison = Comparison::new(rough, world.start);
     comparison.keep_pairs(true);
-    comparison.see(job.to.dialect.caps.seen());
+    comparison.see(ncc_exec::Seen::by(&job.to.dialect.caps));
     comparison.advance(&mut a, &mut b, true).map_err(|d| format!("{d:?}"))?;
     Ok(comparison.take_pairs())
 }

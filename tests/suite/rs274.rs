@@ -9,11 +9,11 @@ use std::fs;
 use std::path::Path;
 
 use ncc_backends::canon::rs274;
+use ncc_exec::world::Tables;
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::diag::Gravity;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Procedure, Program};
-use ncc_ir::world::Tables;
 use ncc_tests::corpus;
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::settings;
@@ -244,7 +244,8 @@ fn the_corpus_is_printed() {
 /// first: its own print of this program with a table of these lengths.
 #[test]
 fn the_length_of_the_last_tool_change() {
-    let lengths = [(7, 70), (8, 80), (9, 90)].map(|(tool, length)| (tool, length * ncc_ir::num::ONE)).into();
+    let lengths =
+        [(7, 70), (8, 80), (9, 90)].map(|(tool, length)| (tool, length * ncc_ir::expr::num::ONE)).into();
     let offsets = [7, 8, 9].map(|tool| (tool, [0; 2])).into();
     let tables = Tables { lengths, offsets, ..Tables::default() };
     let text = "G21 G90 G17 G94\nM61 Q7\nG43\nG0 Z9\nT8 M6\nG43\nM61 Q9\nG43\nG0 Z8\nM2\n";

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use ncc::job::Failure;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_tests::corpus::{self, DIALECTS, files};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, rendered, stopping, translate};

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use ncc_ir::behaviour::Concern;
 use ncc_ir::diag::Fault;
-use ncc_ir::passes::PASSES;
+use ncc_passes::PASSES;
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::{job, stopping, translate};
 

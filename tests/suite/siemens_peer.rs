@@ -8,15 +8,15 @@
 
 use std::fs;
 
+use ncc_exec::world::World;
+use ncc_exec::{Exec, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::Gravity;
-use ncc_ir::exec::{Exec, Runner};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::ONE;
+use ncc_ir::expr::num::ONE;
+use ncc_ir::program::valid::leads_nowhere;
 use ncc_ir::program::{Op, Point, Procedure, Program, Stmt};
-use ncc_ir::valid::leads_nowhere;
-use ncc_ir::world::World;
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::settings;
 

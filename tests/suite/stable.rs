@@ -15,14 +15,14 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 use ncc::job::Outcome;
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Kind, Runner};
 use ncc_ir::canon::{AXES, Distance, Fact, Modes};
-use ncc_ir::exec::{Event, Exec, Kind, Runner};
 use ncc_ir::expr::Expr;
-use ncc_ir::passes::{PASSES, Target};
 use ncc_ir::program::{Centre, CentreFrom, FrameSlot, FrameStep, Op, Program, Slot, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::world::World;
+use ncc_passes::{PASSES, Target};
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::{computes, job, read, settings, translate};

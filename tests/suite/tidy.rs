@@ -99,6 +99,8 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
 /// Rooms that know controls by their capabilities alone.
 const NO_DIALECT: &[&str] = &[
     "ir/src",
+    "ir/exec/src",
+    "ir/passes/src",
     "frontends/src/word",
     "backends/src/word",
     "timeline/src",

@@ -2,9 +2,9 @@
 //! interpreter, which executes both runs.
 
 use ncc::job::Outcome;
+use ncc_exec::world::World;
 use ncc_ir::behaviour::Concern;
 use ncc_ir::diag::Fault;
-use ncc_ir::world::World;
 use ncc_tests::besides;
 use ncc_tests::corpus::Program;
 use ncc_tests::expect::Failures;

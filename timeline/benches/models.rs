@@ -5,9 +5,9 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
+use ncc_exec::{Event, Kind, State};
 use ncc_ir::canon::{AXES, Plane, Turn};
-use ncc_ir::exec::{Event, Kind, State};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
 use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place};
 

@@ -1,8 +1,8 @@
 //! One canonical function with its place, before it has a time.
 
+use ncc_exec::{Event, Exec, Kind};
 use ncc_ir::canon::{AXES, FeedMode};
-use ncc_ir::exec::{Event, Exec, Kind};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
 
 use crate::path::path;

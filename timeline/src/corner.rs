@@ -4,8 +4,8 @@
 //! The mode of a move counts for the corner at its end: so controls queue their moves (LinuxCNC's planner keeps
 //! it with each segment), and so a block with G09 or G9 stops at its own end alone.
 
+use ncc_exec::{Event, Kind};
 use ncc_ir::canon::PathMode;
-use ncc_ir::exec::{Event, Kind};
 
 use crate::machine::Machine;
 

@@ -5,8 +5,8 @@
 //! out on the fly, unless a time of their own makes them wait. A program stop takes no time: how long
 //! the operator waits is not known; nor does a message.
 
+use ncc_exec::{Attribute, Event, Kind};
 use ncc_ir::canon::Spindle;
-use ncc_ir::exec::{Attribute, Event, Kind};
 
 use crate::act::Act;
 use crate::machine::{Machine, ToolChangeOn};

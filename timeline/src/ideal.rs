@@ -4,8 +4,8 @@
 //! start or stop of the spindle, take a fixed time. Source: Aguiar 2023, table 10 and the text to
 //! figures 20 to 22.
 
+use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::exec::{Attribute, Kind};
 
 use crate::act::Act;
 use crate::machine::{Machine, ToolChangeOn};

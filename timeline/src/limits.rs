@@ -9,9 +9,9 @@
 //! the acceleration at some point of a circle, so the weaker one counts, for the centripetal
 //! acceleration `v² / r` too. That and the acceleration along the path are not added up.
 
+use ncc_exec::Movement;
 use ncc_ir::canon::{AXES, Plane};
-use ncc_ir::exec::Movement;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 
 use crate::act::Act;
 use crate::machine::Machine;

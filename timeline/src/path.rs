@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use ncc_exec::{Event, Movement};
 use ncc_ir::canon::{AXES, Plane, Turn};
-use ncc_ir::exec::{Event, Movement};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 
 /// The geometry of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 mod shop;
 
-use ncc_ir::exec::Kind;
-use ncc_ir::num::ONE;
+use ncc_exec::Kind;
+use ncc_ir::expr::num::ONE;
 use ncc_timeline::{Act, Machine, Model};
 use proptest::prelude::*;
 use shop::{Way, close, machine, nanos, run, seconds};

@@ -2,8 +2,8 @@
 
 mod shop;
 
+use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::{Axis, Spindle};
-use ncc_ir::exec::{Attribute, Kind};
 use ncc_timeline::{Fact, Machine, Model, ToolChangeOn};
 use shop::{Way, machine, nanos, run, same, seconds};
 

@@ -17,7 +17,7 @@ use ncc_ir::canon::{
 };
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Nanos, Unit};
+use ncc_ir::expr::num::{Nanos, Unit};
 use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;

@@ -20,19 +20,22 @@ mod switches;
 
 use std::fmt::Write;
 
-use ncc_ir::beside::Rules;
+use ncc_exec::world::{Tables, World};
+use ncc_exec::{Event, Exec};
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Event, Exec};
 use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::geometry::beside::Rules;
+use ncc_ir::geometry::round::ArcRule;
 use ncc_ir::geometry::{self, ArcFault};
-use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten, polar_words};
+use ncc_ir::program::valid::leads_nowhere;
 use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
-use ncc_ir::round::ArcRule;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::leads_nowhere;
-use ncc_ir::world::{Tables, World};
+use ncc_passes::arcs::expand_compensation;
+use ncc_passes::arcs::polar_words;
+use ncc_passes::flow::flatten;
+use ncc_passes::{Compensating, Target};
 
 /// How far the interpreter stands before where it takes a probe to have touched: 0.01 inch.
 pub const BACKS_OFF: Nanos = 254 * ONE / 1000;

@@ -1,6 +1,6 @@
 //! Texts in quotation marks, and numbers, as `canon` and `ir` write them.
 
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 
 /// Writes a text between quotation marks; gives back whether a character had to be written
 /// otherwise: `"`, `\` and control characters are.
@@ -82,7 +82,7 @@ pub(crate) fn decimal(n: Num, out: &mut Vec<u8>) {
 
 #[cfg(test)]
 mod tests {
-    use ncc_ir::num::{Num, Unit};
+    use ncc_ir::expr::num::{Num, Unit};
 
     fn written(mantissa: i64, scale: u8, point: bool) -> String {
         let mut out = Vec::new();

@@ -1,8 +1,8 @@
 //! Cycles and patterns of positions, as the `ir` text has them; and what goes in step with the spindle.
 
 use ncc_ir::canon::{Axis, Spindle, Turn};
-use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::expr::Expr;
+use ncc_ir::program::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::program::{Coord, Pitch};
 
 use super::expr::expr;

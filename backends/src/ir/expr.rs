@@ -1,7 +1,7 @@
 //! Expressions, variables and numbers of the `ir` text.
 
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
-use ncc_ir::num::{Num, Unit};
 
 use crate::canon::text::{decimal, quote, whole};
 

@@ -10,9 +10,9 @@ use std::collections::{BTreeSet, HashMap};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::passes::known_facts::has_bare_holes;
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_passes::support::known_facts::has_bare_holes;
 
 use super::{Sink, Writer};
 use crate::word::formula::cannot_compute;

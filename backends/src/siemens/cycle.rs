@@ -7,10 +7,10 @@
 use ncc_dialects::{CallKind, CallRow, NameMeaning, ParameterRole as Role, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Spindle, Turn, Units};
 use ncc_ir::caps::CycleForm;
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Shift, Tap, clearance_by_depth};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node};
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, Shift, Tap, clearance_by_depth};
 use ncc_ir::program::{Coord, Op, Pitch, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::InForce;

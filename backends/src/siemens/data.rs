@@ -7,7 +7,7 @@ use ncc_dialects::{DataKind, DataRow, Meaning, Quantity};
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Data, DataMode, Op, Stmt};
 use ncc_ir::source::Span;
 

@@ -5,12 +5,12 @@
 
 use ncc_dialects::DataKind;
 use ncc_ir::canon::Axis;
+use ncc_ir::computed::entry_of::{EntryOf, Place};
 use ncc_ir::diag::Fault;
-use ncc_ir::entry_of::{EntryOf, Place};
 use ncc_ir::expr::Expr;
+use ncc_ir::expr::system::System;
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::{Sink, Writer};
 use crate::word::entry_of::number_of;

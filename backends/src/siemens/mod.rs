@@ -29,7 +29,7 @@ use ncc_dialects::{CallRow, Dialect, Meaning, Quantity, Settings};
 use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 

@@ -5,10 +5,10 @@
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole as Role};
 use ncc_ir::canon::{Axis, Distance, Plane};
-use ncc_ir::cycle::{Along, First, Pattern, Row};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Point, Stmt};
 use ncc_ir::source::Span;
 

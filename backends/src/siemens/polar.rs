@@ -48,7 +48,8 @@ impl Writer {
     pub(super) fn polar(&mut self, polar: &Polar, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.raw = false;
         let hole = matches!(polar.op, Op::Hole(_));
-        let to = ncc_ir::polar::end_of(&polar.op).ok_or_else(|| cannot("this function to a polar point"))?;
+        let to = ncc_ir::geometry::polar::end_of(&polar.op)
+            .ok_or_else(|| cannot("this function to a polar point"))?;
         if hole {
             self.pay_call(sink)?;
             if self.standing.modal == Modal::Off {

@@ -7,10 +7,10 @@ use ncc_dialects::{Meaning, NameMeaning, Quantity};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::passes::retract;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use ncc_ir::source::Span;
+use ncc_passes::retract;
 
 use super::{Sink, Writer};
 use crate::word::modes::cannot;

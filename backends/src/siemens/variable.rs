@@ -9,14 +9,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::NameMeaning;
-use ncc_ir::arguments;
-use ncc_ir::changed::Changed;
-use ncc_ir::cycle::Cycle;
+use ncc_ir::computed::changed::Changed;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::types::Types;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
+use ncc_ir::program::arguments;
+use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::{Alarm, Attribute, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
 use ncc_ir::source::Span;
-use ncc_ir::types::Types;
 
 use super::statement::LONGEST_MESSAGE;
 use super::unit::tell;

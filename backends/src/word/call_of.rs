@@ -2,7 +2,7 @@
 //!
 //! Read again, the number is one of a program of the text; so these must be all of them, which the verification tells.
 
-use ncc_ir::call_of::CallOf;
+use ncc_ir::computed::call_of::CallOf;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::Stmt;

@@ -3,7 +3,7 @@
 //! Read again, the variable must have its value from the codes in force, which the reader of the output tells.
 
 use ncc_dialects::Meaning;
-use ncc_ir::code_of::CodeOf;
+use ncc_ir::computed::code_of::CodeOf;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 

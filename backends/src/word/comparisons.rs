@@ -1,8 +1,8 @@
 //! Comparisons as controls make them: of numbers that are nearly equal, of those that are less than some amount apart,
 //! and to the least bit where a control has only some of them so.
 
+use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
-use ncc_ir::num::Num;
 
 /// A comparison that finds equal what is nearly so, as a control does it by itself.
 pub(super) fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {

@@ -8,15 +8,15 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
-use ncc_ir::call_of::call_of;
 use ncc_ir::canon::{Distance, Modes, Units};
-use ncc_ir::code_of::code_of;
-use ncc_ir::computes::LETTERS;
+use ncc_ir::computed::call_of::call_of;
+use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computes::LETTERS;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::units::Said;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
-use ncc_ir::units::Said;
 
 use super::block::{Need, Part, Rank};
 use super::formula::{arcs, cannot_compute, literal, number_of};

@@ -3,7 +3,7 @@
 use ncc_ir::canon::CornerShape;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
 
 use super::block::Part;

@@ -4,12 +4,12 @@
 //! kind a call is held back until its first position; a cycle that ends before leaves nothing but
 //! its feed.
 
-use ncc_ir::arguments::reads;
 use ncc_ir::canon::{Axis, Fact, FeedMode, Motion, Plane, ReturnLevel};
-use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Target};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::arguments::reads;
+use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 

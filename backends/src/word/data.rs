@@ -3,11 +3,11 @@
 use ncc_dialects::{DataKind, DataRow, RADIUS_DATA};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::block::{Need, Part, Rank};
 use super::codes::{Code, Letter};

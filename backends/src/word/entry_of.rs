@@ -3,8 +3,8 @@
 //! Which numbers there can be is shown where the program is read, and again where the output is read back.
 
 use ncc_dialects::DataKind;
+use ncc_ir::computed::entry_of::{EntryOf, Place};
 use ncc_ir::diag::Fault;
-use ncc_ir::entry_of::{EntryOf, Place};
 use ncc_ir::expr::{Binary, Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Data, Op, Stmt};
 

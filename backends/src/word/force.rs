@@ -1,7 +1,7 @@
 //! What is in force in the text that has been written, as far as the text itself says it.
 
 use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, SpindleMode, Units};
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 
 /// Modes of the written text. `None` is not known: at the start, after a call, where ways meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 
 use ncc_dialects::{ANGLE_RANGE, FormulaRules, MACHINE_UNITS, Settings, SystemRow};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::codes::Letter;
 use super::comparisons::{decides, exactly, flipped, holds_or_not, nearly, within};

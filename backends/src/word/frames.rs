@@ -3,7 +3,7 @@
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, FrameSlot, Slot};
 use ncc_ir::source::Span;
 
@@ -54,7 +54,7 @@ impl Writer {
                     return Err(cannot("a tilted plane by turns about these axes"));
                 }
                 // All of its words are written.
-                let zero = Expr::Num(Num::int(0, ncc_ir::num::Unit::Mm));
+                let zero = Expr::Num(Num::int(0, ncc_ir::expr::num::Unit::Mm));
                 let origin =
                     [0, 1, 2].map(|axis| Some(tilt.origin[axis].clone().unwrap_or_else(|| zero.clone())));
                 let own: Vec<_> = letters.into_iter().zip(tilt.angles.iter().cloned()).collect();
@@ -113,7 +113,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let code = code.ok_or_else(|| cannot(what))?;
-        let zero = Expr::Num(Num::int(0, ncc_ir::num::Unit::Mm));
+        let zero = Expr::Num(Num::int(0, ncc_ir::expr::num::Unit::Mm));
         let words = axes.map(|named| named.then(|| zero.clone()));
         self.filled(code, &self.along(&words)?, &[], Inserted::default(), span, sink)
     }

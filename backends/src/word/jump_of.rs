@@ -5,8 +5,8 @@
 //! their own numbers, which the verification tells.
 
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, NO_SUCH_BLOCK, Op, Stmt};
 
 use super::formula::cannot_compute;

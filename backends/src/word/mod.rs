@@ -44,7 +44,7 @@ use std::collections::BTreeMap;
 use ncc_dialects::{Dialect, Role, Settings};
 use ncc_ir::canon::{AXES, Axis, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;

@@ -3,7 +3,7 @@
 
 use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, SpindleMode, Units};
 use ncc_ir::diag::Fault;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Coord, FrameSlot, Op};
 use ncc_ir::source::Span;
 

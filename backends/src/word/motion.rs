@@ -9,10 +9,10 @@ use ncc_dialects::NameMeaning;
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, FeedMode, Motion, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::geometry;
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::geometry::round::MOST_SHORT;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Reference, ReferencePoint, Stmt};
-use ncc_ir::round::MOST_SHORT;
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};

@@ -5,7 +5,7 @@
 //! Not here: what a number belongs to, and the errors that rounding leaves on incremental words.
 
 use ncc_dialects::{NumberRules, PointRule, Quantity};
-use ncc_ir::num::{Num, ONE, POW10, Unit};
+use ncc_ir::expr::num::{Num, ONE, POW10, Unit};
 
 /// Most significant digits of a word, unless a dictionary says otherwise (FANUC 16-C, ranges of IS-B:
 /// X ±99999.999 mm, P and T 8 digits).

@@ -9,10 +9,10 @@
 
 use std::collections::BTreeSet;
 
-use ncc_ir::computes::counted;
+use ncc_ir::computed::computes::counted;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::fails::may_fail;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
-use ncc_ir::fails::may_fail;
 use ncc_ir::program::{Alarm, Call, Control, Op, Piece, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 

@@ -4,7 +4,7 @@
 
 use ncc_ir::canon::{Distance, Fact, Motion, Units};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Move, Op, Stmt};
 
 use super::Writer;

@@ -4,7 +4,7 @@
 //! What can be said so at all, a pass has seen to.
 
 use ncc_ir::diag::Fault;
-use ncc_ir::polar;
+use ncc_ir::geometry::polar;
 use ncc_ir::program::{Op, Polar, Stmt};
 
 use super::block::{Need, Part, Rank};

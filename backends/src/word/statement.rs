@@ -648,7 +648,7 @@ fn milliseconds(seconds: &Expr) -> Option<&Expr> {
 }
 
 /// The fault of a number that cannot be written.
-pub(crate) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::num::Num) -> Fault {
+pub(crate) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::expr::num::Num) -> Fault {
     let word = number::spell(letter, n);
     match why {
         Unwritable::Range => Fault::TargetRange { word },
@@ -658,7 +658,7 @@ pub(crate) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::num::Num) -> Fa
 }
 
 /// Reports a number that lost digits.
-pub(crate) fn rounded(letter: u8, n: ncc_ir::num::Num, to: Shaped, span: Span, sink: &mut Sink) {
+pub(crate) fn rounded(letter: u8, n: ncc_ir::expr::num::Num, to: Shaped, span: Span, sink: &mut Sink) {
     let mut written = vec![letter];
     number::append(&mut written, to);
     let written = String::from_utf8_lossy(&written).into_owned().into();

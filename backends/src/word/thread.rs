@@ -5,7 +5,7 @@
 use ncc_dialects::Thread;
 use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::Fault;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Pitch, Synchronised};
 use ncc_ir::source::Span;
 

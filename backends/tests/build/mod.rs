@@ -2,7 +2,7 @@
 
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Plane, Units};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 

@@ -2,7 +2,7 @@
 
 use crate::*;
 use ncc_ir::canon::{Fact, Plane, ReturnLevel};
-use ncc_ir::cycle::{Approach, Clearance, Cycle, CycleKind};
+use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind};
 use ncc_ir::program::{Coord, Op};
 
 pub(crate) fn cycle(kind: CycleKind) -> Cycle {
@@ -188,7 +188,7 @@ fn dwells_have_no_zeros_that_nobody_wrote() {
 
 #[test]
 fn a_first_peck_is_reckoned_in_the_programs_own_unit() {
-    let entry = |text: &str| ncc_ir::expr::Expr::Num(num(text, ncc_ir::num::Unit::Entry));
+    let entry = |text: &str| ncc_ir::expr::Expr::Num(num(text, ncc_ir::expr::num::Unit::Entry));
     let level = |text: &str| Coord { value: entry(text), distance: coord("0.").distance };
     let kind = CycleKind::DrillPeck {
         peck: entry("10."),

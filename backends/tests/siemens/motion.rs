@@ -2,7 +2,7 @@
 
 use crate::*;
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn, Units};
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{
     Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameSlot, FrameStep, Op, Point, Shape,
 };

@@ -3,9 +3,9 @@
 use crate::cycles::{cycle, start};
 use crate::*;
 use ncc_ir::canon::Axis;
-use ncc_ir::cycle::{Along, CycleKind, First, Pattern, Row};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
+use ncc_ir::program::cycle::{Along, CycleKind, First, Pattern, Row};
 use ncc_ir::program::{Coord, Op};
 
 fn at(x: &str, y: &str) -> Option<[Coord; 2]> {

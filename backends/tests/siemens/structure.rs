@@ -2,8 +2,8 @@
 
 use crate::cycles::{cycle, start};
 use crate::*;
-use ncc_ir::cycle::CycleKind;
 use ncc_ir::expr::Expr;
+use ncc_ir::program::cycle::CycleKind;
 use ncc_ir::program::{Call, Control, Move, Op, RepeatBlocks};
 
 fn call(name: &str, times: u32) -> Op {

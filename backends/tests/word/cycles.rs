@@ -2,8 +2,8 @@
 
 use crate::*;
 use ncc_ir::canon::ReturnLevel;
-use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::program::Call;
+use ncc_ir::program::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 
 fn cycle(kind: CycleKind, depth: &str, feed: Option<&str>) -> Cycle {
     Cycle {

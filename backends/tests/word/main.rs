@@ -11,7 +11,7 @@ use ncc_dialects::{Settings, builtin};
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Coord, Move, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 

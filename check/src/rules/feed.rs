@@ -1,8 +1,8 @@
 //! NC0802 and NC0804: feeds above the machine's highest, and moves at feed without one.
 
+use ncc_exec::{Event, Kind};
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::exec::{Event, Kind};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::source::Span;
 
 use crate::finding::{Finding, What};

@@ -1,6 +1,6 @@
 //! NC0806: Z moves after a tool change before the length of the tool is in force.
 
-use ncc_ir::exec::{Event, Exec};
+use ncc_exec::{Event, Exec};
 use ncc_ir::source::Span;
 
 use crate::finding::{Finding, LeftOn, What};

@@ -4,7 +4,7 @@
 
 use std::collections::VecDeque;
 
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use crate::finding::What;

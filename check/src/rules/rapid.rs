@@ -1,8 +1,8 @@
 //! NC0807: rapids below a plane that the user has named, in program coordinates. Straight up out of it is
 //! the way home, and no finding. Of a cycle, its retract plane counts, to which it goes in rapid.
 
+use ncc_exec::Exec;
 use ncc_ir::canon::{Axis, Distance, Plane};
-use ncc_ir::exec::Exec;
 use ncc_ir::program::Op;
 
 use crate::finding::What;

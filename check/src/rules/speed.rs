@@ -1,6 +1,6 @@
 //! NC0803: spindle speeds above the machine's highest.
 
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::source::Span;
 
 use crate::finding::What;

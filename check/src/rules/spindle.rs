@@ -2,9 +2,9 @@
 //! program switches the spindle or says a speed. A spindle that the program holds at an angle is meant to stand,
 //! and so is one with a probe in it.
 
+use ncc_exec::Event;
 use ncc_ir::canon::{AXES, Spindle, same_point};
-use ncc_ir::exec::Event;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::source::Span;
 
 use crate::finding::{Finding, What};

@@ -3,9 +3,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use ncc_exec::{Event, Kind};
 use ncc_ir::canon::{AXES, Axis, Turn};
-use ncc_ir::exec::{Event, Kind};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 
 use crate::finding::{Outside, What};
 use crate::limits::Unchecked;
@@ -104,8 +104,8 @@ fn extent(event: &Event, from: &[Nanos; AXES]) -> ([Nanos; AXES], [Nanos; AXES])
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ncc_exec::State;
     use ncc_ir::canon::Plane;
-    use ncc_ir::exec::State;
     use ncc_ir::source::Span;
 
     #[test]

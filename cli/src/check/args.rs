@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 
 use crate::setting::{Holding, Reading, Switches, Telling};
 

@@ -10,10 +10,10 @@ use std::io::{self, Read, Seek, SeekFrom};
 use ncc_check::flow::{Jumps, never_called};
 use ncc_check::{Checked, Checker, Finding, LeftOn, Limits, Refusal, What};
 use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
+use ncc_exec::{Exec, Runner};
 use ncc_frontends::{Batch, Flow, REFUSED, Reader, flow};
+use ncc_ir::computed::open::asked_of_the_machine;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Exec, Runner};
-use ncc_ir::open::asked_of_the_machine;
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 

@@ -19,7 +19,7 @@ use ncc_check::Limits;
 use ncc_dialects::Settings;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::Gravity;
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_machines::Profile;
 
 pub use self::json::SCHEMA;

@@ -1,7 +1,7 @@
 //! What every finding is called: its message, the words at its places, and what to do.
 
 use ncc_check::{Checked, Finding, LeftOn, Outside, Unchecked, What};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 
 /// The words of a finding.
 pub(super) struct Words {

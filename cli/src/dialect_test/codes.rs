@@ -5,7 +5,7 @@ use ncc_dialects::{
     Thread, ValueName, ValueWord,
 };
 use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
-use ncc_ir::cycle::Approach;
+use ncc_ir::program::cycle::Approach;
 use ncc_ir::program::{CentreFrom, PoleFrom};
 
 use super::proof::{Bench, Said, Tried, in_place, refusal};

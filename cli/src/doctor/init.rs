@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use ncc_ir::canon::Units;
-use ncc_ir::maps::Numbered;
+use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED, key_of, quoted};
 
 use super::question::Question;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ncc_dialects::Dialect;
-use ncc_ir::maps::Numbered;
+use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED};
 use ncc_machines::schema::PowerOn;
 use ncc_machines::table::Table;

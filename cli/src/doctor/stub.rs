@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ncc_ir::maps::Numbered;
+use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED, key_of, quoted};
 
 use super::question::Question;

@@ -10,8 +10,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::ops::ControlFlow;
 
+use ncc_exec::{Event, Exec, Kind};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, Exec, Kind};
 
 use crate::job::Job;
 use crate::review::stream::{Made, clearances, stream, worlds};

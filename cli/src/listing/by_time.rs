@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use ncc_exec::{Event, Kind};
 use ncc_ir::canon::{AXES, FeedMode, Turn};
-use ncc_ir::exec::{Event, Kind};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 
 /// Least feed that the interpreter makes of a time, in mm/min and in inches a minute.
 const LEAST: [f64; 2] = [0.1, 2.54];

@@ -13,10 +13,10 @@ use std::io::{Read, Seek, SeekFrom};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::canon::rs274;
+use ncc_exec::world::Tables;
 use ncc_frontends::Batch;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
-use ncc_ir::world::Tables;
 
 use crate::args::{Format, Style, Translate};
 use crate::files::{self, Destination, Source};

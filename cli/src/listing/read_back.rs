@@ -12,14 +12,14 @@
 //! `docs/rs274-listing.md` and the interpreter itself define.
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
+use ncc_exec::verify::{Comparison, Resolution};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
 use ncc_ir::canon::{AXES, Axis, FeedMode, Modes, Plane, Spindle, SpindleMode, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Op, Probe, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::verify::{Comparison, Resolution};
-use ncc_ir::world::World;
 
 use super::by_time;
 use crate::difference;

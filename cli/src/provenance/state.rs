@@ -6,13 +6,13 @@
 use std::io::{self, Read};
 
 use ncc_dialects::Settings;
+use ncc_exec::world::World;
+use ncc_exec::{Exec, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units};
-use ncc_ir::exec::{Exec, Runner};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::world::World;
 
 use crate::chunks::{Chunk, Chunks};
 use crate::render::words;

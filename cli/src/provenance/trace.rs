@@ -9,9 +9,9 @@ use std::collections::VecDeque;
 use std::io;
 
 use ncc_backends::Origin;
-use ncc_ir::exec::Kind;
+use ncc_exec::Kind;
+use ncc_exec::verify::Pair;
 use ncc_ir::source::Span;
-use ncc_ir::verify::Pair;
 
 use super::spool::{Row, Spool, Stretch};
 

@@ -24,7 +24,7 @@ use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
-use ncc_ir::num::{Nanos, Num};
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::source::Span;
 
 pub use self::race::Made;

@@ -12,14 +12,14 @@ use std::collections::VecDeque;
 use std::io::{self, SeekFrom};
 use std::mem::discriminant;
 
+use ncc_exec::verify::same_plain;
+use ncc_exec::{Event, Exec, Kind, Movement, Runner, State, Stored};
 use ncc_frontends::{BareNumber, Batch, Reader};
 use ncc_ir::canon::{AXES, Axis, FeedMode, Spindle};
 use ncc_ir::diag::{Diagnostic, Gravity};
-use ncc_ir::exec::{Event, Exec, Kind, Movement, Runner, State, Stored};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::verify::same_plain;
 use ncc_machines::reading::Told;
 
 use crate::chunks::{Chunk, Chunks};

@@ -7,9 +7,9 @@ use ncc_dialects::{
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
-use ncc_ir::maps::Numbered;
-use ncc_ir::passes::frame_increments;
-use ncc_ir::passes::side_effects::NEEDS_Z;
+use ncc_ir::program::numbered::Numbered;
+use ncc_passes::frames::frame_increments;
+use ncc_passes::modes::side_effects::NEEDS_Z;
 
 use super::numbers::{millimetres, signed};
 use super::words::{Context, mode, plain, plain_upto};

@@ -1,8 +1,8 @@
 //! Lengths and angles in messages.
 
 use ncc_ir::canon::Axis;
-use ncc_ir::maps::Numbered;
-use ncc_ir::num::ONE;
+use ncc_ir::expr::num::ONE;
+use ncc_ir::program::numbered::Numbered;
 
 /// Nanos in millimetres, to four digits after the point.
 pub(super) fn millimetres(nanos: i64) -> String {

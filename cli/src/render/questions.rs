@@ -10,7 +10,7 @@ use std::io;
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use ncc_dialects::DECIMAL_POINT;
 use ncc_ir::canon::{FeedMode, Units};
-use ncc_ir::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use serde::Serialize;
 
 use super::json::JsonPlace;

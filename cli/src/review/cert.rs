@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_ir::canon::AXES;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use serde_json::Value;
 
 use super::side::{Asked, open};

@@ -3,10 +3,10 @@
 use std::io;
 use std::ops::ControlFlow;
 
+use ncc_exec::Exec;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Distance, Fact};
-use ncc_ir::exec::Exec;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Point, Stmt};
 use ncc_review::record::{Batch, Recorder, WORLDS};
 

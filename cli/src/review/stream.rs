@@ -19,16 +19,16 @@ use std::mem::discriminant;
 use std::ops::ControlFlow;
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, Units};
-use ncc_ir::cycle::{Clearance, CycleKind};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Event, Exec, Runner};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::expr::system::System;
+use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
-use ncc_ir::world::World;
 use ncc_machines::reading::Told;
 
 use crate::chunks::{Chunk, Chunks};

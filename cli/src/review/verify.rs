@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 
 pub use self::document::SCHEMA;
 use self::document::{Document, Word};

@@ -1,7 +1,7 @@
 //! Records in words: places, moves and what they are done with.
 
 use ncc_ir::canon::{AXES, Axis, Plane, Spindle, Turn};
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::Text;
 use ncc_review::record::{Length, Record, Style, What};
 

@@ -1,9 +1,9 @@
 //! The columns of the case study's tables: what a function is called, and what feed, speed and tool
 //! stand beside it (Aguiar 2023, table 11).
 
+use ncc_exec::{Attribute, Kind, State};
 use ncc_ir::canon::{AXES, Spindle, SpindleMode};
-use ncc_ir::exec::{Attribute, Kind, State};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_timeline::{Machine, Timed, path};
 
 /// What is beside a function in a table.

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_timeline::{Machine, Timed};
 
 use super::columns::Columns;

@@ -28,7 +28,7 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Settings};
 use ncc_ir::canon::Axis;
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side;
 use ncc_timeline::{AssumedFact, Machine};

@@ -1,11 +1,11 @@
 //! Parameters of functions in the case study's document: by the letters that its own control has for
 //! them, in mm, degrees and seconds, from program zero.
 
+use ncc_exec::{Exec, Kind};
 use ncc_ir::canon::{AXES, Axis, Plane, Turn};
-use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
-use ncc_ir::exec::{Exec, Kind};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::program::{Coord, Op, Pitch, Point};
 use ncc_timeline::Act;
 use serde_json::{Map, Value};

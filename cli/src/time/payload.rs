@@ -6,9 +6,9 @@
 
 use std::io::{self, Write};
 
+use ncc_exec::{Attribute, Exec, Kind};
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::exec::{Attribute, Exec, Kind};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::Stmt;
 use ncc_timeline::{Machine, Timed};
 use serde::Serialize;

@@ -5,9 +5,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use ncc_exec::{Exec, Kind};
 use ncc_ir::canon::{AXES, Turn};
-use ncc_ir::exec::{Exec, Kind};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_pictures::Turned;
 use ncc_timeline::Act;
 

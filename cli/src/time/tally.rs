@@ -6,9 +6,9 @@
 
 use std::io;
 
+use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::Spindle;
-use ncc_ir::exec::{Attribute, Kind};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_timeline::{Machine, Timed, ToolChangeOn, path};
 use serde::Serialize;
 

@@ -4,15 +4,15 @@
 use ncc_dialects::Dialect;
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
-use ncc_ir::computes::{Handed, LETTERS};
+use ncc_ir::computed::computes::{Handed, LETTERS};
+use ncc_ir::computed::open::open_variables;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Var};
-use ncc_ir::open::open_variables;
-use ncc_ir::passes::variables::questions;
+use ncc_ir::program::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_ir::program::{Op, Program, Stmt, Text, Type};
 use ncc_ir::source::Span;
-use ncc_ir::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_machines::reading::Told;
+use ncc_passes::values::variables::questions;
 
 use super::{FLATTEN, Line};
 use crate::called;

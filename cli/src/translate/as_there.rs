@@ -7,26 +7,36 @@ use ncc_dialects::{
     BORE_SHIFT, BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity,
     SPINDLE_ANGLE, SystemRow,
 };
+use ncc_exec::world::Sideways;
 use ncc_ir::canon::Modes;
-use ncc_ir::code_of;
-use ncc_ir::computes::{Computes, Said};
+use ncc_ir::computed::code_of;
+use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::open::open_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{self, Expr};
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::open::open_variables;
-use ncc_ir::passes::Target;
-use ncc_ir::passes::known_facts::{self, Known};
-use ncc_ir::passes::variables::{self, Digits, Renamed};
-use ncc_ir::passes::{
-    alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
-    exact_comparisons, expand_repeats, leave_out_output, machine_cuts, message_values, output_elsewhere,
-    own_distance, planes_checked, spindle_points, unit_in_force,
-};
+use ncc_ir::program::valid::{deeper_calls, labels_twice};
 use ncc_ir::program::{Call, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::{deeper_calls, labels_twice};
-use ncc_ir::world::Sideways;
+use ncc_passes::Target;
+use ncc_passes::arcs::centres_from_start;
+use ncc_passes::flow::control_forms;
+use ncc_passes::flow::expand_repeats;
+use ncc_passes::frames::computed_frames;
+use ncc_passes::frames::machine_cuts;
+use ncc_passes::frames::spindle_points;
+use ncc_passes::holes::computed_holes;
+use ncc_passes::holes::planes_checked;
+use ncc_passes::modes::own_distance;
+use ncc_passes::support::known_facts::{self, Known};
+use ncc_passes::values::alarm_numbers;
+use ncc_passes::values::arithmetic;
+use ncc_passes::values::exact_comparisons;
+use ncc_passes::values::message_values;
+use ncc_passes::values::unit_in_force;
+use ncc_passes::values::variables::{self, Digits, Renamed};
+use ncc_passes::{leave_out_output, output_elsewhere};
 
 use crate::job::Job;
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use ncc_dialects::{Settings, builtin};
-use ncc_ir::maps::Maps;
+use ncc_exec::maps::Maps;
 use ncc_machines::Profile;
 
 use super::*;

@@ -6,15 +6,15 @@
 //!
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
+use ncc_exec::verify::{Aspect, Difference};
+use ncc_exec::{Event, Exec, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, Exec, by_control, touched};
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::verify::{Aspect, Difference};
 
 use super::{Run, Stop, Verifier, different, unreadable};
 use crate::job::Job;

@@ -12,8 +12,8 @@
 //!
 //! Not here: programs that stream (`facts`), and what a difference means ([`Verifier::judge`]).
 
+use ncc_exec::{Exec, Halt, Progress, Runner};
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::exec::{Exec, Halt, Progress, Runner};
 use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 

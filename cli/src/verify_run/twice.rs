@@ -1,17 +1,17 @@
 //! A program that runs twice in a row: both controls begin the next run alike.
 //!
 //! What a program leaves in force at its end, and relies on before it says it itself, makes another program of its next
-//! run. The executor knows both (`ncc_ir::exec`, `left`), so that the second run is not executed.
+//! run. The executor knows both (`ncc_exec`, `left`), so that the second run is not executed.
 
+use ncc_exec::Again;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern, Kept};
 use ncc_ir::canon::Axis;
+use ncc_ir::computed::open::outliving_variables;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::exec::Again;
 use ncc_ir::expr::Var;
-use ncc_ir::open::outliving_variables;
-use ncc_ir::passes::variables::Renamed;
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
+use ncc_passes::values::variables::Renamed;
 
 use super::facts::Other;
 use super::{Run, Verifier};

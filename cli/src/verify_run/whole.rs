@@ -4,18 +4,18 @@
 //! numbers of the program itself, so that its decisions go both ways, and nothing at all for local variables. With
 //! which values the source cannot be executed, it says nothing. Ways that were not gone are told.
 
+use ncc_exec::verify::Pair;
+use ncc_exec::{Event, Exec, Kind, Progress, Runner};
 use ncc_ir::canon::Modes;
+use ncc_ir::computed::open::{literals, open_variables};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner};
 use ncc_ir::expr::Var;
-use ncc_ir::open::{literals, open_variables};
-use ncc_ir::passes::otherwise::{Taken, There, compares_nearly, otherwise, places};
-use ncc_ir::passes::variables::Renamed;
+use ncc_ir::expr::value::Value;
+use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
-use ncc_ir::valid::{anything, not_called};
-use ncc_ir::value::Value;
-use ncc_ir::verify::Pair;
+use ncc_passes::values::otherwise::{Taken, There, compares_nearly, otherwise, places};
+use ncc_passes::values::variables::Renamed;
 
 use crate::given::Given as Stated;
 

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use ncc_exec::named_tool;
+use ncc_exec::world::World;
 use ncc_ir::canon::Modes;
-use ncc_ir::exec::named_tool;
-use ncc_ir::world::World;
 
 use super::fixed;
 use crate::job::Job;

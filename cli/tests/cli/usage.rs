@@ -102,7 +102,7 @@ fn dialects_and_passes_are_listed() {
     }
     let passes = ncc(folder.path(), &["passes"]).exits(0).out;
     let names: Vec<&str> = passes.lines().filter_map(|l| l.split_whitespace().next()).collect();
-    assert_eq!(names, ncc_ir::passes::PASSES.iter().map(|p| p.name).collect::<Vec<_>>());
+    assert_eq!(names, ncc_passes::PASSES.iter().map(|p| p.name).collect::<Vec<_>>());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Words of the canonical stream: names, numbers, texts.
 
 use logos::{Lexer, Logos};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Text;
 
 use super::text::unquote;

@@ -1,10 +1,10 @@
 //! From a call to a statement: names, numbers of arguments, what each argument is.
 
 use ncc_ir::canon::{Axis, Fact, FeedMode, PathMode, Plane, Side, SpindleMode, Turn, Units};
-use ncc_ir::cycle::absolute;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Move, Op, PathControl, Point, Text};
 
 use super::lexer::Argument;

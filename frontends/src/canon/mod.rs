@@ -42,7 +42,7 @@ use logos::Logos;
 use ncc_dialects::Settings;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, SpindleMode, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 

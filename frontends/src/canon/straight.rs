@@ -3,9 +3,9 @@
 //! It takes `STRAIGHT_FEED(x, y, z)` and its kin with one blank after each comma and nothing else
 //! on the line, and leaves everything else untouched. A test holds it against the grammar.
 
-use ncc_ir::cycle::absolute;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Point;
+use ncc_ir::program::cycle::absolute;
 
 /// A straight move that was recognised.
 pub(super) struct Straight {

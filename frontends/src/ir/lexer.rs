@@ -6,7 +6,7 @@
 use logos::Logos;
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Attribute, Detour, Op, Output, Text, ToolValue, Type};
 
 use super::scan::{block_number, number, quoted, variable};

@@ -4,8 +4,8 @@
 
 use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, RotaryWay, SpindleMode};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Node, Numbers, Scope, Var};
-use ncc_ir::num::Num;
 use ncc_ir::program::{
     Advice, Coord, Data, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text, ToolLength,
     ToolValue, Type,
@@ -270,7 +270,7 @@ pub(crate) fn axes(named: &[Axis], l: usize, r: usize) -> Parsed<[bool; AXES]> {
 
 /// A move whose point can be polar.
 pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
-    match ncc_ir::polar::end_of(&op) {
+    match ncc_ir::geometry::polar::end_of(&op) {
         Some(_) => Ok(op),
         None => refuse(
             l,

@@ -2,9 +2,9 @@
 
 use logos::Lexer;
 use ncc_ir::expr::Var;
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
+use ncc_ir::expr::system::System;
 use ncc_ir::program::Text;
-use ncc_ir::system::System;
 
 use super::lexer::{LexFault, Literal, Token};
 use crate::canon::text::unquote;

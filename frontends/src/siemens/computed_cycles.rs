@@ -7,10 +7,10 @@
 
 use ncc_dialects::{CallKind, ParameterRole as Role};
 use ncc_ir::canon::Fact;
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute, clearance_by_depth};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute, clearance_by_depth};
 use ncc_ir::program::{Alarm, Control, Op, Stmt};
 
 use super::cycles::Arguments;

@@ -12,11 +12,11 @@
 use std::collections::HashMap;
 
 use ncc_dialects::Quantity;
-use ncc_ir::arguments;
 use ncc_ir::canon::Fact;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Element, Expr, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::arguments;
 use ncc_ir::program::{Declare, Op, Type as Stored};
 use ncc_ir::source::Span;
 

@@ -7,10 +7,10 @@
 
 use ncc_dialects::Quantity;
 use ncc_ir::canon::{AXES, Axis, Units};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::facts::InForce;
 use super::formula::{Kind, Typed};

@@ -7,10 +7,10 @@
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole, Quantity};
 use ncc_ir::canon::{Fact, Plane, Units};
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, ONE, Unit};
+use ncc_ir::expr::num::{Num, ONE, Unit};
+use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 

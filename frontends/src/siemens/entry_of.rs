@@ -7,7 +7,7 @@
 //! none.
 
 use ncc_ir::canon::Axis;
-use ncc_ir::code_of::{code_of, of_number};
+use ncc_ir::computed::code_of::{code_of, of_number};
 use ncc_ir::expr::{Expr, Function, Node};
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;

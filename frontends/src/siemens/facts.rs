@@ -9,9 +9,9 @@
 
 use ncc_dialects::Thread;
 use ncc_ir::canon::{AXES, Distance, Fact, FeedMode, Plane, Turn, Units};
-use ncc_ir::cycle::Cycle;
 use ncc_ir::diag::{Fault, ModeName};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::Cycle;
 use ncc_ir::source::Span;
 
 use super::formula::Typed;

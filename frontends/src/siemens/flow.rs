@@ -12,10 +12,10 @@
 
 use std::collections::HashSet;
 
-use ncc_ir::code_of::code_of;
+use ncc_ir::computed::code_of::code_of;
 use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target as Into, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 

@@ -8,10 +8,10 @@
 
 use std::borrow::Cow;
 
-use ncc_ir::computes::NEARLY;
+use ncc_ir::computed::computes::NEARLY;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;

@@ -85,12 +85,12 @@ impl Lower {
             let value = self.amount(given, Quantity::Angle, src, out)?;
             if axis == normal {
                 angle = Some(value);
-            } else if !value.literal().is_some_and(ncc_ir::num::Num::is_zero) {
+            } else if !value.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
                 let name = "rotation about an axis of the plane";
                 self.not_supported(code.name, name, given.span, out);
             }
         }
-        let zero = ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Degree);
+        let zero = ncc_ir::expr::num::Num::int(0, ncc_ir::expr::num::Unit::Degree);
         Some(FrameStep::Rotate { plane: Fact::Known(plane), angle: angle.unwrap_or(Expr::Num(zero)) })
     }
 
@@ -101,7 +101,7 @@ impl Lower {
                 continue;
             };
             let factor = self.amount(given, Quantity::Factor, src, out)?;
-            if factor.literal().is_some_and(ncc_ir::num::Num::is_zero) {
+            if factor.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
                 return self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
             }
             *by = Some(factor);

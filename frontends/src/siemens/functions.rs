@@ -7,7 +7,7 @@ use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, Meaning, NameMeaning, NameRole
 use ncc_ir::canon::{Fact, FeedMode, PathMode, SpindleMode, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Unit;
+use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
 
 use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
@@ -326,7 +326,7 @@ impl Lower {
                 if let (true, Expr::Num(num)) = (by_time, &mut feed) {
                     num.unit = Unit::One;
                 }
-                if !feed.literal().is_some_and(ncc_ir::num::Num::is_zero) {
+                if !feed.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
                     (self.state.feed, self.state.spent) = (Know::Said(()), false);
                 }
                 match &self.state.cycle {

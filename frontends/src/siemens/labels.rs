@@ -6,7 +6,7 @@
 use std::collections::{HashMap, HashSet};
 
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 

@@ -77,7 +77,7 @@ pub(super) struct Lower {
     /// Where a position was first taken for rapid that such a motion may reach.
     pub(super) rapid_taken: Option<Span>,
     /// The radius by which every corner is rounded.
-    pub(super) rounding: Option<ncc_ir::num::Num>,
+    pub(super) rounding: Option<ncc_ir::expr::num::Num>,
     pub(super) surfaces: Surfaces,
     /// Rows, options and patterns that have been reported.
     pub(super) reported: HashSet<Box<str>>,

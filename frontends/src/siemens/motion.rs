@@ -11,7 +11,7 @@ use ncc_dialects::{NameRole, Quantity, Role};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::ONE;
+use ncc_ir::expr::num::ONE;
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape};
 use ncc_ir::source::Span;
 
@@ -382,7 +382,7 @@ impl Lower {
                 let Some(radius) = self.amount(given, Quantity::Length, src, out) else {
                     return;
                 };
-                if radius.literal().is_some_and(ncc_ir::num::Num::is_zero) {
+                if radius.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
                     return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
                 }
                 let centre = Centre::Radius(radius);

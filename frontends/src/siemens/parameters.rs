@@ -16,10 +16,10 @@ use std::collections::BTreeSet;
 use ncc_ir::canon::{self, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Target, Var};
-use ncc_ir::given_back;
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_passes::flow::given_back;
 
 use super::calls::Handing;
 use super::computing::stored;
@@ -316,7 +316,7 @@ fn refused(name: &Text, back: &[(Var, Var)], out: &Batch) -> Option<&'static str
             _ => {}
         });
         let mut body = procedure.body.clone();
-        ncc_ir::passes::variables::expressions(&mut body, &mut |_, value| reads(value, &mut one));
+        ncc_passes::values::variables::expressions(&mut body, &mut |_, value| reads(value, &mut one));
     }
     found.then_some("R parameter that the subprogram uses by its own name too")
 }

@@ -6,11 +6,11 @@
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole};
 use ncc_ir::canon::{Axis, Plane};
-use ncc_ir::cycle::{Along, First, Pattern, Row, absolute};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
 use ncc_ir::geometry::polar;
-use ncc_ir::num::{Num, ONE, Unit};
+use ncc_ir::program::cycle::{Along, First, Pattern, Row, absolute};
 use ncc_ir::program::{Coord, Op, Point};
 
 use super::again::CYCLE;

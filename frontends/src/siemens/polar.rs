@@ -8,7 +8,7 @@ use ncc_dialects::{NameRole, Quantity};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
@@ -211,7 +211,7 @@ impl Lower {
         if along {
             return self.push_along(angle, plane, span, block, op, out);
         }
-        match ncc_ir::polar::end(&mut op) {
+        match ncc_ir::geometry::polar::end(&mut op) {
             None => return self.not_supported(text, "polar words of this function", span, out),
             Some(to) if names(to) => {
                 let name = "polar words beside coordinates of the plane";

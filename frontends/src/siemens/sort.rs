@@ -7,7 +7,7 @@
 use ncc_dialects::{NameMeaning, NameRole, Quantity, Role};
 use ncc_ir::canon::{Distance, FeedMode, RotaryWay};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use super::letters::letter_for_zero;

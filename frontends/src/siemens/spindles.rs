@@ -7,7 +7,7 @@
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Role};
 use ncc_ir::canon::AdviceKind;
 use ncc_ir::diag::Fault;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Advice, Op, Text};
 use ncc_ir::source::Span;
 

@@ -4,10 +4,10 @@
 
 use ncc_dialects::ParameterRole as Role;
 use ncc_ir::canon::{Axis, Plane, Spindle, Turn, Units};
-use ncc_ir::cycle::{BoreStop, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{BoreStop, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::program::{Op, Pitch};
 use ncc_ir::source::Span;
 

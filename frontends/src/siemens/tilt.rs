@@ -169,10 +169,10 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Option<Value> {
-        let zero = || Value::Num(ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Mm));
+        let zero = || Value::Num(ncc_ir::expr::num::Num::int(0, ncc_ir::expr::num::Unit::Mm));
         match arguments.get(place) {
             None | Some(None) if quantity == Quantity::Angle => {
-                Some(Value::Num(ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Degree)))
+                Some(Value::Num(ncc_ir::expr::num::Num::int(0, ncc_ir::expr::num::Unit::Degree)))
             }
             None | Some(None) => Some(zero()),
             Some(Some(Expr::Number(digits, span))) => {

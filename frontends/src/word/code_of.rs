@@ -12,12 +12,12 @@ use std::mem::discriminant;
 
 use ncc_dialects::{Statement as Says, SystemRow};
 use ncc_ir::canon::Motion;
-use ncc_ir::code_of::of_number;
+use ncc_ir::computed::code_of::of_number;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
 use ncc_ir::program::{Move, Op, Point, Text};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::Source;
 use super::block::{Block, Value, Word};

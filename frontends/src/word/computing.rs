@@ -10,11 +10,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Dialect, Operator, Quantity, RemainderRule};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::Source;
 use super::block::{Block, Value, Word};

@@ -8,10 +8,10 @@
 use ncc_dialects::{Quantity, SystemRow};
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Var};
 use ncc_ir::program::{Alarm, Data, DataMode, Op, Text, ToolValue};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::Source;
 use super::block::Block;

@@ -5,7 +5,7 @@
 use ncc_dialects::Quantity;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::Op;
 
 use super::Source;

@@ -6,10 +6,10 @@ use ncc_dialects::{
     AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Hand, Quantity, TAPPING,
 };
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
-use ncc_ir::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::program::{Coord, Move, Op, Pitch};
 use ncc_ir::source::Span;
 

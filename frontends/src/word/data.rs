@@ -5,12 +5,12 @@
 
 use ncc_dialects::{AT_ZERO, DataKind, DataRow, Meaning, Quantity, RADIUS_DATA, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
-use ncc_ir::code_of::of_number;
+use ncc_ir::computed::code_of::of_number;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::Num;
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
-use ncc_ir::num::Num;
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
-use ncc_ir::system::System;
 
 use super::Source;
 use super::block::{Value, Word};

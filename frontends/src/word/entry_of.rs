@@ -7,13 +7,13 @@
 //! control would take another of its variables.
 
 use ncc_dialects::SystemRow;
-use ncc_ir::code_of::of_number;
+use ncc_ir::computed::code_of::of_number;
+use ncc_ir::computed::entry_of::is_entry;
 use ncc_ir::diag::Fault;
-use ncc_ir::entry_of::is_entry;
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::Source;
 use super::block::Block;

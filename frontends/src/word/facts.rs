@@ -8,10 +8,10 @@
 
 use ncc_dialects::CodeRow;
 use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel, Units};
-use ncc_ir::cycle::CycleKind;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
+use ncc_ir::program::cycle::CycleKind;
 use ncc_ir::program::{CentreFrom, Coord};
 use ncc_ir::source::Span;
 

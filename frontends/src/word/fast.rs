@@ -9,7 +9,7 @@
 use ncc_dialects::{Bare, CodeRow, Dialect, Meaning, NumberRules, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Motion, Units};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Stmt};
 use ncc_ir::source::Span;
 

@@ -8,10 +8,10 @@
 //! Not here: what rounding and angles mean where an expression stands, and which variables have numbers that are
 //! computed (`computing`).
 
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::Output;
-use ncc_ir::system::System;
 
 use super::block::Digits;
 use super::parameters::Index;

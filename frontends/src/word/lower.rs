@@ -14,7 +14,7 @@ use ncc_dialects::{
 };
 use ncc_ir::canon::{Axis, Distance, FeedMode};
 use ncc_ir::diag::Fault;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -486,7 +486,9 @@ impl Lower {
         now.pushed = true;
         now.last_skip = now.skip;
         let skip = now.skip;
-        if self.state.follows_polar && ncc_ir::polar::leaves_points(&op, Some(ncc_ir::canon::Plane::Xy)) {
+        if self.state.follows_polar
+            && ncc_ir::geometry::polar::leaves_points(&op, Some(ncc_ir::canon::Plane::Xy))
+        {
             self.state.follows_polar = false;
         }
         self.target(out).push(Stmt { span, number, skip, joined, comment: None, op });

@@ -6,7 +6,7 @@
 use ncc_dialects::{AT_ZERO, FURTHER_POINT, Meaning, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion};
 use ncc_ir::diag::Fault;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 

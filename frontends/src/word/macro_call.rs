@@ -7,8 +7,8 @@
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Node, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Call, Op};
 
 use super::Source;

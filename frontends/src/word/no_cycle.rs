@@ -7,9 +7,9 @@
 //! Where a call, a jump or a label is before the block, the whole text decides. Not here: what these codes do.
 
 use ncc_ir::diag::Fault;
-use ncc_ir::passes::known_facts::ActiveCycles;
 use ncc_ir::program::Procedure;
 use ncc_ir::source::Span;
+use ncc_passes::support::known_facts::ActiveCycles;
 
 use super::facts::InForce;
 use super::lower::Lower;

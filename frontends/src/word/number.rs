@@ -8,7 +8,7 @@ use ncc_dialects::{
 };
 use ncc_ir::canon::{Fact, Units};
 use ncc_ir::diag::{Fault, ModeName};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
 

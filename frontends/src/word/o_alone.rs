@@ -5,8 +5,8 @@
 //! Not here: subprograms in the text that calls them (`o_subs`).
 
 use ncc_dialects::{Dialect, Meaning};
+use ncc_ir::computed::open::open_variables;
 use ncc_ir::expr::Var;
-use ncc_ir::open::open_variables;
 use ncc_ir::program::{Op, Procedure, Program, Text};
 
 use super::o_subs::refused;

@@ -9,8 +9,8 @@ use std::collections::{HashMap, HashSet, hash_map};
 
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Alarm, Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -412,7 +412,7 @@ fn highest(body: &[Stmt]) -> usize {
     let mut most = 0;
     for stmt in body {
         let mut op = stmt.op.clone();
-        let seen = ncc_ir::arguments::each(&mut op, &mut |argument, _| {
+        let seen = ncc_ir::program::arguments::each(&mut op, &mut |argument, _| {
             most = most.max(argument.expr().map_or(0, highest_of));
             Ok::<(), std::convert::Infallible>(())
         });

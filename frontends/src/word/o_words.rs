@@ -9,11 +9,11 @@
 //! Not here: what parameters and expressions are (`parameters`), and subprograms as such (`o_subs`).
 
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::fails;
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
-use ncc_ir::fails;
 use ncc_ir::program::{CentreFrom, Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::block::Block;
 use super::lower::Lower;
@@ -313,7 +313,7 @@ impl Lower {
                 zero |= asks(is_zero);
                 other |= asks(|system| !is_end(system) && !is_zero(system));
             };
-            let seen = ncc_ir::arguments::each(&mut stmt.op, &mut |argument, _| {
+            let seen = ncc_ir::program::arguments::each(&mut stmt.op, &mut |argument, _| {
                 argument.expr().into_iter().for_each(&mut look);
                 Ok::<(), std::convert::Infallible>(())
             });

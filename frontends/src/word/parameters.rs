@@ -10,11 +10,11 @@ use std::collections::HashSet;
 
 use ncc_dialects::{MACHINE_UNITS, Quantity, SystemRow};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
+use ncc_ir::expr::value;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Unary, Var};
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
-use ncc_ir::value;
 
 use super::block::Digits;
 use super::formula::Formula;

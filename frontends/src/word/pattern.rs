@@ -5,10 +5,10 @@
 
 use ncc_dialects::{CYCLE_APPROACH, PatternRow, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact};
-use ncc_ir::cycle::{Along, First, Pattern, Row};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 

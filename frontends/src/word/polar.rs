@@ -9,8 +9,8 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
-use ncc_ir::polar;
+use ncc_ir::expr::num::Num;
+use ncc_ir::geometry::polar;
 use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 

@@ -2,10 +2,10 @@
 //! gcode/overview.html, comment parameters).
 
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Op, Piece};
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 
 use super::lower::{Lower, decode};
 use crate::Batch;

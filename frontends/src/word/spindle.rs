@@ -4,7 +4,7 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::SpindleMode;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, ONE, Unit};
+use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::Op;
 
 use super::Source;

@@ -8,7 +8,7 @@ use ncc_dialects::{Bare, CodeRow, Meaning, Quantity, Thread};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Pitch, Synchronised};
 use ncc_ir::source::Span;
 

@@ -9,11 +9,11 @@ use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
 use ncc_ir::compensated::{Kind, Refused};
-use ncc_ir::computes::Computes;
+use ncc_ir::computed::computes::Computes;
 use ncc_ir::expr::Function;
+use ncc_ir::expr::system::System;
+use ncc_ir::geometry::round::ArcRule;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
-use ncc_ir::round::ArcRule;
-use ncc_ir::system::System;
 
 use crate::codes::BesideCompensation;
 use crate::cycles::{CycleRow, PatternRow};

@@ -29,7 +29,7 @@ pub(crate) struct Places {
     pub(crate) data: Vec<Range<usize>>,
 }
 
-/// Kinds of cycles, as `ncc_ir::cycle::CycleKind::name` has them.
+/// Kinds of cycles, as `ncc_ir::program::cycle::CycleKind::name` has them.
 pub(crate) const CYCLE_KINDS: &[&str] = &[
     "drill",
     "drill-dwell",

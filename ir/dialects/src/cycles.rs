@@ -185,7 +185,7 @@ impl CycleRow {
 /// A pattern of positions.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-#[allow(missing_docs)] // Letters of the words of `ncc_ir::cycle::Pattern`.
+#[allow(missing_docs)] // Letters of the words of `ncc_ir::program::cycle::Pattern`.
 pub enum PatternRow {
     Circle { code: String, first: [char; 2], centre: [char; 2], step: char, count: char, source: String },
     Grid { code: String, pitch: [char; 2], counts: [char; 2], serpentine: bool, source: String },

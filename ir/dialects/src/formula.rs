@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use ncc_ir::computes::{Handed, Named, Remainders, Said};
+use ncc_ir::computed::computes::{Handed, Named, Remainders, Said};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Function, Var};
-use ncc_ir::num::{Num, Unit};
 use serde::Deserialize;
 
 /// Words of the language in which a program computes (`[program] macro_b`), each by what it means; what has no

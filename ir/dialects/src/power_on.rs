@@ -1,8 +1,8 @@
 //! What a dictionary says of the state at power-on and of the safe start, and how it spells modes.
 
 use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Units};
-use ncc_ir::cycle::Approach;
 use ncc_ir::program::CentreFrom;
+use ncc_ir::program::cycle::Approach;
 use serde::Deserialize;
 
 /// State at power-on: what is taken for granted of a program that does not say.

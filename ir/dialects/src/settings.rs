@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use ncc_exec::Increments;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
-use ncc_ir::cycle::Approach;
-use ncc_ir::exec::Increments;
-use ncc_ir::num::{Nanos, Num, ONE, Unit};
-use ncc_ir::round::{ArcRule, MOST_SHORT};
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::geometry::round::{ArcRule, MOST_SHORT};
+use ncc_ir::program::cycle::Approach;
 
 use crate::Quantity;
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};

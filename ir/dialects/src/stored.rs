@@ -3,9 +3,9 @@
 //! Not here: what the values are for (`ncc_ir::program::Data`).
 
 use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::ToolValue;
-use ncc_ir::system::System;
 use serde::Deserialize;
 
 use crate::schema::Dialect;

@@ -2,7 +2,7 @@
 
 use super::Tracker;
 use crate::canon::AXES;
-use crate::num::Nanos;
+use crate::expr::num::Nanos;
 use crate::program::{Frame, FrameSlot, FrameStep, Slot};
 
 impl Tracker {

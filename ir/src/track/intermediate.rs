@@ -2,7 +2,7 @@
 
 use super::Tracker;
 use crate::canon::{AXES, Axis};
-use crate::num::Nanos;
+use crate::expr::num::Nanos;
 use crate::program::{Data, Op, Point, Reference};
 
 /// The points, as far as they are known and are where they were.

@@ -3,11 +3,11 @@
 use super::Tracker;
 use crate::canon::{Axis, Distance, Fact};
 use crate::expr::Expr;
-use crate::num::Nanos;
-use crate::places::Here;
-use crate::polar::{About, Pole};
+use crate::expr::num::Nanos;
+use crate::geometry::places::Here;
+use crate::geometry::polar::{About, Pole};
+use crate::geometry::round::{ArcRule, Around};
 use crate::program::{Coord, Point};
-use crate::round::{ArcRule, Around};
 
 /// What is known of where holes are.
 pub(super) struct Known<'t> {

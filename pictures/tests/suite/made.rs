@@ -1,8 +1,8 @@
 //! Programs made for the tests: functions with times, without a reader or a clock.
 
+use ncc_exec::{Attribute, Event, Kind, State};
 use ncc_ir::canon::{AXES, Plane, Spindle, Turn};
-use ncc_ir::exec::{Attribute, Event, Kind, State};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
 use ncc_pictures::Record;
 use ncc_timeline::{Act, Place, Profile, Timed};

@@ -1,10 +1,10 @@
 //! The corpus, flattened and folded.
 
 use ncc_dialects::builtin;
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::passes::Target;
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Program;
-use ncc_ir::valid::anything;
+use ncc_ir::program::valid::anything;
+use ncc_passes::Target;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::translate;

@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use ncc_exec::verify::{Comparison, Resolution};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Runner};
 use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::{Caps, CycleCap};
-use ncc_ir::cycle::Pattern;
 use ncc_ir::diag::{Diagnostic, Gravity};
-use ncc_ir::exec::{Event, Exec, Runner};
-use ncc_ir::passes::{PASSES, Target};
+use ncc_ir::program::cycle::Pattern;
 use ncc_ir::program::{Op, Program};
 use ncc_ir::track::Tracker;
-use ncc_ir::verify::{Comparison, Resolution};
-use ncc_ir::world::World;
+use ncc_passes::{PASSES, Target};
 
 use super::made;
 

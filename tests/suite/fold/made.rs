@@ -5,9 +5,9 @@
 //! place is written. So each of them can be seen in its moves.
 
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Units};
-use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::program::{Coord, Move, Op, Point, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 
@@ -373,7 +373,7 @@ impl Maker {
 }
 
 fn absolute(value: Num) -> Coord {
-    ncc_ir::cycle::absolute(value)
+    ncc_ir::program::cycle::absolute(value)
 }
 
 /// The sum of two lengths of one unit.

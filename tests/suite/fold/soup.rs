@@ -1,11 +1,11 @@
 //! Moves at random, at few levels and places: whatever is folded, the machine does the same.
 
 use ncc_ir::canon::{Axis, Distance, Plane, Units};
-use ncc_ir::cycle::{Approach, absolute};
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::passes::Target;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{Approach, absolute};
 use ncc_ir::program::{Move, Op, Point, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
+use ncc_passes::Target;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

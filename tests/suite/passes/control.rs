@@ -6,12 +6,12 @@
 
 use fastrand::Rng;
 use ncc_ir::canon::{Axis, Distance, Fact};
-use ncc_ir::computes::{Computes, Said};
+use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
-use ncc_ir::num::{Num, Unit};
-use ncc_ir::passes::control_forms;
 use ncc_ir::program::{Call, Control, Coord, Move, Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
+use ncc_passes::flow::control_forms;
 
 use super::{same_events, told, write};
 

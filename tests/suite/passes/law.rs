@@ -6,9 +6,9 @@
 
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::caps::Caps;
-use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, ONE, Unit};
+use ncc_ir::expr::num::{Num, ONE, Unit};
+use ncc_ir::program::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::program::{
     Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameSlot, FrameStep, Move, Op, Point, Procedure,
     Program, RepeatBlocks, Shape, Slot, Stmt,

@@ -23,23 +23,25 @@ use std::sync::Arc;
 
 use ncc_backends::{Layout, ir::Writer};
 use ncc_dialects::{Settings, builtin};
+use ncc_exec::maps::{Maps, Renaming};
+use ncc_exec::verify::{Comparison, Resolution};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Progress, Runner};
 use ncc_frontends::{Batch, ir::Reader};
-use ncc_ir::beside::Rules;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::Caps;
-use ncc_ir::computes::{Computes, Said};
+use ncc_ir::computed::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Event, Exec, Progress, Runner};
-use ncc_ir::maps::{Maps, Renaming};
-use ncc_ir::num::{Nanos, Num, ONE, Unit};
-use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{
-    Legaliser, PASSES, Target, control_forms, exact_comparisons, passed_labels, planes_checked,
-};
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::geometry::beside::Rules;
 use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
-use ncc_ir::verify::{Comparison, Resolution};
-use ncc_ir::world::World;
+use ncc_passes::flow::control_forms;
+use ncc_passes::flow::passed_labels;
+use ncc_passes::holes::planes_checked;
+use ncc_passes::tools::machine_numbers::Renumbering;
+use ncc_passes::values::exact_comparisons;
+use ncc_passes::{Legaliser, PASSES, Target};
 use ncc_tests::expect::{self, Failures};
 
 /// What a pass is told.

@@ -1,12 +1,12 @@
 //! Generated programs: every kind of node, for the laws of the text forms.
 
 use ncc_ir::canon::*;
-use ncc_ir::cycle::*;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::cycle::*;
 use ncc_ir::program::*;
 use ncc_ir::source::Span;
-use ncc_ir::system::System;
 use proptest::option::of;
 use proptest::prelude::*;
 use proptest::sample::select;

@@ -1,9 +1,9 @@
 //! Machines and paths for tests, made by hand.
 #![allow(dead_code)] // Each test file uses some.
 
+use ncc_exec::{Attribute, Event, Kind, State};
 use ncc_ir::canon::{AXES, Plane, Spindle, Turn};
-use ncc_ir::exec::{Attribute, Event, Kind, State};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
 use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place, Timed, WHOLE_PATH};
 

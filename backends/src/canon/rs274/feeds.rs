@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use ncc_ir::canon::{AXES, FeedMode, SpindleMode};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Op, Stmt};
 
 use super::{Printer, cannot, literal};

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use ncc_ir::canon::{AXES, PathMode, ReturnLevel, Turn};
-use ncc_ir::cycle::{BoreStop, CycleKind};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::program::cycle::{BoreStop, CycleKind};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::track::InForce;
 

@@ -3,9 +3,9 @@
 
 use std::fmt::Write;
 
+use ncc_exec::Kind;
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
-use ncc_ir::exec::Kind;
 use ncc_ir::program::{Pitch, Reference, Synchronised};
 
 use super::{Printer, cannot, literal};

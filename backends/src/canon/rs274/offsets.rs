@@ -7,9 +7,9 @@ use std::fmt::Write;
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::ONE;
+use ncc_ir::expr::num::ONE;
+use ncc_ir::expr::system::System;
 use ncc_ir::program::{Data, Op, Stmt};
-use ncc_ir::system::System;
 
 use super::{Printer, cannot};
 

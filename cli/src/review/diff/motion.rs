@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::sync_channel;
 
 use ncc_ir::behaviour::Behaviour;
-use ncc_ir::num::Nanos;
+use ncc_ir::expr::num::Nanos;
 use ncc_review::change::Collector;
 use ncc_review::measure::Measure;
 use ncc_review::record::Batch;

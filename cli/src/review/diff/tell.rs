@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use ncc_ir::canon::{AXES, Axis, SpindleMode};
-use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_review::change::{Change, Group};
 use ncc_review::record::What;
 

@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ncc_dialects::Dialect;
+use ncc_exec::verify::Difference;
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict as Became};
-use ncc_ir::num::{Nanos, POW10};
+use ncc_ir::expr::num::{Nanos, POW10};
 use ncc_ir::source::Span;
-use ncc_ir::verify::Difference;
 use serde::{Deserialize, Serialize};
 
 use super::pair::{Found, Verdict, job_of};
@@ -291,7 +291,7 @@ impl Document {
         sides: &mut [Side; 2],
         call: &Call,
     ) -> io::Result<()> {
-        let span = |event: &Option<ncc_ir::exec::Event>| event.as_ref().map(|event| event.span);
+        let span = |event: &Option<ncc_exec::Event>| event.as_ref().map(|event| event.span);
         let [source, output] = places(sides, [span(&difference.source), span(&difference.target)])?;
         let text = difference::describe(difference);
         self.first_difference = Some(First { text, block_skip: levels(skip), source, output });

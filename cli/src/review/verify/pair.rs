@@ -13,13 +13,13 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use ncc_dialects::SafeStart;
+use ncc_exec::verify::{Comparison, Deviation, Difference, Resolution};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Seen};
 use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Gravity};
-use ncc_ir::exec::{Event, Exec, Seen};
-use ncc_ir::num::Nanos;
-use ncc_ir::verify::{Comparison, Deviation, Difference, Resolution};
-use ncc_ir::world::World;
+use ncc_ir::expr::num::Nanos;
 
 use crate::job::Job;
 use crate::machines::pair::Machines;
@@ -155,7 +155,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         tools: job.machines.renaming(),
         alarms: alarms_of(&job.to),
         optional_stops: stops_differ(&job),
-        seen: job.from.dialect.caps.seen().both(job.to.dialect.caps.seen()),
+        seen: Seen::by(&job.from.dialect.caps).both(Seen::by(&job.to.dialect.caps)),
     };
     let mut beyond = false;
     for skip in settings {
@@ -308,7 +308,7 @@ struct Plan {
     resolution: Resolution,
     /// What the output's own digits resolve.
     own: Resolution,
-    tools: ncc_ir::maps::Renaming,
+    tools: ncc_exec::maps::Renaming,
     alarms: Option<Alarms>,
     /// Optional stops switch spindle and coolant off on one of the controls.
     optional_stops: bool,

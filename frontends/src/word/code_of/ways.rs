@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::take;
 
-use ncc_ir::code_of::{CodeOf, code_of, of_number};
+use ncc_ir::computed::code_of::{CodeOf, code_of, of_number};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};

@@ -2,9 +2,9 @@
 //! whatever is in force; a unit stands behind a number unless it is millimetres or a pure number.
 
 use ncc_ir::canon::{Axis, Distance, Fact};
-use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern};
 use ncc_ir::program::{
     Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameStep, Move, Op, Point, Shape, Stmt,
 };
@@ -218,7 +218,7 @@ fn pattern(p: &Pattern) -> String {
         ),
         Pattern::List(points) => format!("LIST{}", points.iter().map(|p| point(p) + ";").collect::<String>()),
         Pattern::Grid { start, columns, rows, serpentine } => {
-            let row = |r: &ncc_ir::cycle::Row| match &r.along {
+            let row = |r: &ncc_ir::program::cycle::Row| match &r.along {
                 Along::Axis(axis) => format!("{}x{axis:?}{}", r.count, expr(&r.pitch)),
                 Along::Angle(angle) => format!("{}@{}:{}", r.count, expr(angle), expr(&r.pitch)),
             };

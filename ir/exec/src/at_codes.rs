@@ -1,0 +1,365 @@
+//! What codes do besides their names: stops, tool changes, the end of the program.
+//!
+//! Which control does what is in its world ([`Behaviours`](ncc_ir::behaviour::Behaviours)). The program has not said
+//! it, which the events tell ([`by_control`]).
+//!
+//! Not here: what the codes do by their names.
+
+use super::{Event, Exec, Kind, Length, Z, by_control};
+use ncc_ir::behaviour::{Behaviour, Behaviours};
+use ncc_ir::canon::{AXES, Distance, FeedMode, Spindle};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::program::{Op, Point, ReferencePoint, Stmt};
+use ncc_ir::source::Span;
+
+impl Exec {
+    /// Whether the control does something besides the name of a code; notes that it was asked.
+    pub(super) fn does(&mut self, behaviour: Behaviour) -> bool {
+        self.asked |= behaviour.bit();
+        self.world.behaviours.does(behaviour)
+    }
+
+    /// Behaviours that the program has come to so far, a bit each.
+    pub fn asked(&self) -> u64 {
+        self.asked
+    }
+
+    /// From here on it counts what the program comes to.
+    pub fn ask_anew(&mut self) {
+        self.asked = 0;
+    }
+
+    /// What codes of this control do besides their names.
+    pub fn behaviours(&self) -> &Behaviours {
+        &self.world.behaviours
+    }
+
+    /// Behaviours that these statements come to from the state that the control is in, a bit each; those that any
+    /// state comes to are [`touched`]'s.
+    pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
+        let bit = |comes: bool, behaviour: Behaviour| if comes { behaviour.bit() } else { 0 };
+        let in_mode = |mode: FeedMode, counted: fn(&Op) -> bool| {
+            stmts.iter().any(|stmt| counted(&stmt.op))
+                && (self.state.feed_mode == mode
+                    || stmts.iter().any(|stmt| matches!(stmt.op, Op::SetFeedMode(set) if set == mode)))
+        };
+        let dwells = in_mode(FeedMode::PerRevolution, |op| matches!(op, Op::Dwell(_)));
+        let arcs = in_mode(FeedMode::InverseTime, |op| matches!(op, Op::ArcFeed(_)));
+        bit(self.includes_in(stmts), Behaviour::FrameOffsetIncremental)
+            | bit(self.turns_far_in(stmts), Behaviour::RotaryTurn)
+            | bit(dwells, Behaviour::DwellPerRevolution)
+            | bit(arcs, Behaviour::ArcByTime)
+            | bit(self.is_fine_in(stmts), Behaviour::FineDigits)
+            | bit(self.feeds_arcs_in(stmts), Behaviour::FeedOnArcs)
+            | self.lengths_aside_in(stmts)
+            | self.by_blocks(stmts)
+    }
+
+    /// Another value of a behaviour counts from now on.
+    pub fn behave(&mut self, behaviour: Behaviour, value: u8) {
+        self.world.behaviours = self.world.behaviours.with(behaviour, value);
+    }
+
+    /// Sets the operator's switch for optional stops.
+    pub fn set_optional_stop(&mut self, on: bool) {
+        self.world.optional_stop = on;
+    }
+
+    /// The control stops the spindle, or switches coolant off, where it does so.
+    fn switch_off(&mut self, spindle: Behaviour, coolant: Behaviour) {
+        if self.state.spindle != Spindle::Stopped && self.does(spindle) {
+            self.state.spindle = Spindle::Stopped;
+            self.state.by_control |= by_control::SPINDLE;
+        }
+        if (self.state.flood || self.state.mist) && self.does(coolant) {
+            (self.state.flood, self.state.mist) = (false, false);
+            self.state.by_control |= by_control::COOLANT;
+        }
+    }
+
+    /// A change of units: the active F counts as the control has it. A time of one block has no unit of length.
+    #[cold]
+    pub(super) fn feed_at_units(&mut self, inch: bool) {
+        if self.state.feed_mode == FeedMode::InverseTime || !self.does(Behaviour::FeedAtUnits) {
+            return;
+        }
+        let scaled = |feed: i128| if inch { feed * 127 / 5 } else { feed * 5 / 127 };
+        match Nanos::try_from(scaled(i128::from(self.feed))) {
+            Ok(feed) => (self.feed, self.feed_inch) = (feed, self.feed_inch.map(|_| inch)),
+            // Beyond every feed: the next cut needs another.
+            Err(_) => self.feed = 0,
+        }
+    }
+
+    /// A dwell: seconds, or turns of the spindle where the control counts these under a feed per revolution.
+    ///
+    /// # Errors
+    /// Turns of a spindle without a speed.
+    #[cold]
+    pub(super) fn dwell_code(
+        &mut self,
+        amount: &Expr,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let mut seconds = self.value(amount, span)?;
+        if self.state.feed_mode == FeedMode::PerRevolution && self.does(Behaviour::DwellPerRevolution) {
+            let turns = self.state.turns(self.last[0]);
+            if turns <= 0 {
+                return self.fault(Fault::NoSpeed, span);
+            }
+            let counted = i128::from(seconds) * 60 * i128::from(ONE) / i128::from(turns);
+            seconds = Nanos::try_from(counted).unwrap_or(Nanos::MAX);
+        }
+        self.emit(Kind::Dwell(seconds), span, out)
+    }
+
+    /// A stop, or the end of the program.
+    ///
+    /// # Errors
+    /// What cannot be executed here.
+    #[cold]
+    pub(super) fn stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        match &stmt.op {
+            Op::ProgramStop => {
+                if let Some((text, at)) = self.shown.at_stop(stmt.skip) {
+                    self.emit(Kind::Message(text), at, out)?;
+                }
+                self.switch_off(Behaviour::SpindleAtStop, Behaviour::CoolantAtStop);
+                self.emit(Kind::ProgramStop, span, out)
+            }
+            Op::OptionalProgramStop => {
+                if self.world.optional_stop {
+                    self.switch_off(Behaviour::SpindleAtStop, Behaviour::CoolantAtStop);
+                }
+                self.emit(Kind::OptionalProgramStop, span, out)
+            }
+            Op::BeginAgain => self.begin_again(span, out),
+            _ => {
+                self.switch_off(Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd);
+                self.emit(Kind::ProgramEnd, span, out)?;
+                self.ends_by_code();
+                self.ended = true;
+                Ok(())
+            }
+        }
+    }
+
+    /// The program begins anew: nothing is switched off, and all that is in force stays.
+    ///
+    /// # Errors
+    /// A cycle or a compensation that would go on into the first blocks.
+    fn begin_again(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.cycle.is_some() {
+            return self.not_executed("a program that begins again while a cycle is in force", span);
+        }
+        if self.state.compensation.side.is_some() {
+            return self.not_executed("a program that begins again under cutter radius compensation", span);
+        }
+        self.emit(Kind::BeginAgain, span, out)?;
+        self.begins_again(span);
+        self.ended = true;
+        Ok(())
+    }
+
+    /// The control has gone to a place of the machine along Z: the length in force may count no more.
+    #[cold]
+    pub(super) fn cancel_length(&mut self, behaviour: Behaviour) {
+        let standing = self.waiting.unwrap_or(self.modes.length);
+        if standing != Length::Entry(0) && self.does(behaviour) {
+            self.waiting = Some(Length::Entry(0));
+        }
+    }
+
+    /// The end of the text; an event only if the program has not ended before.
+    pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
+        if !self.ended {
+            // A move that cannot be executed there is none that a comparison could hold against another.
+            let _ = self.end_block(out);
+            self.ended = true;
+            if self.centre_path.is_some() {
+                self.end_open_path(out);
+            }
+            out.push(Event {
+                kind: Kind::TextEnd,
+                end: self.last,
+                rate: 0,
+                state: self.state,
+                inch: self.modes.inch,
+                span: Span::default(),
+            });
+        }
+    }
+
+    /// A tool change.
+    ///
+    /// # Errors
+    /// No tool is selected; a move of the control that cannot be executed here.
+    #[cold]
+    pub(super) fn change_tool(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.selected == -1 {
+            return self.fault(Fault::NoToolSelected, span);
+        }
+        self.before_change(span, out)?;
+        self.state.tool = self.tool_of_change();
+        self.changed_to = self.state.tool;
+        let emitted = self.emit(Kind::ToolChange, span, out);
+        if self.world.zeroed_by_tool {
+            // Z is called something else now, so that a program that says it moves.
+            self.reframe(self.machine());
+        }
+        if self.state.by_control & by_control::Z == 0 {
+            if self.state.by_control & by_control::SPINDLE != 0 {
+                self.state.by_control |= by_control::SPINDLE_AT_CHANGE;
+            }
+            // With Z where the program has put it, every move may need the spindle.
+            self.said_by_program(by_control::SPINDLE);
+        }
+        emitted
+    }
+
+    /// How far the operator has moved the zero of Z for the tool that was put in; nothing where nobody does.
+    pub(super) fn put_in(&self) -> Nanos {
+        match self.world.zeroed_by_tool && self.changed_to != -1 {
+            true => self.world.edge_length(self.changed_to, 1),
+            false => 0,
+        }
+    }
+
+    /// What counts in every work offset besides its own zero: the machine's external offset, and how far the operator has
+    /// moved the zero of Z.
+    pub(super) fn external(&self) -> [Nanos; AXES] {
+        let mut external = self.world.external;
+        external[Z] = external[Z].wrapping_add(self.put_in());
+        external
+    }
+
+    /// A tool change, before its event: the control may take Z to machine zero, where it stays.
+    ///
+    /// # Errors
+    /// A move that cannot be executed here.
+    #[cold]
+    fn before_change(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        self.switch_off(Behaviour::SpindleAtChange, Behaviour::CoolantAtChange);
+        if !self.does(Behaviour::ZAtChange) {
+            return Ok(());
+        }
+        if self.cycle.is_some() {
+            return self.not_executed("a tool change while a cycle is in force", span);
+        }
+        let mut machine = self.machine();
+        machine[Z] = self.world.reference(ReferencePoint::Home)[Z];
+        self.position = self.unplace(&machine);
+        self.heading = super::Heading::None;
+        self.goes_to_place();
+        self.said_by_program(by_control::Z_COUNTED);
+        self.state.by_control |= by_control::Z | by_control::MOVE;
+        let moved = self.emit_move(false, span, out);
+        self.state.by_control &= !by_control::MOVE;
+        moved
+    }
+
+    /// A move that takes Z from where the control, or the operator, has left it. A cut from there is told as that.
+    #[cold]
+    pub(super) fn emit_first_of_z(
+        &mut self,
+        feed: bool,
+        end: [Nanos; AXES],
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        self.last = end;
+        let both = by_control::Z | by_control::Z_AT_START;
+        let goes_home = self.state.by_control & by_control::MOVE != 0;
+        if feed {
+            let emitted = self.emit(Kind::Feed, span, out);
+            self.said_by_program(both);
+            return emitted;
+        }
+        if !goes_home {
+            self.said_by_program(both);
+        }
+        self.emit(Kind::Traverse, span, out)
+    }
+
+    /// The words of a move, where the control has taken Z to machine zero.
+    #[cold]
+    pub(super) fn counts_z_of(&mut self, to: &Point) {
+        if let Some(word) = &to.axes[Z] {
+            self.counts_z(word.distance.or(self.modes.distance) == Distance::Incremental);
+        }
+    }
+
+    /// A word of Z, where the control has taken Z to machine zero: it counts from there, or says where Z is.
+    #[cold]
+    pub(super) fn counts_z(&mut self, relative: bool) {
+        match relative {
+            true if self.state.by_control & by_control::Z != 0 => {
+                self.state.by_control |= by_control::Z_COUNTED;
+            }
+            true => {}
+            false => self.said_by_program(by_control::Z_COUNTED),
+        }
+    }
+
+    /// The program has said where Z is, or what spindle and coolant do.
+    #[inline]
+    pub(super) fn said_by_program(&mut self, what: u8) {
+        self.state.by_control &= !what;
+    }
+}
+
+/// Behaviours of a control that an operation may come to, a bit each.
+pub fn touched(op: &Op) -> u64 {
+    let bits = |all: &[Behaviour]| all.iter().fold(0, |bits, behaviour| bits | behaviour.bit());
+    match op {
+        Op::ProgramStop => bits(&[Behaviour::SpindleAtStop, Behaviour::CoolantAtStop]),
+        Op::ChangeTool => {
+            bits(&[Behaviour::SpindleAtChange, Behaviour::CoolantAtChange, Behaviour::ZAtChange])
+        }
+        Op::GoToReference(to) if to.axes[Z] && !to.keeps_length => bits(&[Behaviour::LengthAfterReturn]),
+        Op::UseMachineCoordinates { length: false } => bits(&[Behaviour::LengthAfterMachineMove]),
+        Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
+        Op::UseLengthUnits(_) => bits(&[Behaviour::FeedAtUnits]),
+        Op::StraightFeed(m) if m.to.axes[3..].iter().any(Option::is_some) => bits(&[Behaviour::RotaryFeed]),
+        _ => 0,
+    }
+}
+
+/// Whether an event happens in a cut, where all of the machine's state counts.
+pub fn cuts(kind: &Kind) -> bool {
+    matches!(kind, Kind::Feed | Kind::Synchronised { .. } | Kind::Probe { .. } | Kind::Arc { .. })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::World;
+    use ncc_ir::canon::{Fact, Modes, Plane, Turn};
+    use ncc_ir::expr::num::{Num, Unit};
+    use ncc_ir::program::{Arc, Centre, Point};
+
+    /// What F counts on an arc is a question under a feed by time alone, stated before or with the arc.
+    #[test]
+    fn an_arc_comes_to_its_fact_under_inverse_time() {
+        let stmt = |op| Stmt::new(Span::default(), op);
+        let arc = || {
+            stmt(Op::ArcFeed(Box::new(Arc {
+                plane: Fact::Known(Plane::Xy),
+                turn: Turn::Clockwise,
+                to: Point::default(),
+                centre: Centre::Radius(Expr::Num(Num::int(5, Unit::Mm))),
+                turns: 0,
+                said: true,
+            })))
+        };
+        let exec = Exec::new(&World::generate(0, &Modes::default()), 0);
+        let comes = |stmts: &[Stmt]| exec.comes_to(stmts) & Behaviour::ArcByTime.bit() != 0;
+        assert!(!comes(&[arc()]));
+        assert!(comes(&[stmt(Op::SetFeedMode(FeedMode::InverseTime)), arc()]));
+        assert!(!comes(&[stmt(Op::SetFeedMode(FeedMode::InverseTime))]));
+    }
+}

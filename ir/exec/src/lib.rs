@@ -1,0 +1,674 @@
+//! ncc-exec: what the machine does. Execution of a program in a world makes the canonical stream, event by event, and
+//! [`verify`] compares two of them.
+//!
+//! Everything that a program does not say comes from the [`World`]. Events are in machine
+//! coordinates, so that a lost work offset or a wrong length entry shows. Statements whose meaning
+//! is not executed yet (variables, jumps) are refused by name.
+
+mod ask;
+mod at_codes;
+mod conduct;
+mod data;
+mod event;
+pub mod frames;
+mod in_block;
+pub mod maps;
+mod message;
+pub mod moves;
+mod run;
+mod tools;
+pub mod verify;
+pub mod world;
+
+pub use at_codes::cuts;
+pub use at_codes::touched;
+pub use conduct::named_tool;
+pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
+pub use frames::frame::Chain;
+pub use frames::slots::{Frames, Present, Rotation, Scale};
+pub use frames::tilt::TiltedPlane;
+pub use moves::centre_path::AsProgrammed;
+pub use moves::compensation::Compensation;
+pub use moves::fine::Increments;
+pub use moves::pace::{DEGREES, LINEAR};
+pub use moves::rotary::end as rotary_end;
+pub use run::Runner;
+pub use run::again;
+pub use run::go::{Halt, Progress};
+pub use run::left::Again;
+
+use crate::world::World;
+use frames::frame::Length;
+use moves::arcs::Heading;
+use moves::centre_path::CentrePath;
+use moves::compensation::Contour;
+use moves::holes::InForce;
+use ncc_ir::canon::{
+    AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, RotaryWay, Spindle, Units,
+    same_point,
+};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::geometry::polar::Pole;
+use ncc_ir::program::kinds::variables;
+use ncc_ir::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
+use ncc_ir::source::Span;
+
+const Z: usize = Axis::Z as usize;
+
+/// A control that executes statements one by one.
+#[derive(Clone, Debug)]
+pub struct Exec {
+    world: World,
+    /// Block-skip switches: bit n is level n.
+    skip: u16,
+    modes: InModes,
+    /// Facts that the program or an assumption has set; the others are still the world's.
+    said: u16,
+    /// Position in the program's frame.
+    position: [Nanos; AXES],
+    /// Machine coordinates of program zero, tool length included.
+    frame: [Nanos; AXES],
+    /// Frames between the program and that.
+    chain: Option<Box<Chain>>,
+    /// The slots that they come from, and the shift of the origin; `None` is nothing in any.
+    slots: Option<Box<Frames>>,
+    /// Whether the work offset in force is turned: then the shift of the origin is in the chain.
+    offset_turned: bool,
+    /// Changes of frames and work offsets that the next incremental words include.
+    carried: Option<Box<moves::carried::Carried>>,
+    /// Slots that were left full by an earlier run, or will be.
+    outlived: run::left::Outlived,
+    /// Position of the last move's event.
+    last: [Nanos; AXES],
+    /// Direction of the last move.
+    heading: Heading,
+    /// How corners are taken after the next move, which ends in an exact stop.
+    after_stop: Option<Option<PathMode>>,
+    /// Which way round A, B and C go in the next move.
+    ways: Option<[Option<RotaryWay>; 3]>,
+    /// The next straight move is in machine coordinates, with the tool's length or without.
+    raw: Option<bool>,
+    /// The next straight move at feed ends where the probe says so.
+    probing: Option<Probe>,
+    /// The next rapid straight move goes another way than straight.
+    detour: Option<Detour>,
+    /// By way of which point each axis went to a point of the machine last: of the program, and of the machine.
+    intermediate: Box<[Option<[Nanos; 2]>; AXES]>,
+    /// About which polar points are.
+    pole: Pole,
+    /// The length that the next Z takes up.
+    waiting: Option<Length>,
+    /// The length called up last, where it counts as none because the operator sets the zero of Z by the tool: its radius
+    /// is in force all the same.
+    zeroed: Option<Length>,
+    /// Rotary axes that the program itself has put somewhere, a bit each.
+    turned_known: u8,
+    /// The move at hand says itself which way round rotary axes go.
+    own_way: bool,
+    /// The axis along which lengths lie and are taken up: Z, but on controls that go by the plane.
+    along: usize,
+    /// Offsets of the tool in force along X and Y.
+    aside: [Nanos; 2],
+    /// The contour that the tool goes beside.
+    contour: Contour,
+    /// The path of the tool's centre beside it, where that is computed.
+    centre_path: Option<Box<CentrePath>>,
+    /// A corner that is to be made.
+    corner: Option<Box<moves::corner::Corner>>,
+    /// What waits for the end of the block at hand.
+    in_block: Option<in_block::InBlock>,
+    /// The axis of the length stands at a place of the machine, where no length counts.
+    at_place: bool,
+    feed: Nanos,
+    /// The time of the move at hand, where its feed says it in a way of the control.
+    pace: moves::pace::Pace,
+    /// Whether it was said in inches, if it was said in either.
+    feed_inch: Option<bool>,
+    selected: i64,
+    /// The tool of the last change; -1 before the first.
+    changed_to: i64,
+    /// Where the last probing move ended, in the coordinates that the program had then.
+    touched: Option<Box<[[Nanos; AXES]; 2]>>,
+    state: State,
+    /// Whether what a speed counts needs to be looked at before anything happens.
+    speed_watched: bool,
+    cycle: Option<InForce>,
+    /// Behaviours of the control that the program has come to, a bit each.
+    asked: u64,
+    /// Whether the program has ended.
+    ended: bool,
+    /// What becomes of messages.
+    shown: message::Shown,
+    /// Whether events are counted only.
+    quiet: bool,
+    /// Whether functions are told that make no events.
+    narrating: bool,
+    /// Whether straight moves that go nowhere make events.
+    every_move: bool,
+    counted: u64,
+    /// Cuts with the spindle stopped.
+    standing: moves::standing::Standing,
+    /// The first arc under compensation: outer and inner ones, each with F at the tool centre and along the contour.
+    arc_feeds: [[Option<Span>; 2]; 2],
+}
+
+/// Modes in force; a control always has a value for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct InModes {
+    motion: Motion,
+    distance: Distance,
+    inch: bool,
+    plane: Plane,
+    return_level: ReturnLevel,
+    work_offset: u16,
+    length: Length,
+    shifted: bool,
+}
+
+/// Words and positions are within so many bits, in nanos: 1125899.9 mm.
+const MOST_BITS: u32 = 50;
+
+// Bits of `Exec::said`.
+const MOTION: u16 = 1;
+const DISTANCE: u16 = 2;
+const UNITS: u16 = 4;
+const PLANE: u16 = 8;
+const RETURN: u16 = 16;
+const WORK: u16 = 32;
+const LENGTH: u16 = 64;
+const SHIFT: u16 = 128;
+const FEED_MODE: u16 = 256;
+/// The numbers kept of a shift of the origin are the program's own, all of them.
+const SHIFT_STORED: u16 = 512;
+/// The shift of the origin is in force, be it of nothing.
+const SHIFT_TAKEN_UP: u16 = 1024;
+
+impl Exec {
+    /// A control at power-on in a world, with these block-skip switches on (bit n is level n).
+    pub fn new(world: &World, skip: u16) -> Exec {
+        let p = world.power_on;
+        let modes = InModes {
+            motion: p.motion.unwrap_or(Motion::Traverse),
+            distance: p.distance.unwrap_or(Distance::Absolute),
+            inch: p.units == Some(Units::Inch),
+            plane: p.plane.unwrap_or(Plane::Xy),
+            return_level: p.return_level.unwrap_or(ReturnLevel::Initial),
+            work_offset: p.work_offset.unwrap_or(1),
+            length: Length::Entry(p.length_offset.unwrap_or(0)),
+            shifted: p.no_origin_shift == Some(false),
+        };
+        let mut exec = Exec {
+            world: world.clone(),
+            skip,
+            modes,
+            said: 0,
+            position: [0; AXES],
+            frame: [0; AXES],
+            chain: None,
+            slots: None,
+            offset_turned: false,
+            carried: None,
+            outlived: run::left::Outlived::default(),
+            last: world.start,
+            heading: Heading::None,
+            after_stop: None,
+            ways: None,
+            raw: None,
+            probing: None,
+            detour: None,
+            intermediate: Box::default(),
+            pole: Pole::ZERO,
+            waiting: None,
+            zeroed: None,
+            turned_known: 0,
+            own_way: false,
+            along: Z,
+            aside: [0; 2],
+            contour: Contour::default(),
+            centre_path: None,
+            corner: None,
+            in_block: None,
+            at_place: true,
+            feed: 0,
+            pace: None,
+            feed_inch: None,
+            selected: -1,
+            changed_to: -1,
+            touched: None,
+            state: State {
+                feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
+                path: world.path,
+                by_control: by_control::Z_AT_START,
+                ..State::default()
+            },
+            speed_watched: false,
+            cycle: None,
+            asked: 0,
+            ended: false,
+            shown: message::Shown::default(),
+            quiet: false,
+            narrating: false,
+            every_move: false,
+            counted: 0,
+            standing: moves::standing::Standing::default(),
+            arc_feeds: [[None; 2]; 2],
+        };
+        exec.along = exec.length_axis();
+        exec.reframe(world.start);
+        exec
+    }
+
+    /// Whether the program has ended.
+    pub fn ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Work offset in force, and whether the program or an assumption named it.
+    pub fn work_offset(&self) -> Option<u16> {
+        (self.said & WORK != 0).then_some(self.modes.work_offset)
+    }
+
+    /// Puts the machine somewhere.
+    pub fn be_at(&mut self, machine: [Nanos; AXES]) {
+        self.last = machine;
+        self.position = self.unplace(&machine);
+    }
+
+    /// Tells functions one by one: those that set an attribute make events too, and so do straight
+    /// moves of the program that go nowhere. For tables of what happens; not for a comparison.
+    pub fn narrate(&mut self) {
+        self.narrating = true;
+    }
+
+    /// Makes events of all straight moves, those of cycles that go nowhere too: so that a program makes
+    /// the same events in every world, whatever its offsets are. Who asks for this drops those that go
+    /// nowhere in all of them.
+    pub fn every_move(&mut self) {
+        self.every_move = true;
+    }
+
+    /// Sets the block-skip switches: bit n is level n.
+    pub fn set_skip(&mut self, skip: u16) {
+        self.skip = skip;
+    }
+
+    /// Whether a block-skip switch leaves a statement out.
+    #[inline]
+    pub fn skips(&self, stmt: &Stmt) -> bool {
+        stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1)
+    }
+
+    /// Where the axes stand, in machine coordinates.
+    #[inline]
+    pub fn machine(&self) -> [Nanos; AXES] {
+        self.place(&self.position)
+    }
+
+    /// A point of the program in machine coordinates.
+    #[inline]
+    fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+        match &self.chain {
+            None => std::array::from_fn(|i| p[i].wrapping_add(self.frame[i])),
+            Some(chain) => {
+                let p = chain.place(p);
+                std::array::from_fn(|i| p[i].wrapping_add(self.frame[i]))
+            }
+        }
+    }
+
+    /// A point of the machine in program coordinates.
+    fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+        let p = std::array::from_fn(|i| p[i].wrapping_sub(self.frame[i]));
+        match &self.chain {
+            None => p,
+            Some(chain) => chain.unplace(&p),
+        }
+    }
+
+    /// Computes the frame anew; the machine stays at `here`.
+    fn reframe(&mut self, here: [Nanos; AXES]) {
+        self.frame = self.world.work_offset(self.modes.work_offset);
+        let external = self.external();
+        for (zero, external) in self.frame.iter_mut().zip(external) {
+            *zero = zero.wrapping_add(external);
+        }
+        let turn = self.world.work_turn(self.modes.work_offset);
+        if turn != 0 || self.offset_turned {
+            self.turn_offset(turn);
+        }
+        if !self.offset_turned && (self.modes.shifted || self.slots.is_some()) {
+            let shift = self.origin_shift();
+            for (f, s) in self.frame.iter_mut().zip(shift) {
+                *f = f.wrapping_add(s);
+            }
+        }
+        if self.state.tip || self.state.tilted {
+            self.shift_by_kinematics();
+        }
+        let tool = self.tool_offset();
+        self.frame = std::array::from_fn(|axis| self.frame[axis].wrapping_add(tool[axis]));
+        self.position = self.unplace(&here);
+        self.heading = Heading::None;
+    }
+
+    /// Takes up a waiting length entry: the coming Z is measured with it.
+    #[inline]
+    fn take_up_length(&mut self) {
+        if let Some(length) = self.waiting.take() {
+            self.frame[self.along] += self.length_of(length) - self.length_of(self.modes.length);
+            self.modes.length = length;
+        }
+    }
+
+    fn fault<T>(&self, fault: Fault, span: Span) -> Result<T, Diagnostic> {
+        Err(Diagnostic::new(fault, span))
+    }
+
+    /// A literal's value in nanos.
+    #[inline]
+    fn value(&self, value: &Expr, span: Span) -> Result<Nanos, Diagnostic> {
+        let Expr::Num(n) = value else {
+            return self.fault(Fault::NotExecuted { what: "an expression".into() }, span);
+        };
+        let inch = n.unit == Unit::Entry && self.modes.inch;
+        match n.nanos(inch) {
+            // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
+            Some(v) if v.unsigned_abs() < 1 << MOST_BITS => Ok(v),
+            _ => self.fault(Fault::OutOfRange { word: "value".into() }, span),
+        }
+    }
+
+    #[inline]
+    fn whole(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
+        match value.literal().and_then(|n| n.whole()) {
+            Some(n) => Ok(n),
+            None => self.fault(Fault::OutOfRange { word: "".into() }, span),
+        }
+    }
+
+    #[inline]
+    fn target(&self, word: &Coord, from: Nanos, span: Span) -> Result<Nanos, Diagnostic> {
+        let value = self.value(&word.value, span)?;
+        Ok(match word.distance.or(self.modes.distance) {
+            Distance::Absolute => value,
+            Distance::Incremental => {
+                let sum = from.wrapping_add(value);
+                if sum.unsigned_abs() >= 1 << MOST_BITS {
+                    return self.fault(Fault::OutOfRange { word: "sum of lengths".into() }, span);
+                }
+                sum
+            }
+        })
+    }
+
+    /// Where the words put the axes; takes up a waiting length with a Z word.
+    #[inline]
+    fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
+        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
+        let mut next = self.position;
+        if Exec::turns(to) {
+            self.put(&to.axes, &mut next, &from, span)?;
+            self.turn_rotary(to, &mut next);
+        } else {
+            self.put(&to.axes[..3], &mut next, &from, span)?;
+        }
+        if let Some(word) = &to.axes[self.along] {
+            if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {
+                // Whether the way grows by the difference is a setting on some controls, told on none.
+                return self.not_executed("an incremental way along Z on which a length is taken up", span);
+            }
+            self.take_up_length();
+            self.at_place = false;
+        }
+        if self.state.by_control & (by_control::Z | by_control::Z_COUNTED) != 0 {
+            self.counts_z_of(to);
+        }
+        self.position = next;
+        Ok(())
+    }
+
+    /// Executes a statement; its events are pushed to `out`.
+    ///
+    /// # Errors
+    /// What no control could execute, or what is not executed yet.
+    #[inline]
+    pub fn step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.in_block.is_some() {
+            self.settle_block(stmt, out)?;
+        }
+        if self.ended || self.skips(stmt) {
+            return Ok(());
+        }
+        if self.state.tip || self.state.tilted {
+            self.check_tilted(stmt)?;
+        }
+        if self.corner.is_some() {
+            return self.step_at_corner(stmt, out);
+        }
+        self.step_on_way(stmt, out)
+    }
+
+    #[inline]
+    fn step_on_way(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.contour.watched {
+            return self.step_on_contour(stmt, out);
+        }
+        self.step_plainly(stmt, out)
+    }
+
+    #[inline]
+    fn step_plainly(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.ways.is_some() {
+            return self.step_turning(stmt, out);
+        }
+        if self.after_stop.is_some() {
+            return self.step_and_stop(stmt, out);
+        }
+        self.do_step(stmt, out)
+    }
+
+    #[inline]
+    fn do_step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        self.shown.goes_on();
+        match &stmt.op {
+            Op::StraightFeed(m) => self.straight(&m.to, true, span, out),
+            Op::StraightTraverse(m) => self.straight(&m.to, false, span, out),
+            Op::ArcFeed(arc) => self.arc(arc, span, out),
+            Op::Position(m) => match self.modes.motion {
+                Motion::Traverse => self.straight(&m.to, false, span, out),
+                Motion::Feed => self.straight(&m.to, true, span, out),
+                Motion::Arc(_) => self.fault(Fault::ArcWithoutCentre, span),
+                Motion::Cycle => self.hole(&m.to, span, out),
+            },
+            Op::SetFeedRate(f) => {
+                self.feed = self.value(f, span)?;
+                self.feed_inch = Some(self.modes.inch);
+                self.tell(Attribute::FeedRate(self.feed), span, out)
+            }
+            _ => self.other(stmt, out),
+        }
+    }
+
+    #[inline]
+    fn straight(
+        &mut self,
+        to: &Point,
+        feed: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if self.detour.is_some() {
+            return self.go_by_detour(to, feed, span, out);
+        }
+        let (before, own) = (self.position, self.modes.motion);
+        let own_code = self.has_own_code(span)?;
+        if let Some(length) = self.raw.take() {
+            self.place_in_machine(to, length, span)?;
+        } else {
+            self.set_axes(to, span)?;
+        }
+        if !same_point(&before, &self.position) {
+            self.heading = Heading::From(before);
+        }
+        self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
+        if own_code && self.modes.motion != own {
+            // Its code may hold for its block alone.
+            self.modes.motion = Motion::Cycle;
+        }
+        self.said |= MOTION;
+        self.cycle = None;
+        if self.probing.is_some() {
+            return self.probe(feed, span, out);
+        }
+        if self.narrating && !(feed && self.feed == 0) && same_point(&self.machine(), &self.last) {
+            return self.emit(if feed { Kind::Feed } else { Kind::Traverse }, span, out);
+        }
+        self.emit_move(feed, span, out)
+    }
+
+    /// Everything but plain moves and feeds.
+    fn other(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        match &stmt.op {
+            Op::ArcForm(arc) => self.arc_form(arc, span, out)?,
+            Op::StraightFeed(_)
+            | Op::StraightTraverse(_)
+            | Op::ArcFeed(_)
+            | Op::Position(_)
+            | Op::SetFeedRate(_) => {}
+            Op::Comment(_) => self.tell(Attribute::Remark, span, out)?,
+            Op::NoEffect(_) | Op::Blank | Op::Label(_) => {}
+            Op::StartCutterRadiusCompensation { side, radius } => {
+                self.start_compensation(*side, radius, span)?;
+            }
+            Op::StopCutterRadiusCompensation => self.stop_compensation(),
+            Op::UseLengthUnits(units) => {
+                self.units_of_speed(*units);
+                let inch = *units == Units::Inch;
+                if self.feed != 0 && inch != self.modes.inch {
+                    self.feed_at_units(inch);
+                }
+                self.modes.inch = inch;
+                self.said |= UNITS;
+            }
+            Op::SetDistanceMode(distance) => {
+                self.modes.distance = *distance;
+                self.said |= DISTANCE;
+            }
+            Op::SelectPlane(plane) => {
+                self.modes.plane = *plane;
+                self.said |= PLANE;
+                self.turn_length();
+            }
+            Op::SetFeedMode(mode) => {
+                // What a feed said before would count now, nobody knows; a time is one block's.
+                let ends = self.world.feed_ends_with_mode || *mode == FeedMode::InverseTime;
+                if self.state.feed_mode != *mode || ends {
+                    self.state.feed_mode = *mode;
+                    self.feed = 0;
+                }
+                self.said |= FEED_MODE;
+            }
+            Op::Corner { shape, size } => self.ask_corner(*shape, size, span)?,
+            Op::SetMotionControlMode(_)
+            | Op::ExactStop
+            | Op::TurnRotaryAxes(_)
+            | Op::Advise(_)
+            | Op::SetSpindleMode(_)
+            | Op::LimitSpindleSpeed(_) => self.conduct(&stmt.op, span)?,
+            Op::SetReturnLevel(level) => {
+                self.modes.return_level = *level;
+                self.said |= RETURN;
+            }
+            Op::SetOriginOffsets(number) => {
+                let (here, before) = (self.machine(), self.before_frame());
+                self.modes.work_offset = *number;
+                self.said |= WORK;
+                self.reframe(here);
+                self.carry(before);
+            }
+            Op::ClearFrame(FrameSlot::Tilt) => self.clear_tilt(span, out)?,
+            Op::ClearFrame(slot) => self.clear_slot(*slot),
+            Op::SetFrame(frame) => self.set_frame(frame, span)?,
+            Op::SetSlot(slot) => match &**slot {
+                Slot::Tilt(tilt) => self.set_tilt(tilt, span, out)?,
+                slot => self.set_slot(slot, span)?,
+            },
+            Op::UseToolCentrePoint(on) => {
+                self.tip_in_block();
+                self.use_tip(*on, span)?;
+            }
+            Op::OrientToolAxis(toward) => self.orient_tool_axis(*toward, span, out)?,
+            Op::SetPosition(axes) => self.set_position(axes, span)?,
+            Op::UseOriginShift(on) => self.use_origin_shift(*on, span)?,
+            Op::UseMachineCoordinates { length } => self.raw = Some(*length),
+            Op::Probe(probe) => self.probing = Some(*probe),
+            Op::Detour(detour) => self.detour = Some(*detour),
+            Op::GoToReference(reference) => self.go_to_reference(reference, span, out)?,
+            Op::SetData(data) => self.set_data(data, span, out)?,
+            Op::SetPole(set) => self.set_pole(set, span)?,
+            Op::Polar(polar) => self.polar(polar, span, out)?,
+            Op::SetSpindleSpeed(speed) => self.set_speed(speed, span, out)?,
+            Op::SelectTool(tool) => {
+                let tool = self.whole(tool, span)?;
+                self.select(tool);
+                self.tell(Attribute::SelectTool(self.selected), span, out)?;
+            }
+            Op::SelectToolByName(name) => {
+                self.select(named_tool(name));
+                self.tell(Attribute::SelectTool(self.selected), span, out)?;
+            }
+            Op::ChangeTool => self.change_tool(span, out)?,
+            Op::UseToolLength(length) => self.use_length(length, span)?,
+            Op::UseToolLengthOffset(entry) => {
+                let entry = u32::try_from(self.whole(entry, span)?);
+                let Ok(entry) = entry else {
+                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                };
+                self.call_up_zeroed(Length::Entry(entry), span)?;
+            }
+            Op::UseToolEdge { edge, .. } => {
+                let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
+                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                };
+                self.call_up_zeroed(self.edge(edge), span)?;
+            }
+            Op::StartSpindleClockwise => self.turn_spindle(Spindle::Clockwise, span, out)?,
+            Op::StartSpindleCounterclockwise => self.turn_spindle(Spindle::Counterclockwise, span, out)?,
+            Op::StopSpindleTurning => self.turn_spindle(Spindle::Stopped, span, out)?,
+            Op::SynchronisedFeed(m) => self.synchronised(m, span, out)?,
+            Op::OrientSpindle(angle) => self.orient(angle.as_ref(), span, out)?,
+            Op::MachineFunction(name) => self.emit(Kind::MachineFunction(name.clone()), span, out)?,
+            Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
+            Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
+            Op::CoolantOff => self.coolant(false, false, span, out)?,
+            Op::Dwell(amount) => self.dwell_code(amount, span, out)?,
+            Op::StartCycle(cycle) => self.start_cycle(cycle, span)?,
+            Op::Hole(m) => self.hole(&m.to, span, out)?,
+            Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
+            Op::EndCycle => self.cycle = None,
+            Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd | Op::BeginAgain => {
+                self.stop(stmt, out)?
+            }
+            Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_) => self.message(stmt, out)?,
+            Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
+            Op::Return => return self.not_executed("a return of the main program", span),
+            Op::RepeatBlocks(_) => return self.not_executed("a repetition in the midst of a stream", span),
+            variables!() => return self.not_executed("a variable", span),
+            Op::Control(_) => return self.not_executed("control of the program's flow", span),
+            Op::Goto(_) | Op::Leave | Op::NextTurn => return self.not_executed("a jump", span),
+        }
+        Ok(())
+    }
+
+    fn not_executed(&self, what: &str, span: Span) -> Result<(), Diagnostic> {
+        self.fault(Fault::NotExecuted { what: what.into() }, span)
+    }
+
+    fn plane_of(&self, plane: Fact<Plane>) -> Plane {
+        plane.or(self.modes.plane)
+    }
+}

@@ -1,0 +1,336 @@
+//! Execution of corners: the move before one is held back until the next move of the plane shows how
+//! much of both goes, and what is put between them.
+//!
+//! Refused by name is what controls refuse here, or do each in a way of their own: a corner without a
+//! next move, or with anything but settings before it; beside a rapid or a move that leaves the plane;
+//! between moves of different feeds, or taken differently; in a frame that scales. Not here: the geometry
+//! (`corner`).
+
+use crate::{Event, Exec, Kind, State};
+use ncc_ir::canon::{AXES, CornerShape, FeedMode, Plane};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::geometry::corner::{self, Leg};
+use ncc_ir::program::{Op, Shape, Stmt};
+use ncc_ir::source::Span;
+
+/// A corner that has been asked for and not been made.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Corner {
+    /// For the move that comes next.
+    asked: Option<Asked>,
+    /// Behind the move that is held back.
+    held: Option<Held>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    shape: CornerShape,
+    size: Nanos,
+    span: Span,
+}
+
+#[derive(Clone, Debug)]
+struct Held {
+    asked: Asked,
+    plane: Plane,
+    leg: Leg,
+    event: Event,
+    /// What was told since.
+    told: Vec<Event>,
+}
+
+/// What a statement is to a corner.
+enum Part<'s> {
+    Move,
+    /// A setting that may stand between the moves of a corner.
+    Beside,
+    Corner(CornerShape, &'s Expr),
+    Plane(Plane),
+    Other,
+}
+
+fn part(op: &Op) -> Part<'_> {
+    match op {
+        Op::Corner { shape, size } => Part::Corner(*shape, size),
+        Op::SelectPlane(plane) => Part::Plane(*plane),
+        Op::StraightFeed(_)
+        | Op::StraightTraverse(_)
+        | Op::ArcFeed(_)
+        | Op::ArcForm(_)
+        | Op::Polar(_)
+        | Op::Position(_) => Part::Move,
+        op if corner::may_stand_between(op) => Part::Beside,
+        _ => Part::Other,
+    }
+}
+
+impl Exec {
+    /// The place of a corner that is still to be made, if there is one.
+    pub fn open_corner(&self) -> Option<Span> {
+        let corner = self.corner.as_ref()?;
+        corner.asked.or(corner.held.as_ref().map(|held| held.asked)).map(|asked| asked.span)
+    }
+
+    /// What is told of a corner that has no next move, if there is one.
+    ///
+    /// # Errors
+    /// There is one.
+    pub fn no_open_corner(&self) -> Result<(), Diagnostic> {
+        match self.open_corner() {
+            None => Ok(()),
+            Some(span) => no_corner(NO_NEXT, span),
+        }
+    }
+
+    /// Asks for a corner behind the next move.
+    #[cold]
+    pub(crate) fn ask_corner(
+        &mut self,
+        shape: CornerShape,
+        size: &Expr,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let size = self.value(size, span)?;
+        if size <= 0 || size > corner::LARGEST {
+            return no_corner("a corner of no size", span);
+        }
+        let corner = self.corner.get_or_insert_default();
+        if corner.asked.is_some() {
+            return not_told("two corners behind one move", span);
+        }
+        corner.asked = Some(Asked { shape, size, span });
+        Ok(())
+    }
+
+    /// Executes a statement while a corner is to be made.
+    #[cold]
+    pub(crate) fn step_at_corner(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let Some(mut corner) = self.corner.take() else { return self.step_on_way(stmt, out) };
+        let span = stmt.span;
+        match part(&stmt.op) {
+            Part::Move => {
+                self.move_at_corner(stmt, &mut corner, out)?;
+                self.corner = corner.held.is_some().then_some(corner);
+                return Ok(());
+            }
+            Part::Corner(shape, size) => {
+                self.corner = Some(corner);
+                return self.ask_corner(shape, size, span);
+            }
+            Part::Plane(plane) if plane != self.modes.plane => {
+                return no_corner("a change of the plane at a corner", span);
+            }
+            Part::Beside | Part::Plane(_) => {}
+            Part::Other => {
+                return match &stmt.op {
+                    Op::ProgramEnd | Op::BeginAgain | Op::Return => no_corner(NO_NEXT, span),
+                    _ => not_told("something other than settings between the moves of a corner", span),
+                };
+            }
+        }
+        let before = out.len();
+        self.step_on_way(stmt, out)?;
+        if let Some(held) = &mut corner.held {
+            held.told.extend(out.drain(before..));
+        }
+        self.corner = Some(corner);
+        Ok(())
+    }
+
+    /// A move with a corner before it, behind it or both.
+    fn move_at_corner(
+        &mut self,
+        stmt: &Stmt,
+        corner: &mut Corner,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        if self.raw.is_some() {
+            return not_told("a move in machine coordinates at a corner", span);
+        }
+        if self.probing.is_some() {
+            return not_told("a probing move at a corner", span);
+        }
+        if self.detour.is_some() {
+            return not_told("a rapid move by a detour at a corner", span);
+        }
+        if self.centre_path.is_some() && self.contour.watched {
+            let what = "a corner of a contour whose compensation is worked out";
+            if self.must_follow_centre() {
+                return not_told(what, span);
+            }
+            self.execute_as_programmed(Fault::NotExecuted { what: what.into() }, span, out);
+        }
+        if self.state.tip || self.state.tilted {
+            return not_told("a corner with the tool's axis turned", span);
+        }
+        if corner.held.is_some()
+            && let Op::ArcForm(arc) = stmt.op.unwrapped()
+            && arc.shape == Shape::Tangent
+        {
+            return not_told("a tangent arc behind a corner", span);
+        }
+        let plane = self.modes.plane;
+        self.undistorted(plane, span)?;
+        let (before, frame, events) = (self.position, self.frame, out.len());
+        self.step_on_way(stmt, out)?;
+        if out.len() != events + 1 {
+            return match out.len() == events {
+                true => no_corner("a move that goes nowhere at a corner", span),
+                false => not_told("an arc of several turns at a corner", span),
+            };
+        }
+        let Some(event) = out.pop() else { return Ok(()) };
+        let mut leg = self.leg(&event, plane, &before, frame == self.frame, span)?;
+        if let Some(held) = corner.held.take() {
+            self.make_corner(held, &event, plane, &mut leg, span, out)?;
+        }
+        match corner.asked.take() {
+            Some(_) if leg.from == leg.to => {
+                return no_corner(corner::CornerFault::TooLarge.words(), span);
+            }
+            Some(asked) => corner.held = Some(Held { asked, plane, leg, event, told: Vec::new() }),
+            None if leg.from == leg.to => {}
+            None => out.push(event),
+        }
+        Ok(())
+    }
+
+    /// The move that an event is, in the program's plane.
+    fn leg(
+        &self,
+        event: &Event,
+        plane: Plane,
+        before: &[Nanos; AXES],
+        same_frame: bool,
+        span: Span,
+    ) -> Result<Leg, Diagnostic> {
+        let (first, second, _) = plane.axes();
+        let (first, second) = (first as usize, second as usize);
+        let stays = (0..AXES).all(|i| i == first || i == second || before[i] == self.position[i]);
+        if !stays || !same_frame {
+            return no_corner("a corner beside a move that leaves its plane", span);
+        }
+        let from = [before[first], before[second]];
+        let to = [self.position[first], self.position[second]];
+        let bend = match &event.kind {
+            Kind::Feed if from == to => return no_corner("a move that goes nowhere at a corner", span),
+            Kind::Feed => None,
+            Kind::Arc { full: true, .. } => return not_told("a corner beside a full circle", span),
+            Kind::Arc { plane: own, centre, turn, .. } if *own == plane => {
+                let mut middle = event.end;
+                (middle[first], middle[second]) = (centre[0], centre[1]);
+                let middle = self.unplace(&middle);
+                // The sense in the program: a mirror is its own way back.
+                let sense = self.chain.as_ref().map_or(Some(*turn), |chain| chain.sense(plane, *turn));
+                let Some(sense) = sense else {
+                    return not_told("a corner in a frame that does not leave it one", span);
+                };
+                Some((sense, [middle[first], middle[second]]))
+            }
+            Kind::Arc { .. } => return no_corner("a corner beside a move that leaves its plane", span),
+            Kind::Traverse => return not_told("a corner beside a rapid", span),
+            _ => return not_told("a corner beside another move than a line or an arc at feed", span),
+        };
+        Ok(Leg { from, to, bend })
+    }
+
+    /// Makes the corner between the move held back and the next one; both get shorter.
+    fn make_corner(
+        &mut self,
+        held: Held,
+        next: &Event,
+        plane: Plane,
+        leg: &mut Leg,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let Held { asked, plane: own, leg: before, mut event, mut told } = held;
+        if own != plane {
+            return no_corner("a change of the plane at a corner", span);
+        }
+        if event.state.feed_mode == FeedMode::InverseTime {
+            return not_told("a corner between moves whose feed is their time", span);
+        }
+        if event.rate != next.rate {
+            return not_told("a corner between moves of different feeds", span);
+        }
+        // A corner beside a contour has a feed of its own.
+        let but_for_feed = |mut state: State| {
+            state.compensation.on_contour = false;
+            state
+        };
+        if but_for_feed(event.state) != but_for_feed(next.state) {
+            return not_told("a corner between moves that are taken differently", span);
+        }
+        let made = corner::between(&before, leg, asked.shape, asked.size);
+        let made = made.map_err(|fault| Diagnostic::new(fault.fault(), asked.span))?;
+        let Some(made) = made else {
+            out.push(event);
+            out.append(&mut told);
+            return Ok(());
+        };
+        let (first, second, _) = plane.axes();
+        let placed = |at: [Nanos; 2]| {
+            let mut point = self.position;
+            (point[first as usize], point[second as usize]) = (at[0], at[1]);
+            self.place(&point)
+        };
+        let kind = match made.bend {
+            None => Kind::Feed,
+            Some((turn, centre)) => {
+                let sense = self.chain.as_ref().map_or(Some(turn), |chain| chain.sense(plane, turn));
+                let Some(turn) = sense else {
+                    return not_told("a corner in a frame that does not leave it one", span);
+                };
+                let centre = placed(centre);
+                let centre = [centre[first as usize], centre[second as usize]];
+                Kind::Arc { plane, turn, full: false, centre }
+            }
+        };
+        let mut inserted = [Event { kind, end: placed(made.to), span: asked.span, ..event.clone() }];
+        if made.from != before.from {
+            event.end = placed(made.from);
+            out.push(event);
+        }
+        self.feed_of_arcs(&mut inserted);
+        out.extend(inserted);
+        out.append(&mut told);
+        leg.from = made.to;
+        Ok(())
+    }
+
+    /// Refuses frames behind which a length of the plane is another one.
+    fn undistorted(&self, plane: Plane, span: Span) -> Result<(), Diagnostic> {
+        if self.chain.is_none() {
+            return Ok(());
+        }
+        let (first, second, _) = plane.axes();
+        let zero = self.place(&[0; AXES]);
+        let same = [first, second].into_iter().all(|axis| {
+            let mut point = [0; AXES];
+            point[axis as usize] = 1000 * ONE;
+            let placed = self.place(&point);
+            let square: f64 = (0..3).map(|i| ((placed[i] - zero[i]) as f64).powi(2)).sum();
+            (square.sqrt() - 1000.0 * ONE as f64).abs() < 1000.0
+        });
+        match same {
+            true => Ok(()),
+            false => not_told("a corner in a frame that scales", span),
+        }
+    }
+}
+
+const NO_NEXT: &str = "a corner without a move that follows in its plane";
+
+/// What no control makes.
+fn no_corner<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
+    Err(Diagnostic::new(Fault::NoCorner { what: what.into() }, span))
+}
+
+/// What no source says, or controls do each in its own way.
+fn not_told<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
+    Err(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span))
+}

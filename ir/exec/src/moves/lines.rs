@@ -1,0 +1,168 @@
+//! Lines executed for their effect on the state alone, where nothing is in force that would ask for more: most of most
+//! programs. What is not so plain is left to [`Exec::step`].
+
+use crate::{Exec, Heading, MOTION, Z, by_control};
+use ncc_ir::canon::{Distance, FeedMode, Motion, Spindle, same_point};
+use ncc_ir::diag::Diagnostic;
+use ncc_ir::program::{Op, Stmt};
+
+impl Exec {
+    /// Executes statements for their effect on the state alone; gives the number of their events.
+    ///
+    /// # Errors
+    /// As of [`Exec::step`].
+    pub fn pass(&mut self, stmts: &[Stmt]) -> Result<u64, Diagnostic> {
+        (self.quiet, self.counted) = (true, 0);
+        let mut none = Vec::new();
+        let lines = self.pass_lines(stmts);
+        let rest = lines.map(|lines| &stmts[lines..]);
+        let passed = rest.and_then(|rest| rest.iter().try_for_each(|stmt| self.step(stmt, &mut none)));
+        self.quiet = false;
+        passed.map(|()| self.counted)
+    }
+
+    /// Whether a line by absolute words changes no more than where the axes stand.
+    fn takes_lines(&self) -> bool {
+        let state = &self.state;
+        self.quiet
+            && !(self.ended || self.narrating || self.every_move || self.speed_watched)
+            && !(state.tip || state.tilted || self.contour.watched)
+            && state.by_control & (by_control::Z | by_control::Z_AT_START | by_control::Z_COUNTED) == 0
+            && state.spindle != Spindle::Stopped
+            && state.feed_mode != FeedMode::InverseTime
+            && self.modes.distance == Distance::Absolute
+            && self.along == Z
+            && self.chain.is_none()
+            && self.carried.is_none()
+            && self.waiting.is_none()
+            && self.in_block.is_none()
+            && self.corner.is_none()
+            && self.centre_path.is_none()
+            && self.cycle.is_none()
+            && self.ways.is_none()
+            && self.after_stop.is_none()
+            && self.raw.is_none()
+            && self.probing.is_none()
+            && self.detour.is_none()
+    }
+
+    /// Executes lines and feeds from the first statement on; gives the number of statements that it has executed.
+    ///
+    /// # Errors
+    /// As of [`Exec::step`].
+    pub(crate) fn pass_lines(&mut self, stmts: &[Stmt]) -> Result<usize, Diagnostic> {
+        if !self.takes_lines() {
+            return Ok(0);
+        }
+        for (at, stmt) in stmts.iter().enumerate() {
+            let (to, feed) = match &stmt.op {
+                Op::StraightFeed(to) => (&to.to, true),
+                Op::StraightTraverse(to) => (&to.to, false),
+                Op::SetFeedRate(feed) if stmt.skip.is_none() => {
+                    self.shown.goes_on();
+                    self.feed = self.value(feed, stmt.span)?;
+                    self.feed_inch = Some(self.modes.inch);
+                    continue;
+                }
+                _ => return Ok(at),
+            };
+            if stmt.skip.is_some() || Exec::turns(to) || feed && self.feed == 0 {
+                return Ok(at);
+            }
+            let (mut next, mut named) = (self.position, 0);
+            for (axis, word) in to.axes[..3].iter().enumerate() {
+                let Some(word) = word else { continue };
+                if word.distance.or(Distance::Absolute) != Distance::Absolute {
+                    return Ok(at);
+                }
+                next[axis] = self.value(&word.value, stmt.span)?;
+                named |= 1 << axis;
+            }
+            self.shown.goes_on();
+            self.relies_on_slots(named);
+            self.at_place &= named >> Z & 1 == 0;
+            if !same_point(&next, &self.position) {
+                self.heading = Heading::From(self.position);
+            }
+            self.position = next;
+            self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
+            self.said |= MOTION;
+            let end = self.place(&next);
+            if !same_point(&end, &self.last) {
+                self.last = end;
+                self.counted += 1;
+            }
+        }
+        Ok(stmts.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::World;
+    use ncc_ir::canon::{AXES, Fact, Modes};
+    use ncc_ir::expr::Expr;
+    use ncc_ir::expr::num::{Num, Unit};
+    use ncc_ir::program::{Coord, Move, Point};
+    use ncc_ir::source::Span;
+
+    fn stmt(op: Op) -> Stmt {
+        Stmt::new(Span::default(), op)
+    }
+
+    /// A line by words of so many micrometres.
+    fn line(feed: bool, words: [Option<i64>; 3], distance: Fact<Distance>) -> Stmt {
+        let mut axes: [Option<Coord>; AXES] = Default::default();
+        for (axis, word) in axes.iter_mut().zip(words) {
+            let value = |mantissa| Num { mantissa, scale: 3, point: true, unit: Unit::Mm };
+            *axis = word.map(|mantissa| Coord { value: Expr::Num(value(mantissa)), distance });
+        }
+        let line = Move { to: Point { axes }, said: true };
+        stmt(if feed { Op::StraightFeed(line) } else { Op::StraightTraverse(line) })
+    }
+
+    /// What is passed leaves the state that steps leave, event by event, in whatever order lines come.
+    #[test]
+    fn lines_that_are_passed_leave_what_steps_leave() {
+        let said = Fact::Known(Distance::Absolute);
+        let incremental = Fact::Known(Distance::Incremental);
+        let start = [
+            stmt(Op::SetDistanceMode(Distance::Absolute)),
+            stmt(Op::SetSpindleSpeed(Expr::int(500))),
+            stmt(Op::StartSpindleClockwise),
+            stmt(Op::SetFeedRate(Expr::int(100))),
+            line(false, [Some(1), Some(2), Some(5_000)], incremental),
+        ];
+        let lines = [
+            line(true, [Some(1_000), None, Some(-250)], Fact::Entry),
+            line(true, [Some(1_000), None, None], Fact::Entry),
+            line(false, [None, Some(-3_333), None], said),
+            stmt(Op::SetFeedRate(Expr::int(80))),
+            line(true, [None, None, Some(12)], said),
+            line(false, [None, None, None], said),
+            line(true, [Some(7), None, None], incremental),
+            line(true, [Some(7), Some(8), Some(9)], said),
+        ];
+        let world = World::generate(1, &Modes::default());
+        for (skipped, many) in (0..start.len()).flat_map(|at| (0..=lines.len()).map(move |many| (at, many))) {
+            let (what, lines) = (format!("without {skipped}, {many} lines"), &lines[..many]);
+            let mut one = Exec::new(&world, 0);
+            let head = start.iter().enumerate().filter(|(at, _)| skipped == 0 || *at != skipped);
+            let mut events = Vec::new();
+            for (_, stmt) in head {
+                let _ = one.step(stmt, &mut events);
+            }
+            let mut other = one.clone();
+            let passed = one.pass(lines);
+            events.clear();
+            let stepped = lines.iter().try_for_each(|stmt| other.step(stmt, &mut events));
+            assert_eq!(passed.is_err(), stepped.is_err(), "{what}");
+            if passed.is_ok() {
+                assert_eq!(passed.ok(), Some(events.len() as u64), "{what}");
+                other.counted = one.counted;
+                assert_eq!(format!("{one:?}"), format!("{other:?}"), "{what}");
+            }
+        }
+    }
+}

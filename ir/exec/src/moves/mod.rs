@@ -1,0 +1,17 @@
+//! Moves: lines, arcs, corners, the contour beside which the tool goes, cycles, and how long each takes.
+
+pub(crate) mod arcs;
+pub(crate) mod carried;
+pub(crate) mod centre_path;
+pub(crate) mod compensation;
+pub(crate) mod corner;
+pub(crate) mod emit;
+pub(crate) mod fine;
+pub(crate) mod holes;
+pub(crate) mod lines;
+pub(crate) mod pace;
+pub(crate) mod polar;
+pub(crate) mod rotary;
+pub(crate) mod speed;
+pub(crate) mod standing;
+pub(crate) mod thread;

@@ -1,0 +1,105 @@
+//! How far, and which way round, an absolute word turns a rotary axis.
+//!
+//! As far as its number says; or the shortest way to that angle; or to that angle in the direction of the number's sign.
+//! From a place that the program has not said itself it turns as its number says on all controls: nobody could tell.
+//!
+//! Not here: words that say the way themselves (`conduct`).
+
+use crate::Exec;
+use ncc_ir::behaviour::Behaviour;
+use ncc_ir::canon::{AXES, Axis, Distance};
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::program::kinds::frames;
+use ncc_ir::program::{Coord, Op, Point, Stmt};
+
+/// A full turn, nanos of a degree.
+const TURN: Nanos = 360 * ONE;
+
+/// What decides about it.
+const WAY: Behaviour = Behaviour::RotaryTurn;
+
+/// The value of the shortest way.
+const SHORTEST: u8 = 1;
+
+/// Where an axis that stands at `from` goes by an absolute word, on a control with this value of the behaviour.
+pub fn end(value: u8, from: Nanos, to: Nanos) -> Nanos {
+    match WAY.values().get(usize::from(value)) {
+        Some(&"shortest") => {
+            let way = (to - from).rem_euclid(TURN);
+            if way > TURN / 2 { from + way - TURN } else { from + way }
+        }
+        Some(&"sign") => {
+            let up = (to.abs() - from).rem_euclid(TURN);
+            if to < 0 && up != 0 { from + up - TURN } else { from + up }
+        }
+        _ => to,
+    }
+}
+
+impl Exec {
+    /// Whether a point has words of rotary axes.
+    #[inline]
+    pub(crate) fn turns(to: &Point) -> bool {
+        to.axes[Axis::A as usize..].iter().any(Option::is_some)
+    }
+
+    /// Has rotary axes go to where this control takes them; `next` is where the numbers say.
+    #[cold]
+    pub(crate) fn turn_rotary(&mut self, to: &Point, next: &mut [Nanos; AXES]) {
+        for (axis, next) in next.iter_mut().enumerate().skip(Axis::A as usize) {
+            let Some(word) = &to.axes[axis] else { continue };
+            let absolute = word.distance.or(self.modes.distance) == Distance::Absolute;
+            let bit = 1 << axis;
+            if absolute && self.turned_known & bit != 0 && !self.own_way {
+                let from = self.position[axis];
+                if end(SHORTEST, from, *next) != *next {
+                    self.asked |= WAY.bit();
+                }
+                *next = end(self.world.behaviours.get(WAY), from, *next);
+            }
+            if absolute {
+                self.turned_known |= bit;
+            }
+        }
+    }
+
+    /// Whether any of these statements turns a rotary axis in a way that controls do not agree about.
+    pub(crate) fn turns_far_in(&self, stmts: &[Stmt]) -> bool {
+        let (mut at, mut known, mut distance) = (self.position, self.turned_known, self.modes.distance);
+        // Behind another zero, where an axis stands hangs on the tables.
+        let mut elsewhere = 0;
+        for stmt in stmts.iter().filter(|stmt| !self.skips(stmt)) {
+            let to = match &stmt.op {
+                Op::SetDistanceMode(mode) => {
+                    distance = *mode;
+                    continue;
+                }
+                Op::StraightTraverse(m) | Op::StraightFeed(m) => &m.to,
+                frames!() | Op::SetData(_) => {
+                    elsewhere = known;
+                    continue;
+                }
+                _ => continue,
+            };
+            for (axis, at) in at.iter_mut().enumerate().skip(Axis::A as usize) {
+                let Some(word) = &to.axes[axis] else { continue };
+                let Some(value) = self.degrees(word) else { return true };
+                if word.distance.or(distance) == Distance::Incremental {
+                    *at += value;
+                    continue;
+                }
+                let unsure = elsewhere >> axis & 1 == 1;
+                if unsure || known >> axis & 1 == 1 && end(SHORTEST, *at, value) != value {
+                    return true;
+                }
+                *at = value;
+                known |= 1 << axis;
+            }
+        }
+        false
+    }
+
+    fn degrees(&self, word: &Coord) -> Option<Nanos> {
+        self.nanos(&word.value)
+    }
+}

@@ -1,0 +1,651 @@
+//! Execution of a program that is kept whole: calls, repetitions, variables and jumps, one statement at a time.
+
+pub(crate) mod code;
+pub(crate) mod entry;
+pub(crate) mod go;
+pub(crate) mod left;
+pub(crate) mod needed;
+pub(crate) mod nesting;
+pub(crate) mod rounds;
+pub(crate) mod term;
+
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::{Exec, message};
+use crate::run::code::{Again, At, Called, Code, Declared, Step};
+use crate::run::needed::needed;
+use crate::run::nesting::{Blocks, Frame};
+use crate::run::rounds::Rounds;
+use crate::run::term::{Asked, Place, Variables, Why, real};
+use ncc_ir::canon::FeedMode;
+use ncc_ir::computed::code_of::is_last;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::{Num, ONE, Unit};
+use ncc_ir::expr::value::Value;
+use ncc_ir::expr::{Expr, Var};
+use ncc_ir::halt;
+use ncc_ir::program::arguments;
+use ncc_ir::program::{Centre, Coord, Op, Program, Stmt};
+use ncc_ir::source::Span;
+
+/// Deepest nesting of calls and repetitions.
+const DEEPEST: usize = 64;
+
+/// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
+/// end.
+const MOST_STEPS: u64 = 50_000_000;
+
+/// Most of them between two statements that are executed by themselves, and between two that anything comes of: a
+/// control that executes a thousand blocks a second stands still for half an hour with so many.
+const MOST_IDLE: u64 = 2_000_000;
+
+/// A run of a whole program from its first statement.
+#[derive(Clone, Debug)]
+pub struct Runner<'p> {
+    code: Rc<Code<'p>>,
+    /// The next step.
+    at: At,
+    /// Calls in force; the first is the main procedure.
+    calls: Vec<Frame>,
+    /// Further turns of the bodies that are counted and open.
+    turns: Vec<u64>,
+    /// Blocks that are executed again.
+    blocks: Vec<Blocks>,
+    /// Where those of them that are the innermost end, if the present call executes them.
+    end: At,
+    pub(super) variables: Variables,
+    /// Statements with what was computed for them last.
+    now: Vec<Stmt>,
+    pub(super) steps: u64,
+    /// Steps at the last event.
+    pub(super) eventful: u64,
+    rounds: Rounds,
+    /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
+    taken: Vec<u8>,
+    /// Most steps of all.
+    most: u64,
+    /// Most steps between two statements that are executed by themselves.
+    pub(super) most_idle: u64,
+    /// Parameters of the main procedure that are read, with the place where it begins.
+    pub(super) needed: Vec<(Var, Place, Span)>,
+}
+
+/// No step.
+const NOWHERE: At = At::MAX;
+
+impl<'p> Runner<'p> {
+    /// Ready to run the main procedure.
+    pub fn new(program: &'p Program) -> Runner<'p> {
+        let code = Code::new(program);
+        let needed = needed(program, &code.names);
+        let (parameters, given) = (Rc::new([]), Rc::new([]));
+        let main =
+            Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, shared: false, parameters, given };
+        Runner {
+            at: 0,
+            calls: vec![main],
+            turns: Vec::new(),
+            blocks: Vec::new(),
+            end: NOWHERE,
+            variables: Variables::new(&code.names),
+            now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
+            steps: 0,
+            eventful: 0,
+            rounds: Rounds::default(),
+            taken: vec![0; code.steps.len()],
+            most: MOST_STEPS,
+            most_idle: MOST_IDLE,
+            needed,
+            code: Rc::new(code),
+        }
+    }
+
+    /// Gives variables their values before the program begins: local ones of the main procedure, and those that
+    /// all procedures see.
+    pub fn give(&mut self, value: &mut dyn FnMut(&Var) -> Option<Value>) {
+        for (var, place) in self.code.names.all() {
+            if let Some(value) = value(&var) {
+                self.variables.set(place, value);
+            }
+        }
+    }
+
+    /// The block of the step that was made last.
+    pub fn here(&self) -> Span {
+        let step = self.code.steps.get((self.at as usize).saturating_sub(1));
+        step.and_then(Step::stmt).map_or(Span::default(), |stmt| stmt.span)
+    }
+
+    /// Has a run be taken for one without an end after so many steps.
+    pub fn limit(&mut self, most: u64) {
+        self.most = most;
+    }
+
+    /// Has a run that decides and computes without doing anything, or does only what changes nothing, be taken for one
+    /// without an end after so many steps.
+    pub fn limit_idle(&mut self, most: u64) {
+        self.most_idle = most;
+    }
+
+    /// Adds the ways of decisions that were taken to those of other runs of the same program.
+    pub fn add_taken(&self, all: &mut Vec<u8>) {
+        all.resize(self.taken.len(), 0);
+        all.iter_mut().zip(&self.taken).for_each(|(all, taken)| *all |= taken);
+    }
+
+    /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
+    /// were, 0 to 2, as of [`Runner::add_taken`]. Checks that the call of a cycle makes of its own values are not
+    /// the program's decisions.
+    pub fn untaken(&self, all: &[u8]) -> Vec<(Span, u8)> {
+        let steps = self.code.steps.iter().zip(all).enumerate();
+        let mut found: Vec<(Span, u8)> = steps
+            .filter_map(|(at, (step, taken))| match step {
+                Step::Unless(stmt, ..) if self.is_check(at, stmt.span) => None,
+                Step::Unless(_, _, to) if *taken == 1 && self.is_no_code(*to) => None,
+                Step::Unless(stmt, ..) | Step::UnlessCounted(stmt, ..) if *taken != 3 => {
+                    Some((stmt.span, *taken))
+                }
+                _ => None,
+            })
+            .collect();
+        found.sort_by_key(|(span, _)| span.start);
+        // Of decisions that are made of one place, one that was not come to says nothing further.
+        found.dedup_by(|next, before| next.0 == before.0 && next.1 == 0);
+        found
+    }
+
+    /// How many decisions there are of which not both ways were taken, such checks among them.
+    pub fn open_ways(&self, all: &[u8]) -> usize {
+        let decides = |step: &Step| matches!(step, Step::Unless(..) | Step::UnlessCounted(..));
+        self.code.steps.iter().zip(all).filter(|(step, taken)| decides(step) && **taken != 3).count()
+    }
+
+    /// Whether no value comes to a step, behind the last code of a group.
+    fn is_no_code(&self, at: u32) -> bool {
+        matches!(self.code.steps.get(at as usize), Some(Step::Do(stmt)) if is_last(&stmt.op))
+    }
+
+    /// Whether a decision is an alarm's, of the block that then calls up a cycle.
+    fn is_check(&self, at: usize, block: Span) -> bool {
+        let is = |at: usize, op: fn(&Op) -> bool| {
+            let step = self.code.steps.get(at);
+            matches!(step, Some(Step::Do(stmt) | Step::Compute(stmt, _)) if op(&stmt.op) && stmt.span == block)
+        };
+        let calls = |after: usize| is(after, |op| matches!(op, Op::StartCycle(_)));
+        is(at + 1, |op| matches!(op, Op::Alarm(_))) && (calls(at + 2) || calls(at + 3))
+    }
+
+    /// Whether another run of the same program stands at the same step, with the same in its variables.
+    pub fn is_at(&self, other: &Runner) -> bool {
+        (self.at, self.end, self.steps) == (other.at, other.end, other.steps)
+            && self.calls.len() == other.calls.len()
+            && self.turns == other.turns
+            && self.variables == other.variables
+    }
+
+    /// Goes through calls, repetitions, jumps and assignments to the next statement that is to be executed by
+    /// itself, its arguments computed; the caller executes it. `None` is the program's end.
+    ///
+    /// # Errors
+    /// A call or label that there is not, a call without an end, an expression without a value.
+    pub fn next(&mut self, exec: &Exec) -> Result<Option<&Stmt>, Diagnostic> {
+        self.next_of(exec, None)
+    }
+
+    /// As [`Runner::next`]; of the control's own values, only those are known of which another control that has
+    /// executed the same statements has the same.
+    ///
+    /// # Errors
+    /// As of [`Runner::next`].
+    pub fn next_of(&mut self, exec: &Exec, other: Option<&Exec>) -> Result<Option<&Stmt>, Diagnostic> {
+        // The steps are shared, so that they can be read while the rest changes.
+        let code = Rc::clone(&self.code);
+        let asked = Asked { exec, other, system: &code.names.system };
+        let before = self.steps;
+        if self.steps == 0 {
+            self.parameters_have_values()?;
+        }
+        loop {
+            if exec.ended() {
+                return Ok(None);
+            }
+            if self.at == self.end {
+                self.end_of_blocks();
+                continue;
+            }
+            let step = &code.steps[self.at as usize];
+            self.at += 1;
+            self.steps += 1;
+            let Some(stmt) = step.stmt() else {
+                if self.leave() {
+                    continue;
+                }
+                exec.no_open_corner()?;
+                return Ok(None);
+            };
+            let span = stmt.span;
+            if halt::is_asked() {
+                return Err(Diagnostic::new(Fault::Interrupted { steps: self.steps }, span));
+            }
+            if self.steps > self.most {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most }, span));
+            }
+            if self.steps - before > self.most_idle {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
+            }
+            if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
+                if let Step::Unskipped(_, to) = step {
+                    self.at = *to;
+                }
+                continue;
+            }
+            match step {
+                Step::Do(_) => return Ok(Some(stmt)),
+                Step::Compute(_, at) => {
+                    if self.compute(*at as usize, asked)? {
+                        return Ok(Some(&self.now[*at as usize]));
+                    }
+                }
+                Step::Assign(_, to) => {
+                    let (place, term) = &**to;
+                    let value = self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?;
+                    let Some(place) = place else {
+                        let what = "a variable of the control's own that is set".into();
+                        return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
+                    };
+                    self.variables.set(*place, value);
+                }
+                Step::AssignElement(_, to) => {
+                    let (element, term) = &**to;
+                    let place = element.as_ref().ok_or(Why::Index).and_then(|e| self.variables.at(e, asked));
+                    let value = self.variables.value(term, asked);
+                    let (place, value) = place
+                        .and_then(|place| Ok((place, value?)))
+                        .map_err(|why| self.no_value(why, span))?;
+                    self.variables.set(place, value);
+                }
+                Step::Declare(_, declared) => self.declare(declared, asked, span)?,
+                Step::Jump(_, to) => {
+                    let from = std::mem::replace(&mut self.at, *to);
+                    self.goes_on(from, span)?;
+                }
+                Step::Again(_, to) => self.another_turn(*to),
+                Step::Unskipped(..) | Step::End => {}
+                Step::Unless(_, condition, to) => {
+                    let value =
+                        self.variables.number(condition, asked).map_err(|why| self.no_value(why, span))?;
+                    self.taken[self.at as usize - 1] |= if value == 0.0 { 2 } else { 1 };
+                    if value == 0.0 {
+                        self.at = *to;
+                    }
+                }
+                Step::UnlessCounted(_, counter, to) => {
+                    let [count, end, pace] = [counter.place, counter.end, counter.pace]
+                        .map(|place| self.variables.get(place).number());
+                    let over = if pace < 0.0 { count < end } else { count > end };
+                    self.taken[self.at as usize - 1] |= if over { 2 } else { 1 };
+                    if over {
+                        self.at = *to;
+                    }
+                }
+                Step::Count(_, counter) => {
+                    let [count, pace] =
+                        [counter.place, counter.pace].map(|place| self.variables.get(place).number());
+                    self.variables.set(counter.place, Value::Number(count + pace));
+                }
+                Step::Turns(_, times, to) => {
+                    exec.no_open_corner()?;
+                    let times =
+                        self.variables.number(times, asked).map_err(|why| self.no_value(why, span))?;
+                    if times < 0.0 || times != times.trunc() || times > self.most as f64 {
+                        return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
+                    }
+                    if times == 0.0 {
+                        self.at = *to;
+                    } else {
+                        self.turns.push(times as u64 - 1);
+                    }
+                }
+                Step::Goto(_, to) => {
+                    exec.no_open_corner()?;
+                    let from = self.at;
+                    self.jump(*to, stmt)?;
+                    self.goes_on(from, span)?;
+                }
+                Step::Call(_, called) => {
+                    exec.no_open_corner()?;
+                    self.call(called, asked, span)?;
+                }
+                Step::Return(_) => {
+                    exec.no_open_corner()?;
+                    // A subprogram that stands alone has been executed.
+                    if !self.leave() {
+                        return Ok(None);
+                    }
+                }
+                Step::Blocks(_, again) => {
+                    exec.no_open_corner()?;
+                    let times =
+                        self.variables.number(&again.times, asked).map_err(|why| self.no_value(why, span))?;
+                    let least = f64::from(u8::from(again.computed));
+                    if times < least || times != times.trunc() || times > self.most as f64 {
+                        return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
+                    }
+                    self.again(again, times as u64, stmt)?;
+                }
+            }
+        }
+    }
+
+    /// That a way back leads to where something is different.
+    #[inline]
+    fn goes_on(&mut self, from: At, span: Span) -> Result<(), Diagnostic> {
+        let back = self.at < from && !self.asks();
+        if back && self.rounds.again(self.at, &self.variables, &self.calls, &self.turns, &self.blocks) {
+            return Err(Diagnostic::new(Fault::Endless, span));
+        }
+        Ok(())
+    }
+
+    /// Whether the program asks for values of the control's own.
+    pub fn asks(&self) -> bool {
+        !self.code.names.system.is_empty()
+    }
+
+    fn declare(&mut self, declared: &Declared, asked: Asked, span: Span) -> Result<(), Diagnostic> {
+        let Some((first, count)) = declared.places else { return Err(self.no_value(Why::Index, span)) };
+        for offset in 0..count {
+            let value = match declared.values.get(offset as usize) {
+                Some(Some(term)) => {
+                    self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?
+                }
+                Some(None) | None => Value::Number(0.0),
+            };
+            let place = match first {
+                Place::Local(first) => Place::Local(first + offset),
+                Place::Shared(first) => Place::Shared(first + offset),
+            };
+            self.variables.set(place, value);
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn no_value(&self, why: Why, span: Span) -> Diagnostic {
+        Diagnostic::new(self.code.names.fault(why), span)
+    }
+
+    fn another_turn(&mut self, to: At) {
+        match self.turns.last_mut() {
+            Some(left) if *left > 0 => {
+                *left -= 1;
+                self.at = to;
+            }
+            Some(_) | None => {
+                self.turns.pop();
+            }
+        }
+    }
+
+    fn deep(&self, name: &str, span: Span) -> Result<(), Diagnostic> {
+        if self.calls.len() + self.blocks.len() + self.turns.len() >= DEEPEST {
+            return Err(Diagnostic::new(
+                Fault::CallsTooDeep { name: name.into(), most: DEEPEST as u32 },
+                span,
+            ));
+        }
+        Ok(())
+    }
+
+    fn call(&mut self, called: &Called, asked: Asked, span: Span) -> Result<(), Diagnostic> {
+        let name = &called.call.name;
+        let Some(entry) = called.entry else {
+            return Err(Diagnostic::new(Fault::CallUnknown { name: name.clone() }, span));
+        };
+        if called.call.times == 0 {
+            return Ok(());
+        }
+        self.deep(name, span)?;
+        let given: Result<Rc<[Value]>, Why> =
+            called.arguments.iter().map(|term| self.variables.value(term, asked)).collect();
+        let given = given.map_err(|why| self.no_value(why, span))?;
+        let frame = Frame {
+            entry,
+            back: self.at,
+            again: called.call.times - 1,
+            turns: self.turns.len(),
+            base: self.variables.base,
+            shared: called.call.shared,
+            parameters: called.parameters.clone(),
+            given,
+        };
+        if !frame.shared {
+            self.variables.base = self.variables.locals.len();
+        }
+        self.enter(&frame);
+        self.calls.push(frame);
+        self.end = NOWHERE;
+        Ok(())
+    }
+
+    /// Gives a call its locals, new ones each time if it has its own, and its parameters.
+    fn enter(&mut self, frame: &Frame) {
+        if !frame.shared {
+            let base = self.variables.base;
+            self.variables.locals.truncate(base);
+            self.variables.locals.resize(base + self.code.names.count as usize, Value::Vacant);
+        }
+        for (place, value) in frame.parameters.iter().zip(&*frame.given) {
+            self.variables.set(*place, *value);
+        }
+        self.at = frame.entry;
+    }
+
+    /// Ends the present call; `false` is the main procedure.
+    fn leave(&mut self) -> bool {
+        let Some(mut frame) = self.calls.pop() else { return false };
+        if frame.back == NOWHERE {
+            self.calls.push(frame);
+            return false;
+        }
+        self.turns.truncate(frame.turns);
+        let depth = self.calls.len();
+        self.blocks.retain(|blocks| blocks.call <= depth);
+        if frame.again > 0 {
+            frame.again -= 1;
+            self.enter(&frame);
+            self.calls.push(frame);
+        } else {
+            if !frame.shared {
+                self.variables.locals.truncate(self.variables.base);
+                self.variables.base = frame.base;
+            }
+            self.at = frame.back;
+        }
+        self.find_end();
+        true
+    }
+
+    fn jump(&mut self, to: Option<(At, u32)>, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let Some((to, counted)) = to else {
+            let Op::Goto(label) = &stmt.op else {
+                let what = "a word that leaves a loop, outside of any".into();
+                return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+            };
+            return Err(Diagnostic::new(Fault::LabelUnknown { name: label.clone() }, stmt.span));
+        };
+        let inner = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
+        if inner.is_some_and(|blocks| !(blocks.begin..blocks.end).contains(&to)) {
+            let what = "a jump out of blocks that are executed again".into();
+            return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+        }
+        let open = match (inner, self.calls.last()) {
+            (Some(blocks), _) => blocks.turns + counted.saturating_sub(blocks.counted) as usize,
+            (None, Some(frame)) => frame.turns + counted as usize,
+            (None, None) => 0,
+        };
+        self.turns.truncate(open);
+        self.at = to;
+        Ok(())
+    }
+
+    fn again(&mut self, again: &Again, times: u64, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let Some((begin, end)) = again.steps else {
+            let Op::RepeatBlocks(repeat) = &stmt.op else { return Ok(()) };
+            return Err(Diagnostic::new(Fault::LabelUnknown { name: repeat.from.clone() }, stmt.span));
+        };
+        if times > 0 && begin < end {
+            self.deep("", stmt.span)?;
+            let (call, turns) = (self.calls.len(), self.turns.len());
+            let left = times - 1;
+            let counted = again.counted;
+            self.blocks.push(Blocks { begin, end, back: self.at, again: left, call, turns, counted });
+            self.at = begin;
+            self.end = end;
+        }
+        Ok(())
+    }
+
+    fn end_of_blocks(&mut self) {
+        let Some(blocks) = self.blocks.last_mut() else { return };
+        if blocks.again > 0 {
+            blocks.again -= 1;
+            self.at = blocks.begin;
+        } else {
+            self.at = blocks.back;
+            self.blocks.pop();
+            self.find_end();
+        }
+    }
+
+    fn find_end(&mut self) {
+        let here = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
+        self.end = here.map_or(NOWHERE, |blocks| blocks.end);
+    }
+
+    /// Computes a statement's arguments; `false` where nothing is left of it.
+    fn compute(&mut self, at: usize, asked: Asked) -> Result<bool, Diagnostic> {
+        let code = Rc::clone(&self.code);
+        let computed = &code.computed[at];
+        let (stmt, now) = (computed.stmt, &mut self.now[at]);
+        let variables = &self.variables;
+        let fault = |fault| Diagnostic::new(fault, stmt.span);
+        let mut terms = computed.terms.iter();
+        match (&stmt.op, &mut now.op) {
+            (Op::StraightFeed(from), Op::StraightFeed(to))
+            | (Op::StraightTraverse(from), Op::StraightTraverse(to))
+            | (Op::Position(from), Op::Position(to))
+            | (Op::Hole(from), Op::Hole(to)) => {
+                for ((axis, word), term) in from.to.axes.iter().enumerate().zip(terms) {
+                    if let (Some(word), Some(term)) = (word, term) {
+                        let value =
+                            variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?;
+                        let unit = if axis < 3 { Unit::Entry } else { Unit::Degree };
+                        let value = literal(value, unit).map_err(fault)?;
+                        to.to.axes[axis] =
+                            value.map(|n| Coord { value: Expr::Num(n), distance: word.distance });
+                    }
+                }
+                let makes_holes = matches!(stmt.op, Op::Hole(_) | Op::Position(_));
+                if makes_holes && to.to.axes.iter().all(Option::is_none) {
+                    let what = "a position of which no word has a value".into();
+                    return Err(fault(Fault::NotExecuted { what }));
+                }
+                return Ok(true);
+            }
+            _ => {}
+        }
+        if asked.exec.shown.leaves_out(&stmt.op) {
+            return Ok(false);
+        }
+        if let Some(pieces) = message::pieces(&stmt.op) {
+            let text = asked.exec.shown.clone().with_values(pieces, &mut |value| match terms.next() {
+                Some(Some(term)) => variables.value(term, asked).map_err(|why| fault(code.names.fault(why))),
+                _ => Ok(value.literal().map_or(Value::Vacant, |n| Value::Number(real(n)))),
+            })?;
+            now.op = message::said(&stmt.op, text);
+            return Ok(true);
+        }
+        now.op = stmt.op.clone();
+        let per_time = asked.exec.state.feed_mode == FeedMode::InverseTime;
+        let rate = matches!(now.op, Op::SetFeedRate(_));
+        let positive = rate || matches!(now.op, Op::SetSpindleSpeed(_) | Op::SelectTool(_) | Op::Dwell(_));
+        let mut left = true;
+        let droppable = matches!(now.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
+        arguments::each(&mut now.op, &mut |argument, unit| {
+            let Some(Some(term)) = terms.next() else { return Ok(()) };
+            let value = variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?;
+            let unit = if rate && per_time { Unit::One } else { unit };
+            if positive && value != Value::Vacant && value.number() < 0.0
+                || rate && value == Value::Number(0.0)
+            {
+                let what = "a feed, a speed, a time or a number that is not positive".into();
+                return Err(fault(Fault::NotExecuted { what }));
+            }
+            match literal(value, unit).map_err(fault)? {
+                Some(n) => argument.set(Expr::Num(n)),
+                None => match argument {
+                    arguments::Argument::Word(word) => *word = None,
+                    arguments::Argument::Optional(place) => *place = None,
+                    arguments::Argument::Value(_) if droppable => left = false,
+                    arguments::Argument::Value(_) => {
+                        let what = "a word without a value that cannot be left out".into();
+                        return Err(fault(Fault::NotExecuted { what }));
+                    }
+                },
+            }
+            Ok(())
+        })?;
+        if let Op::ArcFeed(arc) = &now.op
+            && let Centre::Point { words, .. } = &arc.centre
+            && words.iter().all(Option::is_none)
+        {
+            return Err(fault(Fault::ArcWithoutCentre));
+        }
+        Ok(left)
+    }
+}
+
+/// A value as a literal, to a billionth, or where it may be of an inch to a hundred-millionth; nothing is none.
+fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
+    let Value::Number(n) = value else { return Ok(None) };
+    if unit == Unit::One && n == n.trunc() && n.abs() < 1e15 {
+        return Ok(Some(Num::int(n as i64, unit)));
+    }
+    let (scale, scaled) = match unit {
+        Unit::Entry => (8, n * (ONE as f64 / 10.0)),
+        Unit::One | Unit::Mm | Unit::Inch | Unit::Degree | Unit::Second => (9, n * ONE as f64),
+    };
+    if scaled.abs() >= 9e18 {
+        return Err(Fault::OutOfRange { word: "".into() });
+    }
+    // Half away from zero.
+    let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
+    Ok(Some(Num { mantissa, scale, point: true, unit }))
+}
+
+/// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of
+/// another label's block.
+pub fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str>) -> Option<&'p [Stmt]> {
+    blocks_again(body, at, from, to).map(|blocks| &body[blocks])
+}
+
+/// Their places in the body.
+pub(super) fn blocks_again(body: &[Stmt], at: usize, from: &str, to: Option<&str>) -> Option<Range<usize>> {
+    let label =
+        |name: &str| body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name));
+    let start = label(from)?;
+    let end = match to {
+        None => {
+            // The repetition's own block is not executed again.
+            (start..=at).rev().find(|&i| !body[i].joined)?.max(start)
+        }
+        Some(to) => {
+            let last = label(to).filter(|last| *last >= start)?;
+            let block = body[last + 1..at].iter().take_while(|s| s.joined).count();
+            last + 1 + block
+        }
+    };
+    Some(start..end)
+}

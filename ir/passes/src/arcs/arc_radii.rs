@@ -1,0 +1,83 @@
+//! Arcs that the source's control accepts and the target's may not: radii at start and end that differ, and a stated
+//! radius a little below half the chord.
+//!
+//! `G2 X20. R9.999` from X0 goes half round on a control that takes that for half a circle; for one that does not, the
+//! centre is written: `G2 X20. I10.`. Radii that differ by more than the target accepts are refused at their block: no
+//! centre within the comparison's tolerance would make them equal.
+//!
+//! Not here: what the source's own control refuses, which its execution finds; and arcs whose start is not known, which
+//! the execution of the output finds.
+
+use crate::Target;
+use crate::arcs::convert_arcs::centre_of;
+use crate::support::walk::Walk;
+use crate::support::write::is_absolute;
+use ncc_ir::canon::{Axis, Units};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::{self, ArcFault};
+use ncc_ir::program::{Arc, Centre, CentreFrom};
+
+/// What becomes of an arc.
+pub(crate) enum Judged {
+    /// It stays as it is.
+    Kept,
+    /// Its centre was written in the place of its radius.
+    ByCentre,
+    /// The target does not accept it.
+    Refused(Fault),
+}
+
+/// Judges an arc by the target's rule, for the walk that stands before it. What the source's rule refuses is left to
+/// the source's execution.
+pub(crate) fn over(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
+    let Some(plane) = walk.at.plane(arc.plane) else { return Judged::Kept };
+    let (first, second, _) = plane.axes();
+    let unknown = |axis: Axis| walk.at.position[axis as usize].is_none();
+    if !unknown(first) && !unknown(second) {
+        return judge(arc, walk, [first, second], source, target);
+    }
+    // Where all of its words count from its start, that may be anywhere.
+    let counts_on = |axis: Axis| {
+        let absolute = |word| is_absolute(word, walk.at.modes.distance);
+        !arc.to.get(axis).is_some_and(absolute)
+    };
+    let from_zero = matches!(arc.centre, Centre::Point { from: CentreFrom::Zero, .. });
+    if from_zero || walk.at.modes.distance.is_none() || !counts_on(first) || !counts_on(second) {
+        return Judged::Kept;
+    }
+    let mut own = walk.clone();
+    for axis in [first, second] {
+        own.at.position[axis as usize].get_or_insert(0);
+    }
+    judge(arc, &own, [first, second], source, target)
+}
+
+fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: &Target) -> Judged {
+    let inch = walk.at.modes.units == Some(Units::Inch);
+    let end = walk.at.target(&arc.to);
+    let of = |place: &[Option<Nanos>]| Some([place[axes[0] as usize]?, place[axes[1] as usize]?]);
+    let (Some(start), Some(end)) = (of(&walk.at.position), of(&end)) else { return Judged::Kept };
+    if let Centre::Radius(radius) = &arc.centre {
+        let Some(radius) = walk.at.nanos(radius) else { return Judged::Kept };
+        let short = target.caps.arcs.short(inch);
+        let reaches = geometry::centre_by_radius(start, end, radius, arc.turn, short);
+        return match reaches {
+            Err(ArcFault::RadiusTooSmall) if centre_of(arc, walk, target).is_ok() => Judged::ByCentre,
+            _ => Judged::Kept,
+        };
+    }
+    let Some(centre) = walk.at.centre(arc) else { return Judged::Kept };
+    let radii = geometry::radii(start, end, centre);
+    if source.check(radii, inch).is_err() {
+        return Judged::Kept;
+    }
+    match target.caps.arcs.check(radii, inch) {
+        Err(ArcFault::EndOffCircle { radii, allowed }) => {
+            Judged::Refused(Fault::ArcRadiiDiffer { radii, allowed })
+        }
+        Err(ArcFault::NoRadius) => Judged::Refused(Fault::CannotSay { what: "an arc of this radius".into() }),
+        _ => Judged::Kept,
+    }
+}

@@ -1,0 +1,114 @@
+//! `cutter-radius`: by which radius a contour is compensated, in the words that the target has.
+//!
+//! A control takes the radius of an entry that the block names, that of the entry with the tool's
+//! number, or that of the edge (or entry) whose length is in force. One stands for another where the
+//! program itself shows that they are the same place of the tables; otherwise it is refused. How the
+//! tool goes onto the contour and leaves it is each control's own: between two of them it is taken to
+//! be the same, and told once.
+
+use crate::support::walk::Walk;
+use crate::support::write::{Rebuild, rebuild};
+use crate::{Target, each_body};
+use ncc_ir::caps::Radii;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{CutterRadius, Op, Program, Stmt};
+use ncc_ir::track::Tracker;
+
+/// What the pass remembers from piece to piece of a program.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct State {
+    /// Whether entry and exit were told.
+    told: bool,
+    /// Entries of the tables that were told.
+    entries: Vec<u32>,
+}
+
+/// Names radii as the target does.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    each_body(program, entry, |body, walk| over(body, walk, &mut state, target, diags));
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    rebuild(body, |mut stmt, made: &mut Rebuild| {
+        walk.enter(stmt.skip);
+        let span = stmt.span;
+        if let Op::StartCutterRadiusCompensation { radius, .. } = &mut stmt.op {
+            match named(radius, &target.caps.radii, &walk.at) {
+                Ok((own, entry)) => {
+                    *radius = own;
+                    if let Some(entry) = entry.filter(|_| target.other_control)
+                        && !state.entries.contains(&entry)
+                    {
+                        state.entries.push(entry);
+                        diags.push(Diagnostic::new(Fault::AssumedRadius { entry }, span));
+                    }
+                }
+                Err(fault) => diags.push(Diagnostic::new(fault, span)),
+            }
+            if target.other_control && !std::mem::replace(&mut state.told, true) {
+                diags.push(Diagnostic::new(Fault::AssumedContourEnds, span));
+            }
+        }
+        walk.step(&stmt);
+        made.push(stmt);
+    });
+}
+
+fn number(n: i64) -> Option<u32> {
+    u32::try_from(n).ok().filter(|n| *n > 0)
+}
+
+/// A radius as the target names it, and the entry that it is taken for where that is another way.
+fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRadius, Option<u32>), Fault> {
+    let cannot = |what: String| Err(Fault::CannotSay { what: what.into() });
+    if *radii == Radii::default() {
+        return cannot("cutter radius compensation".into());
+    }
+    let tool = at.tool.and_then(number);
+    let length = at.modes.length_offset.filter(|n| *n > 0);
+    // Where the tables have it, as far as the program shows.
+    let (entry, can) = match radius {
+        CutterRadius::Entry(entry) => (entry.literal().and_then(|n| n.whole()).and_then(number), radii.entry),
+        CutterRadius::Tool => (tool, radii.tool),
+        CutterRadius::InForce => (length, radii.in_force),
+        CutterRadius::Diameter(_) => (None, radii.diameter),
+    };
+    // What has no radius is refused where it is executed.
+    let none = match radius {
+        CutterRadius::Entry(entry) => entry.literal().is_some_and(|n| n.is_zero()),
+        CutterRadius::Tool | CutterRadius::Diameter(_) => false,
+        CutterRadius::InForce => at.modes.length_offset == Some(0),
+    };
+    if can || none {
+        return Ok((radius.clone(), None));
+    }
+    let Some(entry) = entry else {
+        return cannot(match radius {
+            CutterRadius::Entry(_) => "compensation by a computed entry".into(),
+            CutterRadius::Tool => "compensation by the radius of a tool that is not known".into(),
+            CutterRadius::InForce => "compensation by the radius of an edge that is no entry".into(),
+            CutterRadius::Diameter(_) => "compensation by a diameter that the program states".into(),
+        });
+    };
+    let own = match () {
+        () if radii.entry => CutterRadius::Entry(Expr::int(i64::from(entry))),
+        () if radii.in_force && length == Some(entry) => CutterRadius::InForce,
+        () if radii.tool && tool == Some(entry) => CutterRadius::Tool,
+        () => {
+            return cannot(match length {
+                Some(length) => format!("the radius of entry {entry} with the length of entry {length}"),
+                None => format!("the radius of entry {entry} with a length that is not known"),
+            });
+        }
+    };
+    Ok((own, Some(entry)))
+}

@@ -1,0 +1,666 @@
+//! `expand-compensation`: writes the path of the tool's centre in place of a contour and the side on which
+//! the tool goes along it.
+//!
+//! The radius must be known: the program states a diameter, has put a radius into the table, or a profile
+//! has the tool's. Every leg is written with coordinates of the plane from program zero; corners away from
+//! the tool get an arc before the move that follows them. Refused is a contour that cannot be gone along
+//! without cutting into it ([`ncc_ir::geometry::beside`]), and what would have to be known and is not: a position, what
+//! a block that may be skipped does, a called program, frames that turn left into right or scale.
+//!
+//! Where F counts along the contour on arcs ([`ncc_ir::geometry::arc_feed`]), each arc gets the F of the tool centre that takes the
+//! same time.
+
+use std::collections::BTreeMap;
+
+use crate::support::walk::Walk;
+use crate::support::write::{Rebuild, at, exact, rebuild, rounded, unit_of};
+use crate::{Target, each_body};
+use ncc_exec::world::Tables;
+use ncc_ir::canon::{AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Motion, Plane, Side, Turn};
+use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, Num, ONE};
+use ncc_ir::geometry;
+use ncc_ir::geometry::arc_feed::{ArcFeed, centre_speed, is_inner};
+use ncc_ir::geometry::beside::{Beside, Corner, Leg, Rules, Spot, Unreachable};
+use ncc_ir::program::cycle::absolute;
+use ncc_ir::program::kinds::flow;
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, CutterRadius, Data, Move, Op, Point, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+/// How compensation is worked out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Compensating {
+    /// What controls do each in a way of their own.
+    pub rules: Rules,
+    /// Whether the source's control is known to follow them.
+    pub known: bool,
+    /// Radii of tools by their entries, as far as a profile states them, in nanos of a millimetre.
+    pub radii: BTreeMap<u32, Nanos>,
+    /// Whether the statements that switch it on and off stay, and every block is one: for a list of calls.
+    pub listing: bool,
+    /// What F counts on arcs where the program states nothing, as the source's control has it.
+    pub arc_feed: ArcFeed,
+    /// Digits of F behind the point in the target.
+    pub feed_decimals: u8,
+}
+
+/// Works compensation out.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut told = false;
+    let begins = target.compensating.arc_feed;
+    let mut one = Some(begins);
+    program.procedures.iter().for_each(|procedure| only_meaning(&procedure.body, &mut one));
+    let mut first = true;
+    each_body(program, entry, |body, walk| {
+        let main = std::mem::take(&mut first);
+        let mut pass = Expansion {
+            how: &target.compensating,
+            decimals: target.decimals,
+            tables: Tables { radii: target.compensating.radii.clone(), ..Tables::default() },
+            on: None,
+            leaving: None,
+            no_arc: false,
+            told: std::mem::take(&mut told),
+            one_meaning: one.is_some(),
+            // A subprogram has the meaning of its caller.
+            arc_feed: one.or(main.then_some(begins)),
+            feed_decimals: target.compensating.feed_decimals.max(target.caps.feed_decimals),
+            own_feed: None,
+        };
+        rebuild(body, |stmt, made| {
+            walk.enter(stmt.skip);
+            if let Err(fault) = pass.statement(stmt, walk, made, diags) {
+                diags.push(fault);
+                (pass.on, pass.leaving) = (None, None);
+            }
+        });
+        told = pass.told;
+    });
+}
+
+/// The pass in one body.
+struct Expansion<'t> {
+    how: &'t Compensating,
+    decimals: u8,
+    tables: Tables,
+    on: Option<Contour>,
+    /// The plane of a contour that the next move leaves.
+    leaving: Option<Plane>,
+    /// The next move must be straight.
+    no_arc: bool,
+    told: bool,
+    /// Whether all arcs of the program have one meaning of F.
+    one_meaning: bool,
+    /// What F counts on arcs; `None` is not known here.
+    arc_feed: Option<ArcFeed>,
+    /// Digits of F behind the point.
+    feed_decimals: u8,
+    /// The F in force in the output, where it is that of an arc of the tool centre and not the source's.
+    own_feed: Option<Num>,
+}
+
+/// What F counts on arcs in all of a program, if it is one meaning.
+fn only_meaning(body: &[Stmt], one: &mut Option<ArcFeed>) {
+    for stmt in body {
+        match &stmt.op {
+            Op::Advise(advice)
+                if advice.kind == AdviceKind::CompensatedFeed
+                    && *one != Some(ArcFeed::stated(advice.value)) =>
+            {
+                *one = None;
+            }
+            Op::Control(control) => control.bodies().for_each(|body| only_meaning(body, one)),
+            _ => {}
+        }
+    }
+}
+
+/// A contour beside which the tool goes.
+struct Contour {
+    plane: Plane,
+    /// mm; 0 is along the contour itself.
+    radius: f64,
+    left: bool,
+    path: Option<Beside>,
+    /// Index of the held move among the statements made.
+    held: usize,
+    start: Span,
+}
+
+fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
+    let what = format!("{what} under cutter radius compensation that is worked out");
+    Err(Diagnostic::new(Fault::CannotSay { what: what.into() }, span))
+}
+
+fn mm(nanos: Nanos) -> f64 {
+    nanos as f64 / ONE as f64
+}
+
+fn nanos(mm: f64) -> Nanos {
+    (mm * ONE as f64).round() as Nanos
+}
+
+impl Expansion<'_> {
+    fn statement(
+        &mut self,
+        stmt: Stmt,
+        walk: &mut Walk,
+        made: &mut Rebuild,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        if self.on.is_some() && stmt.skip.is_some() {
+            return cannot("a block that may be skipped", span);
+        }
+        match &stmt.op {
+            Op::Advise(advice) if advice.kind == AdviceKind::CompensatedFeed && !self.one_meaning => {
+                self.arc_feed = stmt.skip.is_none().then(|| ArcFeed::stated(advice.value));
+            }
+            flow!() if !self.one_meaning => self.arc_feed = None,
+            Op::SetFeedRate(_) => self.own_feed = None,
+            _ => {}
+        }
+        match &stmt.op {
+            Op::StartCutterRadiusCompensation { side, radius } => {
+                let contour = self.start(*side, radius, walk, span)?;
+                diags.push(Diagnostic::new(
+                    Fault::CompensationExpanded { radius: nanos(contour.radius) },
+                    span,
+                ));
+                if !self.how.known && !std::mem::replace(&mut self.told, true) {
+                    diags.push(Diagnostic::new(Fault::AssumedContourPath, span));
+                }
+                let side = if contour.left { Side::Left } else { Side::Right };
+                self.on = Some(contour);
+                walk.step(&stmt);
+                match self.how.listing {
+                    true => made.push(Stmt {
+                        op: Op::StartCutterRadiusCompensation { side, radius: radius.clone() },
+                        ..stmt
+                    }),
+                    false => made.leave_out(stmt),
+                }
+            }
+            Op::StopCutterRadiusCompensation => {
+                if let Some(contour) = self.on.take() {
+                    self.end(contour, walk, made, span)?;
+                    walk.step(&stmt);
+                    let feed = self.source_feed(walk).map(|op| (true, op));
+                    match (self.how.listing, feed) {
+                        (true, None) => made.push(stmt),
+                        (true, Some(feed)) => {
+                            made.replace(stmt, [feed, (true, Op::StopCutterRadiusCompensation)]);
+                        }
+                        (false, None) => made.leave_out(stmt),
+                        (false, Some(feed)) => made.replace(stmt, [feed]),
+                    }
+                } else {
+                    walk.step(&stmt);
+                    made.push(stmt);
+                }
+            }
+            Op::ProgramEnd | Op::BeginAgain if self.on.is_some() => {
+                if let Some(contour) = self.on.take() {
+                    self.end(contour, walk, made, span)?;
+                }
+                self.leaving = None;
+                walk.step(&stmt);
+                made.push(stmt);
+            }
+            Op::SetData(data) => {
+                if let Data::Tool { entry, which, added, value, .. } = &**data {
+                    if let Some(value) = walk.at.nanos(value) {
+                        self.tables.set_radius(*entry, *which, *added, value);
+                    } else {
+                        self.tables.radii.remove(entry);
+                    }
+                }
+                walk.step(&stmt);
+                made.push(stmt);
+            }
+            _ if self.on.is_some() => return self.along(stmt, walk, made),
+            _ => self.beyond(stmt, walk, made)?,
+        }
+        Ok(())
+    }
+
+    /// What is known of the contour at its start.
+    fn start(
+        &self,
+        side: Side,
+        radius: &CutterRadius,
+        walk: &Walk,
+        span: Span,
+    ) -> Result<Contour, Diagnostic> {
+        let refuse = |fault| Diagnostic::new(fault, span);
+        let at = &walk.at;
+        if self.on.is_some() {
+            return cannot("another start", span);
+        }
+        if at.framed || at.turned || at.tilted {
+            return cannot("a frame", span);
+        }
+        let plane = at.modes.plane.ok_or(refuse(Fault::EntryFactNeeded { fact: ModeName::Plane }))?;
+        let entry = |n: Option<i64>| n.and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0);
+        let entry = match radius {
+            CutterRadius::Diameter(diameter) => {
+                let fault = refuse(Fault::EntryFactNeeded { fact: ModeName::Units });
+                let radius = mm(at.nanos(diameter).ok_or(fault)?) / 2.0;
+                return Ok(contour(plane, side, radius, span));
+            }
+            CutterRadius::Entry(n) => entry(n.literal().and_then(|n| n.whole())),
+            CutterRadius::Tool => entry(at.tool),
+            CutterRadius::InForce => at.modes.length_offset.filter(|n| *n > 0),
+        };
+        match entry.and_then(|entry| self.tables.radius(entry)) {
+            Some(radius) => Ok(contour(plane, side, mm(radius), span)),
+            None => Err(refuse(Fault::RadiusUnknown { entry })),
+        }
+    }
+
+    /// A statement on the contour.
+    fn along(&mut self, stmt: Stmt, walk: &mut Walk, made: &mut Rebuild) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        let motion = match &stmt.op {
+            Op::StraightTraverse(_) => Motion::Traverse,
+            Op::StraightFeed(_) => Motion::Feed,
+            Op::ArcFeed(arc) => Motion::Arc(arc.turn),
+            Op::Position(_) => match walk.at.modes.motion {
+                Some(motion @ (Motion::Traverse | Motion::Feed)) => motion,
+                Some(Motion::Arc(_) | Motion::Cycle) | None => return cannot("this motion", span),
+            },
+            op => {
+                if !stays(op, walk) {
+                    return cannot(op.name(), span);
+                }
+                walk.step(&stmt);
+                made.push(stmt);
+                return Ok(());
+            }
+        };
+        let Some(contour) = &mut self.on else { return Ok(()) };
+        if walk.at.raw || matches!(walk.at.modes.feed_mode, Some(FeedMode::InverseTime)) {
+            return cannot("a feed by time or a point of the machine", span);
+        }
+        let rules = self.how.rules;
+        let writer = Written { walk, decimals: self.decimals, plane: contour.plane };
+        let words = match &stmt.op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => &m.to,
+            Op::ArcFeed(arc) => {
+                if arc.plane.known().or(walk.at.modes.plane) != Some(contour.plane) {
+                    return cannot("an arc in another plane", span);
+                }
+                &arc.to
+            }
+            _ => return cannot(stmt.op.name(), span),
+        };
+        if words.axes[Axis::A as usize..].iter().any(Option::is_some) {
+            return cannot("a rotary axis", span);
+        }
+        let refuse = |fault| Diagnostic::new(fault, span);
+        let unreachable = |why: Unreachable| refuse(Fault::ContourUnreachable { why });
+        let (from, to) = (
+            writer.plane_of(&walk.at.position).map_err(refuse)?,
+            writer.plane_of(&walk.at.target(words)).map_err(refuse)?,
+        );
+        let full = matches!(stmt.op, Op::ArcFeed(_)) && from == to;
+        let still = from == to && !full;
+        if contour.radius == 0.0 {
+            if self.leaving.is_some() {
+                return cannot("a contour without a radius before the one before it is left", span);
+            }
+            walk.step(&stmt);
+            made.push(stmt);
+            return Ok(());
+        }
+        if still {
+            if contour.path.is_none() && rules.left_at_once {
+                return Err(unreachable(Unreachable::Entry));
+            }
+            // Beside the contour, words of the plane would lead back onto it.
+            let words = writer.others(words).map_err(refuse)?;
+            walk.step(&stmt);
+            made.push(Stmt { op: straight(motion, words), ..stmt });
+            return Ok(());
+        }
+        let (from, to) = (from.map(mm), to.map(mm));
+        let leg = match &stmt.op {
+            Op::ArcFeed(arc) => {
+                if contour.path.is_none() {
+                    return cannot("an arc onto the contour", span);
+                }
+                let centre = walk.at.centre(arc).ok_or(refuse(Fault::ArcWithoutCentre))?;
+                Leg::Arc { centre: centre.map(mm), ccw: arc.turn == Turn::Counterclockwise, turns: arc.turns }
+            }
+            _ => Leg::Line { rapid: motion == Motion::Traverse },
+        };
+        let part = match leg {
+            Leg::Arc { centre, ccw, turns } => {
+                let feed = self.arc_feed.ok_or_else(|| {
+                    refuse(Fault::CannotSay {
+                        what: "an arc under cutter radius compensation that is worked out, where what F counts on it is not known"
+                            .into(),
+                    })
+                })?;
+                let side = if contour.left { Side::Left } else { Side::Right };
+                let turn = if ccw { Turn::Counterclockwise } else { Turn::Clockwise };
+                let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
+                match feed.on_contour(side, turn) {
+                    true => {
+                        let arc = (centre, turn, turns);
+                        let (angle, along) = writer.climb(words, from, to, arc).map_err(refuse)?;
+                        Some(centre_speed(radius, contour.radius, is_inner(side, turn), angle, along))
+                    }
+                    false => None,
+                }
+            }
+            Leg::Line { .. } => None,
+        };
+        let mut before = None;
+        match &mut contour.path {
+            None => {
+                let path = Beside::enter(contour.radius, contour.left, rules, from, to);
+                contour.path = Some(path.map_err(unreachable)?);
+                self.leaving = None;
+            }
+            Some(path) => {
+                let Corner { end, round } = path.go_on(leg, to).map_err(unreachable)?;
+                writer.settle(&mut made.out[contour.held], end);
+                before = round.map(|round| match round.straight {
+                    true => straight(Motion::Traverse, writer.spot(round.to, Point::default())),
+                    false => {
+                        let to = writer.spot(round.to, Point::default());
+                        writer.arc(to, round.centre, round.ccw, 0)
+                    }
+                });
+            }
+        }
+        let now = contour.path.as_ref().map_or(to, Beside::now);
+        let words = writer.spot(now, writer.others(words).map_err(refuse)?);
+        let op = match leg {
+            Leg::Arc { centre, ccw, turns } => writer.arc(words, centre, ccw, turns),
+            Leg::Line { .. } => straight(motion, words),
+        };
+        let mut stmt = stmt;
+        let arc_feed = match part {
+            Some(part) => Some(self.feed_of_centre(walk, part, span)?),
+            None => None,
+        };
+        let source_feed = (motion != Motion::Traverse && (arc_feed.is_none() || before.is_some()))
+            .then(|| self.source_feed(walk))
+            .flatten();
+        if arc_feed.is_some()
+            && before.is_none()
+            && let Some(stated) = made.out.pop_if(|last| stmt.joined && matches!(last.op, Op::SetFeedRate(_)))
+        {
+            // F in the same block is that of the contour.
+            (stmt.joined, stmt.number) = (stated.joined, stated.number.or(stmt.number));
+        }
+        walk.step(&stmt);
+        let listing = self.how.listing;
+        let mut all: Vec<(bool, Op)> = Vec::new();
+        all.extend(source_feed.map(|op| (true, op)));
+        all.extend(before.map(|op| (true, op)));
+        let joined =
+            all.is_empty() || listing || !all.iter().any(|(_, op)| !matches!(op, Op::SetFeedRate(_)));
+        let in_force = self.own_feed.is_some() && self.own_feed == arc_feed;
+        match arc_feed.filter(|_| !in_force) {
+            Some(feed) => all.extend([(joined, Op::SetFeedRate(feed.into())), (true, op)]),
+            None => all.push((joined, op)),
+        }
+        self.own_feed = arc_feed.or(self.own_feed);
+        let own = all.len() == 1;
+        match own {
+            true => made.push(Stmt { op: all.into_iter().next().map_or(Op::Blank, |(_, op)| op), ..stmt }),
+            false => made.replace(stmt, all),
+        }
+        if let Some(contour) = &mut self.on {
+            contour.held = made.out.len() - 1;
+        }
+        Ok(())
+    }
+
+    /// The source's F, where the output has another one in force.
+    fn source_feed(&mut self, walk: &Walk) -> Option<Op> {
+        let own = self.own_feed.take();
+        walk.at.feed.filter(|_| own.is_some()).map(|feed| Op::SetFeedRate(feed.into()))
+    }
+
+    /// F of the tool centre: this part of F.
+    fn feed_of_centre(&self, walk: &Walk, part: f64, span: Span) -> Result<Num, Diagnostic> {
+        let Some(feed) = walk.at.feed else {
+            return cannot("an arc with an F along the contour that is not known here", span);
+        };
+        let number = feed.mantissa as f64 / 10f64.powi(i32::from(feed.scale)) * part;
+        let said = Num::from_nanos(nanos(number), self.feed_decimals, feed.unit);
+        match said.is_zero() {
+            true => cannot("an arc with an F at the tool centre that has too few digits", span),
+            false => Ok(said),
+        }
+    }
+
+    /// Ends a contour.
+    fn end(
+        &mut self,
+        contour: Contour,
+        walk: &mut Walk,
+        made: &mut Rebuild,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let Some(path) = &contour.path else { return Ok(()) };
+        self.no_arc = true;
+        let end = path.leave().map_err(|why| {
+            let mut found = Diagnostic::new(Fault::ContourUnreachable { why }, span);
+            found.related.push(contour.start);
+            found
+        })?;
+        let writer = Written { walk, decimals: self.decimals, plane: contour.plane };
+        writer.settle(&mut made.out[contour.held], end);
+        self.leaving = Some(contour.plane);
+        Ok(())
+    }
+
+    /// A statement where compensation is off.
+    fn beyond(&mut self, mut stmt: Stmt, walk: &mut Walk, made: &mut Rebuild) -> Result<(), Diagnostic> {
+        if self.no_arc {
+            match &stmt.op {
+                Op::ArcFeed(_) | Op::ArcForm(_) => {
+                    return cannot("an arc that leaves the contour", stmt.span);
+                }
+                Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::Position(_) => self.no_arc = false,
+                _ => {}
+            }
+        }
+        let Some(plane) = self.leaving else {
+            walk.step(&stmt);
+            made.push(stmt);
+            return Ok(());
+        };
+        let span = stmt.span;
+        let (first, second, _) = plane.axes();
+        if stmt.skip.is_some() {
+            return cannot("the way off a contour, in a block that may be skipped,", span);
+        }
+        let known =
+            stays(&stmt.op, walk) || matches!(stmt.op, Op::EndCycle | Op::ProgramEnd | Op::BeginAgain);
+        match &mut stmt.op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) if !walk.at.raw => {
+                let named = m.to.get(first).is_some() || m.to.get(second).is_some();
+                if named || self.how.rules.left_at_once {
+                    let writer = Written { walk, decimals: self.decimals, plane };
+                    m.to = writer.whole(&m.to).map_err(|fault| Diagnostic::new(fault, span))?;
+                    self.leaving = None;
+                }
+            }
+            _ if known => {}
+            op => return cannot(&format!("{} before the contour is left,", op.name()), span),
+        }
+        walk.step(&stmt);
+        made.push(stmt);
+        Ok(())
+    }
+}
+
+fn contour(plane: Plane, side: Side, radius: f64, start: Span) -> Contour {
+    let left = (side == Side::Left) == (radius >= 0.0);
+    Contour { plane, radius: radius.abs(), left, path: None, held: 0, start }
+}
+
+fn straight(motion: Motion, to: Point) -> Op {
+    let to = Move { to, said: true };
+    match motion {
+        Motion::Traverse => Op::StraightTraverse(to),
+        Motion::Feed | Motion::Arc(_) | Motion::Cycle => Op::StraightFeed(to),
+    }
+}
+
+/// Whether a statement may stand between the moves of a contour, and stays what it is.
+fn stays(op: &Op, walk: &Walk) -> bool {
+    match op {
+        Op::Comment(_)
+        | Op::NoEffect(_)
+        | Op::Blank
+        | Op::Message(_)
+        | Op::SetFeedRate(_)
+        | Op::SetSpindleSpeed(_)
+        | Op::SetSpindleMode(_)
+        | Op::LimitSpindleSpeed(_)
+        | Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::MachineFunction(_)
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff
+        | Op::Dwell(_)
+        | Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::SelectTool(_)
+        | Op::SelectToolByName(_)
+        | Op::SetMotionControlMode(_)
+        | Op::Advise(_)
+        | Op::SetDistanceMode(_)
+        | Op::SetReturnLevel(_) => true,
+        Op::SetFeedMode(mode) => *mode != FeedMode::InverseTime,
+        Op::SelectPlane(plane) => walk.at.modes.plane == Some(*plane),
+        Op::UseLengthUnits(units) => walk.at.modes.units == Some(*units),
+        Op::SetOriginOffsets(offset) => walk.at.modes.work_offset == Some(*offset),
+        _ => false,
+    }
+}
+
+/// How points of a plane are written.
+struct Written<'w> {
+    walk: &'w Walk,
+    decimals: u8,
+    plane: Plane,
+}
+
+impl Written<'_> {
+    fn plane_of(&self, point: &[Option<Nanos>; AXES]) -> Result<[Nanos; 2], Fault> {
+        let (first, second, _) = self.plane.axes();
+        let at = |axis: Axis| {
+            point[axis as usize].ok_or(Fault::PositionUnknown { axis: char::from(axis.letter()) })
+        };
+        Ok([at(first)?, at(second)?])
+    }
+
+    /// Angle of an arc of the contour, radians, and how far it goes along the third axis, mm.
+    fn climb(
+        &self,
+        words: &Point,
+        from: Spot,
+        to: Spot,
+        (centre, turn, turns): (Spot, Turn, u32),
+    ) -> Result<(f64, f64), Fault> {
+        let normal = self.plane.axes().2;
+        let along = match words.get(normal) {
+            None => 0.0,
+            Some(_) => {
+                let (at, end) = (&self.walk.at.position, self.walk.at.target(words));
+                let fault = || Fault::PositionUnknown { axis: char::from(normal.letter()) };
+                let climb = at[normal as usize].zip(end[normal as usize]).map(|(here, end)| end - here);
+                mm(climb.ok_or_else(fault)?)
+            }
+        };
+        let of = |spot: Spot| spot.map(nanos);
+        let angle = geometry::sweep_degrees(of(from), of(to), of(centre), turn, turns);
+        Ok((angle.abs().to_radians(), along))
+    }
+
+    fn coordinate(&self, axis: Axis, mm: f64) -> Coord {
+        let unit = unit_of(axis, self.walk.unit());
+        let decimals = if unit == ncc_ir::expr::num::Unit::Inch {
+            self.decimals.saturating_add(1)
+        } else {
+            self.decimals
+        };
+        absolute(rounded(nanos(mm), decimals, unit))
+    }
+
+    /// The same words with coordinates of the plane.
+    fn spot(&self, spot: Spot, mut to: Point) -> Point {
+        let (first, second, _) = self.plane.axes();
+        for (axis, mm) in [first, second].into_iter().zip(spot) {
+            to.set(axis, self.coordinate(axis, mm));
+        }
+        to
+    }
+
+    /// The words that are none of the plane, from program zero.
+    fn others(&self, words: &Point) -> Result<Point, Fault> {
+        let (first, second, _) = self.plane.axes();
+        self.absolute_words(words, |axis| axis != first && axis != second && words.get(axis).is_some())
+    }
+
+    /// All words from program zero, and those of both axes of the plane among them.
+    fn whole(&self, words: &Point) -> Result<Point, Fault> {
+        let (first, second, _) = self.plane.axes();
+        self.absolute_words(words, |axis| axis == first || axis == second || words.get(axis).is_some())
+    }
+
+    /// Where words lead along some axes; an absolute word stays as it is written.
+    fn absolute_words(&self, words: &Point, along: impl Fn(Axis) -> bool) -> Result<Point, Fault> {
+        let target = self.walk.at.target(words);
+        let mut point = Point::default();
+        for axis in Axis::ALL.into_iter().filter(|axis| along(*axis)) {
+            let fault = Fault::PositionUnknown { axis: char::from(axis.letter()) };
+            let to = target[axis as usize].ok_or(fault)?;
+            let own = |word: &Coord| word.distance.known().or(self.walk.at.modes.distance);
+            let absolute = words.get(axis).filter(|word| own(word) == Some(Distance::Absolute));
+            point.set(
+                axis,
+                absolute.map_or_else(|| at(to, axis, self.walk.unit()), crate::support::write::as_absolute),
+            );
+        }
+        Ok(point)
+    }
+
+    fn arc(&self, to: Point, centre: Spot, ccw: bool, turns: u32) -> Op {
+        let (first, second, _) = self.plane.axes();
+        let mut words: [Option<Expr>; 3] = [None, None, None];
+        for (axis, mm) in [first, second].into_iter().zip(centre) {
+            words[axis as usize] = Some(exact(nanos(mm), unit_of(axis, self.walk.unit())).into());
+        }
+        Op::ArcFeed(Box::new(Arc {
+            plane: Fact::Known(self.plane),
+            turn: if ccw { Turn::Counterclockwise } else { Turn::Clockwise },
+            to,
+            centre: Centre::Point { words, from: CentreFrom::Zero },
+            turns,
+            said: true,
+        }))
+    }
+
+    /// Puts the end of a held move where it is now known to be.
+    fn settle(&self, held: &mut Stmt, end: Spot) {
+        let to = match &mut held.op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) => &mut m.to,
+            Op::ArcFeed(arc) => &mut arc.to,
+            _ => return,
+        };
+        *to = self.spot(end, std::mem::take(to));
+    }
+}

@@ -1,0 +1,41 @@
+//! `skip-levels`: block-skip levels that the target cannot tell apart become the first.
+//!
+//! That changes what the switches do, unless the program uses the first level only. A target without
+//! block skip is told; one that has several switches, and not so many, is refused.
+
+use crate::{Target, each_body};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::{Program, Stmt};
+use ncc_ir::track::Tracker;
+
+/// Levels that were reported: bit n is level n.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct State {
+    told: u16,
+}
+
+/// Makes the levels one, or refuses them.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    each_body(program, entry, |body, _| over(body, &mut state, target, diags));
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(body: &mut [Stmt], state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let highest = target.caps.skip_levels;
+    for stmt in body {
+        let Some(level) = stmt.skip.filter(|l| *l > highest) else { continue };
+        let bit = 1u16 << level.min(15);
+        if state.told & bit == 0 {
+            state.told |= bit;
+            let fault = match highest {
+                0 => Fault::CannotSay { what: "a block that can be skipped".into() },
+                1 => Fault::SkipLevelLost { level },
+                // Which of the target's switches is free is not known before the program's end.
+                _ => Fault::CannotSay { what: "a tenth block-skip switch".into() },
+            };
+            diags.push(Diagnostic::new(fault, stmt.span));
+        }
+        stmt.skip = Some(1);
+    }
+}

@@ -1,0 +1,4 @@
+//! Moves folded back into cycles, and holes into patterns.
+
+pub mod fold_cycles;
+pub mod fold_patterns;

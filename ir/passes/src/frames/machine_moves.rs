@@ -1,0 +1,402 @@
+//! `machine-moves`: moves in machine coordinates, and to points of the machine, in the target's form.
+//!
+//! Machine coordinates are measured with the tool's length on one control and without it on another. The
+//! same place is said by a move without a length, which is said anew before the next that needs it; or by
+//! the other form, where no length is in force. A move to the machine's zero is one in machine
+//! coordinates, by way of the point that it names. A cut, for a control that goes rapidly alone, is said in the work
+//! offset in force (`machine_cuts`), in which it is measured with the tool's length.
+//!
+//! Refused by name: a probing move of a kind that the target has not; a move that is measured with a length where the target's is not, unless there is
+//! none; other points of the machine without a word for them; and Z after a return to a point of the
+//! machine whose length nobody has said anew, where the target keeps it for certain.
+
+mod around;
+
+use crate::frames::machine_cuts;
+use crate::support::walk::Walk;
+use crate::support::write::{Rebuild, at as at_place, traverse, unit_of};
+use crate::{Target, each_body};
+use ncc_ir::canon::{Axis, Distance, Fact};
+use ncc_ir::caps::{Caps, TiltForm};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::Num;
+use ncc_ir::program::kinds::{flow, moves};
+use ncc_ir::program::{
+    Coord, Detour, Move, Op, Point, Probe, Program, Reference, ReferencePoint, Slot, Stmt,
+};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct State {
+    /// The length that is in force in the source and was put off in the target.
+    put_off: Option<u32>,
+    /// A return to a point of the machine that may have left none of the length.
+    lost: Option<Span>,
+    /// A move in machine coordinates comes next in this block, with the tool's length or without.
+    machine: Option<Stmt>,
+    /// A return by the intermediate point comes next in this block, in moves of its own.
+    intermediate: Option<Stmt>,
+    /// A return to a point of the machine became a rapid move where the motion in force is the caller's.
+    motion_lost: bool,
+}
+
+impl State {
+    /// Whether something waits for the statements that come.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.put_off.is_some()
+            || self.lost.is_some()
+            || self.machine.is_some()
+            || self.intermediate.is_some()
+            || self.motion_lost
+    }
+}
+
+/// Brings the moves into the target's form.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let before = walk.at.modes.distance;
+    let input = std::mem::take(body);
+    let with_plane = retracts_with_plane(&input, &target.caps);
+    let mut made = Rebuild::new(input.len() + 4);
+    for (place, stmt) in input.into_iter().enumerate() {
+        walk.enter(stmt.skip);
+        if with_plane.get(place) == Some(&true) {
+            walk.step(&stmt);
+            made.push(stmt);
+            continue;
+        }
+        take(stmt, walk, state, target, &mut made, diags);
+    }
+    *body = made.out;
+    around::over(body, before);
+}
+
+fn take(
+    mut stmt: Stmt,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let caps = &target.caps;
+    // The point by which a return goes is measured with the length.
+    let by_z = matches!(&stmt.op, Op::GoToReference(reference) if reference.via.get(Axis::Z).is_some());
+    if by_z {
+        length_again(&mut stmt, state, made);
+    }
+    match &stmt.op {
+        Op::Probe(probe) if !caps.probes[Caps::probe(*probe)] => {
+            let what = match (probe.away, probe.error) {
+                _ if caps.probes == [false; 4] => "a probing move",
+                (_, true) if caps.probes[Caps::probe(Probe { error: false, ..*probe })] => {
+                    "a probing move with an error at the end of its way"
+                }
+                (true, _) => "a probing move away from a contact",
+                (false, _) => "a probing move of this kind",
+            };
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        }
+        Op::Detour(Detour::OneSide) if !caps.detours[Detour::OneSide as usize] => {
+            let what = "positioning from one side: how far beyond is the machine's".into();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        }
+        Op::Detour(Detour::Intermediate) if !caps.detours[Detour::Intermediate as usize] => {
+            walk.step(&stmt);
+            state.intermediate = Some(stmt);
+            return;
+        }
+        Op::StraightTraverse(m) if state.intermediate.is_some() => {
+            if let Some(detour) = state.intermediate.take() {
+                stmt = by_intermediate(detour, m, walk, stmt.clone(), made, diags);
+            }
+        }
+        Op::UseMachineCoordinates { length }
+            if caps.machine_rapid || caps.machine_length.is_some_and(|own| own != *length) =>
+        {
+            walk.step(&stmt);
+            state.machine = Some(stmt);
+            return;
+        }
+        Op::StraightTraverse(m) | Op::StraightFeed(m) if state.machine.is_some() => {
+            let with_z = m.to.get(Axis::Z).is_some();
+            let in_force = walk.at.modes.length_offset;
+            if let Some(machine) = state.machine.take() {
+                let length = matches!(machine.op, Op::UseMachineCoordinates { length: true });
+                if caps.machine_rapid && matches!(stmt.op, Op::StraightFeed(_)) {
+                    return cut(machine, stmt, walk, state, caps, made, diags);
+                }
+                match caps.machine_length {
+                    Some(own) if own != length => {
+                        in_other_form(machine, with_z, in_force, state, made, diags);
+                    }
+                    _ => made.push(machine),
+                }
+            }
+            walk.step(&stmt);
+            return made.push(stmt);
+        }
+        Op::GoToReference(reference) => {
+            let other =
+                !caps.references.has(reference.point) || !reference.via.is_empty() && !caps.reference_via;
+            if other {
+                state.motion_lost |= walk.at.modes.motion.is_none();
+                return by_machine_zero(stmt.clone(), reference, walk, state, target, made, diags);
+            }
+            let keeps = caps.reference_keeps_length.unwrap_or(reference.keeps_length);
+            if reference.keeps_length && !keeps && reference.axes[Axis::Z as usize] {
+                match walk.at.modes.length_offset {
+                    Some(0) => {}
+                    Some(entry) => state.put_off = Some(entry),
+                    None => state.lost = state.lost.or(Some(stmt.span)),
+                }
+            }
+            let reference = Reference { keeps_length: keeps, ..(**reference).clone() };
+            walk.step(&stmt);
+            return made.push(Stmt { op: Op::GoToReference(Box::new(reference)), ..stmt });
+        }
+        Op::Position(_) if state.motion_lost => {
+            let what = "a position by the caller's motion, behind a return to a point of the machine".into();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        }
+        Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
+            state.put_off = None;
+            state.lost = None;
+        }
+        Op::ProgramEnd | Op::BeginAgain => {
+            state.put_off = None;
+            state.lost = None;
+        }
+        op if walk.commands_z(op) || matches!(op, Op::StartCycle(_) | Op::Pattern(_) | flow!()) => {
+            length_again(&mut stmt, state, made);
+            if let Some(span) = state.lost.take() {
+                let what = "a return to a point of the machine behind which Z moves by a length that is not \
+                            said anew";
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+            }
+        }
+        _ => {}
+    }
+    state.motion_lost &= !(matches!(stmt.op, moves!()) && stmt.skip.is_none());
+    walk.step(&stmt);
+    made.push(stmt);
+}
+
+/// Says the length anew that was put off, before a statement that needs it.
+fn length_again(stmt: &mut Stmt, state: &mut State, made: &mut Rebuild) {
+    let Some(entry) = state.put_off.take() else { return };
+    let mut again = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(i64::from(entry))));
+    (again.skip, again.joined) = (stmt.skip, stmt.joined);
+    again.number = stmt.number.take();
+    stmt.joined = true;
+    made.push(again);
+}
+
+/// Which moves to the machine's zero the target says with the word that sets a tilted plane in their block: along
+/// Z, or along Z and then in its plane, and then the tool is turned.
+fn retracts_with_plane(body: &[Stmt], caps: &Caps) -> Vec<bool> {
+    let is_plane = |op: &Op| matches!(op, Op::SetSlot(slot) if matches!(**slot, Slot::Tilt(_)));
+    if caps.tilt != TiltForm::AxisByAxis || !body.iter().any(|stmt| is_plane(&stmt.op)) {
+        return Vec::new();
+    }
+    let mut with_plane = vec![false; body.len()];
+    for place in 0..body.len() {
+        let Some(said) = retract(&body[place..]) else { continue };
+        let behind = &body[place + said..];
+        let joined = |at: usize| behind.get(at).filter(|s| s.joined && s.skip == body[place].skip);
+        let turned = joined(1).is_some_and(|s| matches!(s.op, Op::OrientToolAxis(_)));
+        if turned && joined(0).is_some_and(|s| is_plane(&s.op)) {
+            with_plane[place..place + said].fill(true);
+        }
+    }
+    with_plane
+}
+
+/// How many statements at the start are a retraction along Z, or along Z and then X and Y, in one block.
+pub fn retract(stmts: &[Stmt]) -> Option<usize> {
+    let along = |stmt: &Stmt| match &stmt.op {
+        Op::GoToReference(to) if to.point == ReferencePoint::Home && to.via.is_empty() => Some(to.axes),
+        _ => None,
+    };
+    let first = stmts.first()?;
+    if along(first)? != [false, false, true, false, false, false] {
+        return None;
+    }
+    let second = stmts.get(1).filter(|stmt| stmt.joined && stmt.skip == first.skip).and_then(along);
+    Some(if second == Some([true, true, false, false, false, false]) { 2 } else { 1 })
+}
+
+/// A cut in machine coordinates as one of the work offset in force, where it is measured with the tool's length.
+fn cut(
+    machine: Stmt,
+    mut stmt: Stmt,
+    walk: &mut Walk,
+    state: &mut State,
+    caps: &Caps,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let (Op::StraightFeed(to), Op::UseMachineCoordinates { length }) = (&stmt.op, &machine.op) else {
+        return made.push(stmt);
+    };
+    let aside = !length && walk.at.aside && [Axis::X, Axis::Y].iter().any(|axis| to.to.get(*axis).is_some());
+    let said = match aside {
+        true => Err("a cut in machine coordinates without the offsets of the tool along X and Y"),
+        false => machine_cuts::as_work(to, &walk.at, caps),
+    };
+    let with_z = to.to.get(Axis::Z).is_some();
+    let (length, in_force) = (*length, walk.at.modes.length_offset);
+    walk.step(&stmt);
+    match said {
+        Ok((to, offset)) => {
+            diags.push(Diagnostic::new(Fault::MachineCutExpanded { offset }, stmt.span));
+            stmt.op = Op::StraightFeed(to);
+        }
+        Err(what) => diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span)),
+    }
+    let (joined, number) = (machine.joined, machine.number);
+    let off = !length && puts_off(with_z, in_force, state, stmt.span);
+    if off {
+        let mut none = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(0)));
+        (none.skip, none.joined, none.number) = (machine.skip, joined, number);
+        made.push(none);
+    } else {
+        (stmt.joined, stmt.number) = (joined, number);
+    }
+    stmt.comment = stmt.comment.or(machine.comment);
+    made.push(stmt);
+}
+
+/// The statement of machine coordinates in the other form; the move follows.
+fn in_other_form(
+    mut machine: Stmt,
+    with_z: bool,
+    in_force: Option<u32>,
+    state: &mut State,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let Op::UseMachineCoordinates { length } = machine.op else { return made.push(machine) };
+    machine.op = Op::UseMachineCoordinates { length: !length };
+    let none = in_force == Some(0) || state.put_off.is_some();
+    if with_z && length && !none {
+        let what = "a move in machine coordinates that is measured with the tool's length";
+        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, machine.span));
+    }
+    if !length && puts_off(with_z, in_force, state, machine.span) {
+        let mut off = Stmt::new(machine.span, Op::UseToolLengthOffset(Expr::int(0)));
+        off.skip = machine.skip;
+        off.joined = machine.joined;
+        off.number = machine.number.take();
+        machine.joined = true;
+        made.push(off);
+    }
+    made.push(machine);
+}
+
+/// Puts the tool's length off, if one may be in force and a move of Z is measured without it.
+fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut State, at: Span) -> bool {
+    let off = with_z && in_force != Some(0) && state.put_off.is_none();
+    if off {
+        match in_force {
+            Some(entry) => state.put_off = Some(entry),
+            None => state.lost = state.lost.or(Some(at)),
+        }
+    }
+    off
+}
+
+/// The move to the intermediate point; what is left to be said is the rest of the way, in a block of its own.
+fn by_intermediate(
+    detour: Stmt,
+    to: &Move,
+    walk: &mut Walk,
+    mut rest: Stmt,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) -> Stmt {
+    let Some(points) = walk.at.intermediate(&to.to) else {
+        let what = "a return by an intermediate point that is not known here".into();
+        diags.push(Diagnostic::new(Fault::CannotSay { what }, detour.span));
+        return rest;
+    };
+    let mut via = Point::default();
+    for (axis, at) in Axis::ALL.into_iter().zip(points) {
+        if let Some(at) = at {
+            via.set(axis, at_place(at, axis, walk.unit()));
+        }
+    }
+    let first = Stmt { op: traverse(via), comment: None, ..detour };
+    walk.step(&first);
+    made.push(first);
+    (rest.joined, rest.number) = (false, None);
+    rest
+}
+
+/// A move to the machine's zero as one in machine coordinates.
+fn by_machine_zero(
+    stmt: Stmt,
+    reference: &Reference,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let mut cannot = |what: &str| {
+        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+    };
+    if reference.point != ReferencePoint::Home {
+        cannot(match reference.point {
+            ReferencePoint::Stored(_) => "a move to a position that is stored in the control",
+            _ => "a move to this point of the machine",
+        });
+        return made.push(stmt);
+    }
+    if !target.caps.machine_coordinates {
+        cannot("a move to the machine's zero");
+        return made.push(stmt);
+    }
+    let in_force = walk.at.modes.length_offset;
+    let with_z = reference.axes[Axis::Z as usize];
+    if with_z && !reference.keeps_length && in_force != Some(0) {
+        state.lost = Some(stmt.span);
+    }
+    let mut block = Stmt { comment: None, ..stmt.clone() };
+    if !reference.via.is_empty() {
+        block.op = Op::StraightTraverse(Move { to: reference.via.clone(), said: true });
+        made.push(block.clone());
+        block.number = None;
+        block.joined = false;
+    }
+    let mut to = Point::default();
+    for axis in Axis::ALL {
+        if reference.axes[axis as usize] {
+            let zero = Num::int(0, unit_of(axis, walk.unit()));
+            to.set(axis, Coord { value: Expr::Num(zero), distance: Fact::Known(Distance::Absolute) });
+        }
+    }
+    let own = target.caps.machine_length.unwrap_or(false);
+    let machine = Stmt { op: Op::UseMachineCoordinates { length: false }, ..block.clone() };
+    if own {
+        in_other_form(machine, with_z, in_force, state, made, diags);
+    } else {
+        made.push(machine);
+    }
+    let op = Op::StraightTraverse(Move { to, said: true });
+    walk.step(&stmt);
+    made.push(Stmt { op, joined: true, number: None, ..stmt });
+}

@@ -1,0 +1,14 @@
+//! Frames, work offsets, places of the machine, and rotary axes.
+
+pub mod computed_frames;
+pub mod expand_frames;
+pub(crate) mod frame_forms;
+pub mod frame_increments;
+pub mod machine_cuts;
+pub mod machine_moves;
+pub(crate) mod offset_here;
+pub mod origin_shift;
+pub mod rotary_turns;
+pub(crate) mod rotary_ways;
+pub mod spindle_points;
+pub mod work_offset;

@@ -1,0 +1,44 @@
+//! `origin-shift`: a control without a word that cancels a temporary shift of the origin is taken
+//! to start without one.
+//!
+//! Not here: a shift that the program has set itself, which `expand-frames` takes back before.
+
+use crate::support::write::{Rebuild, rebuild};
+use crate::{Target, each_body};
+use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+/// What the pass remembers from piece to piece of a program.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct State {
+    /// Whether the target was taken to start without a shift.
+    pub(crate) none: bool,
+}
+
+/// Takes the cancelling statements out.
+pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    each_body(program, entry, |body, _| over(body, &mut state, diags));
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State, diags: &mut Vec<Diagnostic>) {
+    rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
+        if stmt.op != Op::ClearFrame(FrameSlot::Shift) {
+            return made.push(stmt);
+        }
+        take(state, stmt.span, diags);
+        made.leave_out(stmt);
+    });
+}
+
+/// Takes for granted that the target starts without a shift, and tells it once.
+pub(crate) fn take(state: &mut State, at: Span, diags: &mut Vec<Diagnostic>) {
+    if !state.none {
+        let fault = Fault::AssumedMode { fact: ModeName::OriginShift, value: "none".into() };
+        diags.push(Diagnostic::new(fault, at));
+        state.none = true;
+    }
+}

@@ -1,0 +1,59 @@
+//! `rotary-ways`: which way round rotary axes go, for a target without words for it.
+//!
+//! Where the axis is known to stand so that the way is the one along the numbers, and less than half a turn, a plain
+//! word says it. Another way, or one from where nobody knows, is refused: how a plain word goes round is each
+//! machine's own.
+
+use crate::support::walk::Walk;
+use crate::support::write::rebuild;
+use crate::{Target, each_body};
+use ncc_ir::canon::{Axis, RotaryWay};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::ONE;
+use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::track::Tracker;
+
+/// Half a turn, in nanos of a degree. Less than that a plain word turns the same way on every machine, whether it
+/// goes along the numbers or the shortest way.
+const HALF: u64 = 180 * ONE as u64;
+
+/// Leaves out what plain words say.
+pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+}
+
+/// The same for one piece of a body, which ends with a block.
+pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+    if target.caps.rotary_ways {
+        return;
+    }
+    let mut waiting: Option<(Stmt, [Option<RotaryWay>; 3])> = None;
+    rebuild(body, |stmt, made| {
+        walk.enter(stmt.skip);
+        if let Op::TurnRotaryAxes(ways) = stmt.op {
+            walk.step(&stmt);
+            waiting = Some((stmt.clone(), ways));
+            return made.leave_out(stmt);
+        }
+        if let Op::StraightTraverse(m) | Op::StraightFeed(m) = &stmt.op
+            && let Some((said, ways)) = waiting.take()
+        {
+            for (axis, way) in [Axis::A, Axis::B, Axis::C].into_iter().zip(ways) {
+                let Some(way) = way else { continue };
+                let from = walk.at.position[axis as usize];
+                let to = m.to.get(axis).and_then(|word| walk.at.resolve(word, from));
+                let what = match from.zip(to) {
+                    None => "the way of a rotary axis from where nobody knows",
+                    Some((from, to)) if !way.is_direct(from, to) => {
+                        "a rotary axis that goes the other way round"
+                    }
+                    Some((from, to)) if to.abs_diff(from) < HALF => continue,
+                    Some(_) => "a rotary axis that goes a stated way by half a turn or more",
+                };
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, said.span));
+            }
+        }
+        walk.step(&stmt);
+        made.push(stmt);
+    });
+}

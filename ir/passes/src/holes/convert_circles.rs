@@ -1,0 +1,45 @@
+//! `polar-circles` and `cartesian-circles`: the first hole of a circle is given by its radius and
+//! angle, or by its position.
+//!
+//! Only where the holes are the same to half a unit of the target's last digit; else a circle stays
+//! as it is.
+
+use crate::holes::expand_patterns;
+use crate::{Target, each_body};
+use ncc_ir::caps::Caps;
+use ncc_ir::diag::Diagnostic;
+use ncc_ir::program::Program;
+use ncc_ir::track::Tracker;
+
+/// By radius and angle.
+pub fn polar(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    convert(program, target, entry, true, diags);
+}
+
+/// By position.
+pub fn cartesian(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    convert(program, target, entry, false, diags);
+}
+
+fn convert(
+    program: &mut Program,
+    target: &Target,
+    entry: &Tracker,
+    polar: bool,
+    diags: &mut Vec<Diagnostic>,
+) {
+    // A target that can say every pattern, but circles in one form only.
+    let caps = Caps {
+        circle_pattern: true,
+        circle_polar: Some(polar),
+        line_pattern: true,
+        list_pattern: u32::MAX,
+        grid_pattern: u32::MAX,
+        pattern_start: true,
+        pattern_angle: true,
+        pattern_here: true,
+        ..Caps::default()
+    };
+    let target = Target { caps, ..target.clone() };
+    each_body(program, entry, |body, walk| expand_patterns::reform(body, walk, &target, diags));
+}

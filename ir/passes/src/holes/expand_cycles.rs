@@ -1,0 +1,684 @@
+//! `expand-cycles`: a canned cycle becomes its moves. This is the definition of what a cycle does.
+//!
+//! A hole, in the order of its moves:
+//! 1. to the position in the plane, at the level where the tool stands, then by rapid to the
+//!    retract plane R (Fanuc 15i-M); if the tool stands below R and the cycle is
+//!    [`Approach::RaiseFirst`], up to R first (NIST RS274/NGC 3.8.1); if it is
+//!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole
+//!    that was left no higher than R straight to the level of return above the next;
+//! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
+//!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
+//! 3. out by rapid to R or to the level where the tool stood when the cycle was called up, which
+//!    under [`Approach::RaiseFirst`] is not below R (NIST RS274/NGC 3.5.20); [`CycleKind::Bore`]
+//!    feeds to R first.
+//!
+//! The cycle's feed is stated again before the first feed of every hole, as the case study has it.
+//! Moves without way are left out. Levels that the program measures from others are written
+//! absolute, for which they must be known.
+
+use crate::arcs::polar_words;
+use crate::holes::expand_patterns;
+use crate::holes::spindle_holes::with_spindle;
+use crate::support::walk::Walk;
+use crate::support::write::{
+    Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of,
+};
+use crate::{Target, each_body};
+use ncc_ir::canon::{Axis, Motion, ReturnLevel};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm};
+use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Shift, absolute, next_peck};
+use ncc_ir::program::kinds::{flow, moves};
+use ncc_ir::program::{Coord, Op, Point, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::{InForce, Tracker};
+
+/// Most pecks of one hole; more is a slip of the pen.
+const MOST_PECKS: i64 = 100_000;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct State {
+    /// The cycle in force is being expanded.
+    expanding: bool,
+    /// Feed that is stated again at every hole.
+    feed: Option<Expr>,
+    /// That feed, if no hole has stated it yet; a cycle sets the feed even if it makes no hole.
+    owed: Option<Owed>,
+}
+
+#[derive(Clone, Debug)]
+struct Owed {
+    feed: Expr,
+    skip: Option<u8>,
+    span: Span,
+}
+
+/// Expands the cycles that the target cannot say, and their patterns.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+}
+
+impl State {
+    /// Whether statements of a cycle that is not there any more are to come.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.expanding
+    }
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    rebuild(body, |mut stmt, made| {
+        walk.enter(stmt.skip);
+        match &stmt.op {
+            Op::StartCycle(cycle) => {
+                let feed = cycle.feed.clone();
+                let kept_before = walk.at.cycle.is_some() && !state.expanding;
+                // Cycles called up one after another share the initial level.
+                let chained = state.expanding;
+                walk.step(&stmt);
+                let must = match &walk.at.cycle {
+                    Some(in_force) => chained || must_expand(walk, in_force, target, stmt.span, diags),
+                    None => false,
+                };
+                if !must {
+                    state.pay(&mut stmt, made);
+                    state.expanding = false;
+                    return made.push(stmt);
+                }
+                told(&stmt, target, diags);
+                state.expanding = true;
+                if stmt.skip.is_some() || feed.is_none() {
+                    state.pay(&mut stmt, made);
+                }
+                let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
+                state.owed = feed.clone().map(owed);
+                state.feed = feed;
+                if kept_before {
+                    made.replace(stmt, [(true, Op::EndCycle)]);
+                } else {
+                    made.leave_out(stmt);
+                }
+            }
+            Op::Polar(polar) if state.expanding && matches!(polar.op, Op::Hole(_) | Op::Position(_)) => {
+                match polar_words::by_coordinates(polar, walk, target) {
+                    Ok(Op::Hole(m) | Op::Position(m)) => {
+                        // The pole and its words are those behind the point.
+                        let mut behind = walk.at.clone();
+                        behind.apply(&stmt.op);
+                        (walk.at.pole, walk.at.pole_lost) = (behind.pole, behind.pole_lost);
+                        state.holes(stmt, Ok(vec![m.to]), walk, target, made, diags);
+                    }
+                    Ok(_) => {}
+                    Err(fault) => {
+                        diags.push(Diagnostic::new(fault, stmt.span));
+                        walk.step(&stmt);
+                        made.push(stmt);
+                    }
+                }
+            }
+            Op::Hole(m) if state.expanding => {
+                let holes = Ok(vec![m.to.clone()]);
+                state.holes(stmt, holes, walk, target, made, diags);
+            }
+            Op::Position(m) if state.expanding && walk.at.modes.motion == Some(Motion::Cycle) => {
+                let holes = Ok(vec![m.to.clone()]);
+                state.holes(stmt, holes, walk, target, made, diags);
+            }
+            Op::Pattern(pattern) if state.expanding => {
+                let holes = expand_patterns::holes(walk, pattern, target.decimals_in(walk.unit()));
+                if let Ok(holes) = &holes {
+                    let count = holes.len() as u32;
+                    diags.push(Diagnostic::new(Fault::PatternExpanded { holes: count }, stmt.span));
+                }
+                state.holes(stmt, holes, walk, target, made, diags);
+            }
+            Op::EndCycle if state.expanding => {
+                walk.step(&stmt);
+                if stmt.skip.is_none() {
+                    state.expanding = false;
+                }
+                match state.owed.take() {
+                    Some(owed) if owed.skip == stmt.skip => {
+                        made.replace(stmt, [(true, Op::SetFeedRate(owed.feed))]);
+                    }
+                    owed => {
+                        state.owed = owed;
+                        state.pay(&mut stmt, made);
+                        made.leave_out(stmt);
+                    }
+                }
+            }
+            Op::SetFeedRate(feed) if state.expanding => {
+                walk.step(&stmt);
+                if stmt.skip.is_none() && state.feed.is_some() {
+                    // The next hole says it.
+                    state.feed = Some(feed.clone());
+                    state.owed = Some(Owed { feed: feed.clone(), skip: None, span: stmt.span });
+                    return made.leave_out(stmt);
+                }
+                if stmt.skip.is_some() {
+                    // Which feed is in force depends on a switch: the last one said goes on.
+                    state.pay(&mut stmt, made);
+                    state.feed = None;
+                }
+                made.push(stmt);
+            }
+            _ => {
+                walk.step(&stmt);
+                if state.expanding && ends(stmt.op.unwrapped()) {
+                    // A move ends a cycle; one that may be skipped ends it perhaps.
+                    state.expanding = stmt.skip.is_some();
+                    state.pay(&mut stmt, made);
+                }
+                made.push(stmt);
+            }
+        }
+    });
+}
+
+/// Whether a statement ends a cycle that is in force, or goes where this pass does not follow.
+fn ends(op: &Op) -> bool {
+    matches!(op, Op::Position(_) | Op::ProgramEnd | Op::BeginAgain | moves!() | flow!())
+}
+
+impl State {
+    /// States a feed that no hole has stated, in a block of its own before `next`.
+    fn pay(&mut self, next: &mut Stmt, made: &mut Rebuild) {
+        if let Some(owed) = self.owed.take() {
+            let mut stmt = Stmt::new(owed.span, Op::SetFeedRate(owed.feed));
+            stmt.skip = owed.skip;
+            made.push(stmt);
+            next.joined = false;
+        }
+    }
+
+    /// Puts the moves of holes in the place of their statement.
+    fn holes(
+        &mut self,
+        mut stmt: Stmt,
+        holes: Result<Vec<Point>, Fault>,
+        walk: &mut Walk,
+        target: &Target,
+        made: &mut Rebuild,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let holes = match holes {
+            Ok(holes) => holes,
+            Err(fault) => {
+                diags.push(Diagnostic::new(fault, stmt.span));
+                walk.step(&stmt);
+                return made.leave_out(stmt);
+            }
+        };
+        let mut moves = Vec::new();
+        let mut inner = walk.clone();
+        for to in holes {
+            let moved = match &inner.at.cycle {
+                Some(in_force) => hole(&inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
+                None => {
+                    Err(Fault::CannotSay { what: "a cycle called up in a block that can be skipped".into() })
+                }
+            };
+            if let Err(fault) = moved {
+                diags.push(Diagnostic::new(fault, stmt.span));
+                break;
+            }
+            let op = Op::Hole(ncc_ir::program::Move { to, said: false });
+            let mut one = Stmt::new(stmt.span, op);
+            one.skip = stmt.skip;
+            inner.step(&one);
+        }
+        let bores_out = walk.at.cycle.as_ref().is_some_and(|c| bores_out(&c.cycle.kind));
+        walk.step(&stmt);
+        if self.feed.is_none() {
+            self.pay(&mut stmt, made);
+        } else if self.owed.as_ref().is_some_and(|o| stmt.skip.is_none() || o.skip == stmt.skip) {
+            self.owed = None;
+        } else if bores_out {
+            self.pay(&mut stmt, made);
+        }
+        if bores_out && let Some(feed) = &self.feed {
+            // The way out has left another feed in force than the cycle does.
+            self.owed = Some(Owed { feed: feed.clone(), skip: stmt.skip, span: stmt.span });
+        }
+        made.replace(stmt, moves);
+    }
+}
+
+/// Whether a hole is left at another feed.
+fn bores_out(kind: &CycleKind) -> bool {
+    matches!(kind, CycleKind::Bore { feed_out: Some(_), .. })
+}
+
+fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let Op::StartCycle(cycle) = &stmt.op else { return };
+    diags.push(Diagnostic::new(Fault::CycleExpanded { kind: cycle.kind.name().into() }, stmt.span));
+    let (parameter, value) = match &cycle.kind {
+        CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
+            ("clearance of peck drilling", target.peck_clearance)
+        }
+        CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
+            ("lift of chip-breaking drilling", target.break_lift)
+        }
+        CycleKind::FineBore(bore) => {
+            if let (None, Some(angle)) = (&bore.angle, target.orientation) {
+                let (parameter, degrees) = ("orientation of the spindle".into(), angle.nanos(false));
+                let value = format!("{} degrees", degrees.unwrap_or(0) as f64 / 1e9).into();
+                diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+            }
+            if let (Shift::Parameter(_), Some(direction)) = (&bore.shift, target.bore_shift) {
+                let parameter = "direction of the shift of fine boring".into();
+                let value = direction.name().into();
+                diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+            }
+            return;
+        }
+        _ => return,
+    };
+    if let Some(value) = value {
+        let nanos = value.nanos(false).unwrap_or(0);
+        let value = format!("{} mm", nanos as f64 / 1e9).into();
+        let parameter = parameter.into();
+        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+    }
+}
+
+/// Whether the target has words for a cycle, whatever the tool does before it.
+pub(crate) fn sayable(
+    walk: &Walk,
+    cycle: &Cycle,
+    target: &Target,
+    span: Span,
+    diags: &mut Vec<Diagnostic>,
+) -> bool {
+    let caps = &target.caps;
+    if caps.flat {
+        return false;
+    }
+    let kind = cycle.kind.name();
+    let cap = |has: fn(&CycleCap) -> bool| caps.cycles.iter().any(|c| c.kind == kind && has(c));
+    let (dwell, details) = match &cycle.kind {
+        CycleKind::Drill => (false, true),
+        CycleKind::DrillDwell { .. } => (true, true),
+        CycleKind::DrillPeck { dwell, clearance, first, less, pause, settle, .. } => {
+            let other_first = first.is_some() && less.is_none();
+            let strokes = other_first || pause.is_some() || settle.is_some();
+            (dwell.is_some(), says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks)))
+        }
+        CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
+            let strokes = first.is_some() && less.is_none() || pause.is_some();
+            let rapid = cap(|c| c.lift_at_feed != Some(true));
+            let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
+            let shrinks = less.is_none() || cap(|c| c.shrinks);
+            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
+        }
+        CycleKind::Bore { dwell, feed_out, .. } => {
+            (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
+        }
+        CycleKind::Tap(tap) => {
+            let turns = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
+            (
+                tap.dwell.is_some() || tap.back.is_some(),
+                driven(caps, cycle) && caps.cycles.iter().any(|c| c.kind == kind && turns(c)),
+            )
+        }
+        CycleKind::FineBore(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
+        CycleKind::BoreStop(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
+    };
+    if !details || caps.return_planes.is_some_and(|p| p != cycle.return_plane.is_some()) {
+        return false;
+    }
+    let mut rows = caps.cycles.iter().filter(|c| c.kind == kind && (c.dwell || !dwell));
+    if cycle.return_plane.is_some() {
+        return rows.any(|c| c.ends_feed(&cycle.kind, None));
+    }
+    let says =
+        |level| rows.clone().any(|c| c.returns.contains(&level) && c.ends_feed(&cycle.kind, Some(level)));
+    match cycle.return_level.known().or(walk.at.modes.return_level) {
+        Some(level) => says(level),
+        None => {
+            let (initial, retract) = (says(ReturnLevel::Initial), says(ReturnLevel::Retract));
+            if initial != retract {
+                diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }, span));
+            }
+            initial || retract
+        }
+    }
+}
+
+/// Whether the target says what a cycle does with the spindle in the way that it does it.
+fn driven(caps: &Caps, cycle: &Cycle) -> bool {
+    let kind = cycle.kind.name();
+    caps.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
+}
+
+/// Whether the target can say how a hole is pecked.
+fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance, strokes: bool) -> bool {
+    let stated = match clearance {
+        Clearance::Stated(_) => cap(|c| c.clearance),
+        Clearance::Parameter => cap(|c| c.parameter),
+    };
+    stated && (!strokes || cap(|c| c.strokes))
+}
+
+fn must_expand(
+    walk: &Walk,
+    in_force: &InForce,
+    target: &Target,
+    span: Span,
+    diags: &mut Vec<Diagnostic>,
+) -> bool {
+    let cycle = &in_force.cycle;
+    let same_way = target.caps.approach.is_none_or(|way| is_one_way(walk, in_force, way));
+    !sayable(walk, cycle, target, span, diags) || !same_way
+}
+
+/// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
+pub(crate) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
+    let cycle = &in_force.cycle;
+    if cycle.approach == way {
+        return true;
+    }
+    let Some(plane) = walk.at.plane(cycle.plane) else { return false };
+    let Some(retract) = in_force.retract else { return false };
+    let returns = cycle.return_level.known().or(walk.at.modes.return_level);
+    let leg = |way: Approach, level: Nanos| {
+        if cycle.approach != Approach::ClearFirst && way != Approach::ClearFirst {
+            // The others look at the level alone.
+            return Some(way.leg(level, level, retract, level));
+        }
+        let out = match returns {
+            _ if cycle.return_plane.is_some() => in_force.return_plane,
+            Some(ReturnLevel::Retract) => Some(retract),
+            Some(ReturnLevel::Initial) => in_force.initial.map(|initial| way.initial(initial, retract)),
+            None => None,
+        };
+        Some(way.leg(level, in_force.initial?, retract, out?))
+    };
+    let one = |level: Option<Nanos>| {
+        level.is_some_and(|level| {
+            let legs = [leg(cycle.approach, level), leg(way, level)];
+            legs[0].is_some() && legs[0] == legs[1]
+        })
+    };
+    if cycle.return_plane.is_some() {
+        return one(walk.at.position[plane.axes().2 as usize]) && one(in_force.return_plane);
+    }
+    one(walk.at.position[plane.axes().2 as usize])
+        && (returns == Some(ReturnLevel::Retract)
+            || one(in_force.initial)
+                && in_force
+                    .initial
+                    .is_some_and(|i| cycle.approach.initial(i, retract) == way.initial(i, retract)))
+}
+
+/// A level of a cycle as an absolute word.
+pub(crate) fn level(
+    walk: &Walk,
+    word: &Coord,
+    resolved: Option<Nanos>,
+    normal: Axis,
+) -> Result<Coord, Fault> {
+    if is_absolute(word, walk.at.modes.distance) {
+        return Ok(as_absolute(word));
+    }
+    match resolved {
+        Some(nanos) => Ok(at(nanos, normal, walk.unit())),
+        None if word.distance.known().or(walk.at.modes.distance).is_none() => {
+            Err(Fault::EntryFactNeeded { fact: ModeName::Distance })
+        }
+        None => Err(Fault::PositionUnknown { axis: normal.letter() as char }),
+    }
+}
+
+/// The moves of one hole; `true` marks those that stand in the block of the one before.
+pub(crate) fn hole(
+    walk: &Walk,
+    in_force: &InForce,
+    to: &Point,
+    feed: Option<&Expr>,
+    target: &Target,
+    moves: &mut Vec<(bool, Op)>,
+) -> Result<(), Fault> {
+    let cycle = &in_force.cycle;
+    let here = &walk.at;
+    let plane = here.plane(cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+    let normal = plane.axes().2;
+    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
+    let retract = only(normal, level(walk, &cycle.retract, in_force.retract, normal)?);
+    let depth = only(normal, level(walk, &cycle.depth, in_force.depth, normal)?);
+    if let (Some(r), Some(d)) = (in_force.retract, in_force.depth)
+        && d > r
+    {
+        return Err(Fault::CycleUpsideDown);
+    }
+    let out = match cycle.return_level.known().or(here.modes.return_level) {
+        _ if let Some(plane) = &cycle.return_plane => {
+            let same = in_force.return_plane.is_some() && in_force.return_plane == in_force.retract;
+            let word = level(walk, plane, in_force.return_plane, normal)?;
+            (!same).then(|| only(normal, word))
+        }
+        Some(ReturnLevel::Retract) => None,
+        Some(ReturnLevel::Initial) => {
+            let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
+            let initial = match (cycle.approach, in_force.retract) {
+                (Approach::RaiseFirst | Approach::ClearFirst, None) => return Err(unknown.clone()),
+                (way, retract) => way.initial(initial, retract.unwrap_or(initial)),
+            };
+            (in_force.retract != Some(initial)).then(|| only(normal, at(initial, normal, walk.unit())))
+        }
+        None => return Err(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }),
+    };
+
+    // 1. To the retract plane above the hole.
+    let mut aside = to.clone();
+    aside.axes[normal as usize] = None;
+    let now = here.position[normal as usize];
+    // A waiting length offset is taken up by a word of Z, even if the tool stands there already.
+    let goes_aside = aside.axes.iter().enumerate().any(|(axis, word)| {
+        word.as_ref().is_some_and(|w| {
+            here.position[axis].is_none() || here.resolve(w, here.position[axis]) != here.position[axis]
+        })
+    }) || walk.waiting && aside.get(Axis::Z).is_some();
+    for (axis, word) in Axis::ALL.into_iter().zip(&mut aside.axes) {
+        let Some(coord) = word else { continue };
+        let known = here.resolve(coord, here.position[axis as usize]);
+        if let (false, Some(nanos)) = (is_absolute(coord, here.modes.distance), known) {
+            *coord = at(nanos, axis, walk.unit());
+        }
+    }
+    let mut slant = None;
+    let raise = match (cycle.approach, now.zip(in_force.retract)) {
+        (Approach::PlaneFirst, _) => false,
+        (Approach::ClearFirst, Some((now, retract))) => {
+            let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
+            let clear = match &out {
+                Some(_) if cycle.return_plane.is_some() => {
+                    in_force.return_plane.ok_or_else(|| unknown.clone())?
+                }
+                Some(_) => cycle.approach.initial(initial, retract),
+                None => retract,
+            };
+            let leg = cycle.approach.leg(now, initial, retract, clear);
+            slant = (leg == Leg::Slant).then_some(clear);
+            leg == Leg::Level
+        }
+        (way, Some((now, retract))) => way.retracts(now, retract),
+        (Approach::RaiseFirst | Approach::ClearFirst, None) if goes_aside => return Err(unknown),
+        (Approach::RaiseFirst | Approach::RetractFirst | Approach::ClearFirst, None) => true,
+    };
+    let above = slant.or(now);
+    if let Some(clear) = slant {
+        aside.axes[normal as usize] = Some(at(clear, normal, walk.unit()));
+    }
+    let to_retract = above.is_none() || above != in_force.retract || walk.waiting;
+    if matches!(&cycle.kind, CycleKind::Tap(tap) if !tap.chuck) {
+        moves.push((false, Op::StopSpindleTurning));
+    }
+    if raise {
+        moves.push((false, traverse(retract.clone())));
+    }
+    if goes_aside || slant.is_some() {
+        moves.push((false, traverse(aside)));
+    }
+    if to_retract && !raise {
+        moves.push((false, traverse(retract.clone())));
+    }
+
+    // 2. The hole.
+    let stated = feed.is_some();
+    if !stated && bores_out(&cycle.kind) {
+        // Nothing says to which feed to go back.
+        let what = "boring with another feed on the way out, under a feed that the cycle does not state";
+        return Err(Fault::CannotSay { what: what.into() });
+    }
+    if let Some(feed) = feed {
+        moves.push((false, Op::SetFeedRate(feed.clone())));
+    }
+    if cycle.kind.drives_spindle() {
+        let from = moves.len();
+        with_spindle(walk, in_force, to, [retract, depth], out, target, moves)?;
+        if let Some((joined, Op::StraightFeed(_) | Op::SynchronisedFeed(_))) = moves.get_mut(from) {
+            *joined = stated;
+        }
+        return Ok(());
+    }
+    pecks(walk, in_force, normal, target, stated, moves)?;
+    let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
+    moves.push((stated && first_cut, cut(depth)));
+    let dwell = match &cycle.kind {
+        CycleKind::Drill | CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => None,
+        CycleKind::DrillDwell { dwell } => Some(dwell),
+        CycleKind::DrillPeck { dwell, .. }
+        | CycleKind::DrillBreak { dwell, .. }
+        | CycleKind::Bore { dwell, .. } => dwell.as_ref(),
+    };
+    if let Some(dwell) = dwell.filter(|dwell| lasts(dwell)) {
+        moves.push((false, Op::Dwell(dwell.clone())));
+    }
+
+    // 3. Out.
+    match (&cycle.kind, out) {
+        (CycleKind::Bore { feed_out, to_level, .. }, out) => {
+            if let Some(feed) = feed_out {
+                moves.push((false, Op::SetFeedRate(feed.clone())));
+            }
+            match out {
+                Some(out) if *to_level => moves.push((feed_out.is_some(), cut(out))),
+                out => {
+                    moves.push((feed_out.is_some(), cut(retract)));
+                    moves.extend(out.map(|out| (false, traverse(out))));
+                }
+            }
+        }
+        (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),
+    }
+    Ok(())
+}
+
+/// What comes between two pecks.
+enum Between<'c> {
+    /// Out of the hole and back to the clearance.
+    Out { clearance: Nanos, settle: Option<&'c Expr> },
+    /// Up a little.
+    Up { lift: Nanos, at_feed: bool },
+}
+
+/// All pecks but the last.
+fn pecks(
+    walk: &Walk,
+    in_force: &InForce,
+    normal: Axis,
+    target: &Target,
+    stated: bool,
+    moves: &mut Vec<(bool, Op)>,
+) -> Result<(), Fault> {
+    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
+    let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
+        Some(nanos) => Ok(nanos),
+        None => Err(Fault::CannotSay { what: what.into() }),
+    };
+    let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
+    let (peck, first, less, pause, between) = match &in_force.cycle.kind {
+        CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, .. } => {
+            let clearance = match clearance {
+                Clearance::Stated(value) => length(value)?,
+                Clearance::Parameter => parameter(
+                    target.peck_clearance,
+                    "peck drilling whose clearance is a parameter of the control",
+                )?,
+            };
+            (peck, first, less, pause, Between::Out { clearance, settle: settle.as_ref() })
+        }
+        CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, .. } => {
+            let lift = match lift {
+                Clearance::Stated(value) => length(value)?,
+                Clearance::Parameter => parameter(
+                    target.break_lift,
+                    "chip-breaking drilling whose lift is a parameter of the control",
+                )?,
+            };
+            (peck, first, less, pause, Between::Up { lift, at_feed: *lift_at_feed })
+        }
+        CycleKind::Drill
+        | CycleKind::DrillDwell { .. }
+        | CycleKind::Bore { .. }
+        | CycleKind::Tap(_)
+        | CycleKind::FineBore(_)
+        | CycleKind::BoreStop(_) => return Ok(()),
+    };
+    let (Some(retract), Some(depth)) = (in_force.retract, in_force.depth) else { return Err(unknown) };
+    let peck = length(peck)?.checked_abs().unwrap_or(0);
+    let first = match first {
+        Some(first) => length(first)?,
+        None => peck,
+    };
+    let less = less.as_ref().map(length).transpose()?;
+    let grows = less.is_some_and(|less| less < 0 || first < peck);
+    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MOST_PECKS {
+        return Err(Fault::OutOfRange { word: "depth of a peck".into() });
+    }
+    let unit = unit_of(normal, walk.unit());
+    let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
+    let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
+    let mut stroke = first;
+    let mut bottom = retract.saturating_sub(stroke);
+    let mut joined = stated;
+    while bottom > depth {
+        moves.push((joined, cut(go(bottom))));
+        joined = false;
+        if let Some(pause) = pause.as_ref().filter(|pause| lasts(pause)) {
+            moves.push((false, Op::Dwell(pause.clone())));
+        }
+        match &between {
+            Between::Out { clearance, settle } => {
+                moves.push((false, traverse(up.clone())));
+                if let Some(settle) = settle.filter(|settle| lasts(settle)) {
+                    moves.push((false, Op::Dwell((*settle).clone())));
+                }
+                moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
+            }
+            Between::Up { lift, at_feed } => {
+                let to = go(bottom.saturating_add(*lift));
+                moves.push((false, if *at_feed { cut(to) } else { traverse(to) }));
+            }
+        }
+        stroke = next_peck(stroke, peck, less);
+        bottom = bottom.saturating_sub(stroke);
+    }
+    Ok(())
+}
+
+/// Whether a cycle's dwell is one: of no seconds it is none.
+pub(crate) fn lasts(seconds: &Expr) -> bool {
+    seconds.literal().is_none_or(|n| !n.is_zero())
+}

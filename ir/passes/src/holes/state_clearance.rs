@@ -1,0 +1,66 @@
+//! `state-clearance`: what one control leaves to a parameter of a cycle, another states.
+//!
+//! The parameter's value is taken for granted, and told. Where it is not known the cycle stays as it
+//! is, for another pass to refuse. It is stated in the unit of length in force.
+
+use crate::support::walk::Walk;
+use crate::support::write::rounded;
+use crate::{Target, each_body};
+use ncc_ir::canon::Units;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::cycle::{Clearance, CycleKind};
+use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::track::Tracker;
+
+/// States them.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk.clone(), target, diags));
+}
+
+/// The same for one body.
+pub(crate) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+    for stmt in body {
+        walk.enter(stmt.skip);
+        walk.step(stmt);
+        let Op::StartCycle(cycle) = &mut stmt.op else { continue };
+        let kind = cycle.kind.name();
+        let states = target.caps.cycles.iter().any(|c| c.kind == kind && c.clearance && !c.parameter);
+        if !states {
+            continue;
+        }
+        let (clearance, value, parameter) = match &mut cycle.kind {
+            CycleKind::DrillPeck { clearance, .. } => {
+                (clearance, target.peck_clearance, "clearance of peck drilling")
+            }
+            CycleKind::DrillBreak { lift, .. } => (lift, target.break_lift, "lift of chip-breaking drilling"),
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::Bore { .. }
+            | CycleKind::Tap(_)
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => continue,
+        };
+        if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
+            *clearance = Clearance::Stated(in_unit(value, walk.at.modes.units, target).into());
+            diags.push(Diagnostic::new(told(parameter, value), stmt.span));
+        }
+    }
+}
+
+/// A value in millimetres as it is stated where this unit is in force.
+fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
+    match (units, value.nanos(false)) {
+        (Some(Units::Inch), Some(nanos)) => rounded(nanos, target.decimals_in(Unit::Inch), Unit::Inch),
+        _ => value,
+    }
+}
+
+/// What is told of a parameter that was taken for granted.
+pub(crate) fn told(parameter: &str, value: Num) -> Fault {
+    let nanos = value.nanos(false).unwrap_or(0);
+    Fault::AssumedParameter {
+        parameter: parameter.into(),
+        value: format!("{} mm", nanos as f64 / 1e9).into(),
+    }
+}

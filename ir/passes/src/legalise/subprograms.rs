@@ -1,0 +1,278 @@
+//! Subprograms, brought within a target's capabilities: as they are, with what their callers have in force, or written
+//! out where they are called.
+//!
+//! What can stay a subprogram does: those alone are written out that belong to a cycle of a caller which the target
+//! says in another way, or that cannot be said by themselves.
+
+use std::collections::{BTreeSet, HashSet};
+use std::rc::Rc;
+
+use super::*;
+use crate::support::known_facts::has_bare_holes;
+use ncc_ir::canon::FeedMode;
+use ncc_ir::program::Text;
+use ncc_ir::program::kinds::flow;
+use ncc_ir::program::valid::{ends_callers_cycle, leaves_a_cycle};
+
+/// What is done with subprograms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Subprograms {
+    /// They stay as they are.
+    Keep,
+    /// They get what their callers have in force.
+    Specialise,
+    /// They are written out.
+    Expand,
+}
+
+impl Legaliser {
+    /// Brings a program that is kept whole within the target's capabilities: the rest of the main
+    /// procedure, and all subprograms. Ends it, as [`Legaliser::finish`] does.
+    pub fn run_program(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) {
+        let assumed = rest.assumed;
+        self.walk.assume(&assumed);
+        let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.target.caps);
+        // Where the frames can be said, subprograms stay what they are.
+        let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.target.caps);
+        if apart && rest.procedures.len() > 1 && self.lacks & CALL == 0 {
+            let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
+            own.run_whole(&mut program, Subprograms::Keep, &mut found);
+            let worked_in = |d: &Diagnostic| {
+                d.fault.gravity() == Gravity::Error || matches!(d.fault, Fault::FramesExpanded)
+            };
+            if !found.iter().any(worked_in) {
+                (*self, *rest) = (own, program);
+                return diags.append(&mut found);
+            }
+        }
+        if frames || self.repeats_in_the_way(rest) {
+            expand_repeats::everywhere(rest, diags);
+        }
+        // A subprogram may lack what only its callers know: it is given that, or written out.
+        let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
+        let first = match self.lacks & CALL != 0 || frames {
+            true => 2,
+            false if !self.calls_under_expanded(rest) => 0,
+            false => {
+                let mut own = rest.clone();
+                let inherits = self.target.caps.inherits_motion;
+                specialise_procedures::over(&mut own, &self.walk, inherits, &mut Vec::new());
+                if self.calls_under_expanded(&own) { 2 } else { 1 }
+            }
+        };
+        if first == 2 && self.lacks & CALL == 0 && !frames && self.write_out_some(rest, diags) {
+            return;
+        }
+        if first == 2 {
+            return self.run_whole(rest, Subprograms::Expand, diags);
+        }
+        if self.lacks != 0 && rest.procedures.len() > 1 {
+            for way in ways.into_iter().skip(first) {
+                if way == Subprograms::Expand && self.write_out_some(rest, diags) {
+                    return;
+                }
+                let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
+                own.run_whole(&mut program, way, &mut found);
+                if !found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
+                    (*self, *rest) = (own, program);
+                    return diags.append(&mut found);
+                }
+            }
+        }
+        self.run_whole(rest, ways[first], diags);
+    }
+
+    /// Subprograms get what their callers have in force, and those alone are written out that take a cycle from
+    /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
+    fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
+        let (mut given, mut told) = (rest.clone(), Vec::new());
+        let inherits = self.target.caps.inherits_motion;
+        specialise_procedures::over(&mut given, &self.walk, inherits, &mut told);
+        let subs = given.procedures.iter().skip(1);
+        let mut names: BTreeSet<Text> = match self.calls_under_expanded(&given) {
+            true => subs.clone().filter(|sub| takes_cycle(&sub.body)).map(|sub| sub.name.clone()).collect(),
+            false => BTreeSet::new(),
+        };
+        loop {
+            let (mut own, mut program, mut found) = (self.clone(), given.clone(), told.clone());
+            expand_calls::some(&mut program, &mut self.walk.clone(), &names, &mut found);
+            if program.procedures.len() < 2 || self.calls_under_expanded(&program) {
+                return false;
+            }
+            own.run_whole(&mut program, Subprograms::Keep, &mut found);
+            let refused = found.iter().filter(|d| d.fault.gravity() == Gravity::Error);
+            let starts: HashSet<u32> = refused.map(|d| d.span.start).collect();
+            if starts.is_empty() {
+                let left: BTreeSet<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
+                found.retain(|d| !matches!(&d.fault, Fault::NameChanged { to, .. } if !left.contains(to)));
+                (*self, *rest) = (own, program);
+                diags.append(&mut found);
+                return true;
+            }
+            let known = names.len();
+            let has = |sub: &&Procedure| sub.body.iter().any(|stmt| starts.contains(&stmt.span.start));
+            names.extend(subs.clone().filter(has).map(|sub| sub.name.clone()));
+            if names.len() == known {
+                return false;
+            }
+        }
+    }
+
+    /// The same, with subprograms treated in one way.
+    fn run_whole(&mut self, rest: &mut Program, way: Subprograms, diags: &mut Vec<Diagnostic>) {
+        let assumed = rest.assumed;
+        match way {
+            Subprograms::Keep => {}
+            Subprograms::Specialise => {
+                let inherits = self.target.caps.inherits_motion;
+                specialise_procedures::over(rest, &self.walk, inherits, diags);
+            }
+            Subprograms::Expand => {
+                expand_repeats::in_procedures(rest, self.target.caps.repeat_blocks, diags);
+                // The walk is needed again for the other passes.
+                expand_calls::over(rest, &mut self.walk.clone(), diags);
+            }
+        }
+        self.refuse_cycles_left(rest, diags);
+        number_names::over(rest, &self.target, false, diags);
+        self.entries = self.entries_of(rest).map(Rc::new);
+        let mut procedures = rest.procedures.iter_mut();
+        if let Some(main) = procedures.next() {
+            self.run(&mut main.body, &assumed, None, diags);
+            self.finish(&mut main.body, diags);
+        }
+        for procedure in procedures {
+            self.walk = Walk::new(Tracker::unknown());
+            self.cycles = expand_cycles::State::default();
+            self.taps = taps::State::default();
+            self.feed = feed_unit::State::default();
+            self.threads = in_step::State::default();
+            self.edge.start_over();
+            self.axis.start_over();
+            self.path.start_over();
+            self.one = one_move::State::default();
+            self.polar = polar_words::State::default();
+            self.corners = expand_corners::State::default();
+            self.arcs = arc_form::State::default();
+            self.frames.start_over();
+            self.machine = machine_moves::State::default();
+            self.change.start_over();
+            self.at_once = at_once::State::default();
+            self.z_left.start_over();
+            self.enter(procedure.body.first());
+            self.run(&mut procedure.body, &Modes::default(), None, diags);
+            self.change.start_over();
+            self.finish(&mut procedure.body, diags);
+            self.at_once.end_of_sub(&procedure.body, diags);
+        }
+    }
+
+    /// Refuses subprograms that leave a cycle in force to their callers, where the target's cannot.
+    pub(super) fn refuse_cycles_left(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
+        if !self.target.caps.cycle_ends_with_call {
+            return;
+        }
+        let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
+        let fault = || Fault::CannotSay { what: "a cycle that a subprogram leaves in force".into() };
+        diags.extend(left.map(|at| Diagnostic::new(fault(), at)));
+        let fault = || Fault::CannotSay { what: "a subprogram that ends a cycle of its caller".into() };
+        diags.extend(ends_callers_cycle(program).into_iter().map(|at| Diagnostic::new(fault(), at)));
+    }
+
+    /// What holds after each call and label, where a pass asks for it.
+    pub(super) fn entries_of(&self, program: &Program) -> Option<known_facts::Known> {
+        let has = |wanted| program.procedures.iter().any(|procedure| has(&procedure.body, wanted));
+        let units = self.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
+        let starts = || has(|op| matches!(op, Op::StartCutterRadiusCompensation { .. }));
+        let beside = self.compensated.refused.any() && (self.compensated.on || starts());
+        let by_time = self.times_differ && has(|op| *op == Op::SetFeedMode(FeedMode::InverseTime));
+        if !(units || beside || by_time) || !has(|op| matches!(op, flow!())) {
+            return None;
+        }
+        let mut entry = match self.follow {
+            true => self.walk.at.clone(),
+            false => Tracker::unknown(),
+        };
+        entry.compensated = self.compensated.on;
+        known_facts::starts(program, &entry, self.compensated.path())
+    }
+
+    /// Control comes from elsewhere to a body, or to what follows control.
+    pub(super) fn enter(&mut self, first: Option<&Stmt>) {
+        let entries = self.entries.clone();
+        let at = first.and_then(|first| entries.as_ref()?.before(first));
+        let path = first.and_then(|first| entries.as_ref()?.path_before(first));
+        let unknown = Tracker { compensated: self.walk.at.compensated, ..Tracker::unknown() };
+        self.compensated.enter(at.unwrap_or(&unknown), path);
+        self.feed.enter();
+        self.times.enter();
+    }
+
+    /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
+    /// is known only where they are written out.
+    fn repeats_in_the_way(&self, program: &Program) -> bool {
+        if self.lacks == 0 || !self.target.caps.repeat_blocks || !expand_repeats::repeats_blocks(program) {
+            return false;
+        }
+        let caps = &self.target.caps;
+        let moved = |p: &Procedure| {
+            caps.centres_from_zero && repeat_ends::moves_arcs(&p.body)
+                || (!caps.repeat_by_numbers || repeat_ends::changes_cycle(&p.body))
+                    && repeat_ends::under_another_cycle(&p.body)
+                || !caps.repeat_by_numbers && repeat_ends::is_one_block_of_several(&p.body)
+        };
+        if program.procedures.iter().any(moved) {
+            return true;
+        }
+        let (mut own, mut trial, mut found) = (self.clone(), program.clone(), Vec::new());
+        let way = if self.lacks & CALL != 0 { Subprograms::Expand } else { Subprograms::Keep };
+        own.run_whole(&mut trial, way, &mut found);
+        let written_out = |d: &Diagnostic| {
+            matches!(d.fault, Fault::CycleExpanded { .. }) || d.fault.gravity() == Gravity::Error
+        };
+        found.iter().any(written_out)
+    }
+
+    /// Whether positions in a subprogram may belong to a cycle that the target cannot say.
+    fn calls_under_expanded(&self, program: &Program) -> bool {
+        if self.lacks & CYCLE == 0 || !program.procedures.iter().skip(1).any(|sub| takes_cycle(&sub.body)) {
+            return false;
+        }
+        let walk = Walk::default();
+        let planes = self.target.caps.return_planes;
+        let bodies = || program.procedures.iter().enumerate();
+        let stands = |at: usize| if at == 0 { self.walk.clone() } else { Walk::new(Tracker::unknown()) };
+        bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
+            Op::StartCycle(cycle) if planes.is_some_and(|p| p != cycle.return_plane.is_some()) => {
+                let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
+                !return_plane::mends(body, &stands(at), &self.target)
+            }
+            Op::StartCycle(cycle) => {
+                let other = self.target.caps.approach.is_some_and(|a| a != cycle.approach);
+                let mut nothing = Vec::new();
+                let says = expand_cycles::sayable(&walk, cycle, &self.target, stmt.span, &mut nothing);
+                other || !says || !nothing.is_empty()
+            }
+            _ => false,
+        })
+    }
+}
+
+/// Whether a body makes holes under a cycle of its caller, or leaves its own to it.
+fn takes_cycle(body: &[Stmt]) -> bool {
+    let calls = body.iter().filter_map(|stmt| match stmt.op {
+        Op::StartCycle(_) => Some(true),
+        Op::EndCycle => Some(false),
+        _ => None,
+    });
+    let mut calls = calls.peekable();
+    has_bare_holes(body) || calls.peek() == Some(&false) || calls.last() == Some(true)
+}
+
+/// Whether an operation stands in a body, or in one of a structure in it.
+fn has(body: &[Stmt], wanted: fn(&Op) -> bool) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Control(control) => control.bodies().any(|body| has(body, wanted)) || wanted(&stmt.op),
+        op => wanted(op),
+    })
+}

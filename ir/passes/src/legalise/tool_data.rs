@@ -1,0 +1,32 @@
+//! Values that a program puts into the table of tools: whether the target has them, and means the same by them.
+
+use ncc_ir::caps::Caps;
+use ncc_ir::program::Data;
+use ncc_ir::track::Tracker;
+
+/// What the target cannot say of a value of a tool, if anything.
+pub(super) fn refusal(data: &Data, at: &Tracker, caps: &Caps) -> Option<&'static str> {
+    match data {
+        Data::Tool { which, added, .. }
+            if !caps.tool_data[*which as usize] || *added && !caps.tool_data_added =>
+        {
+            Some("this value in the control's tables")
+        }
+        // Where another entry is surely in force, nothing of it can stay or change.
+        Data::Tool { entry, which, kept: true, .. }
+            if which.is_offset()
+                && !caps.tool_data_kept
+                && at.modes.length_offset.is_none_or(|own| own == *entry) =>
+        {
+            Some("a value of the tool in use that counts when it is called up anew")
+        }
+        Data::Measured { offset, .. } if !caps.measures_tools[usize::from(offset.is_some())] => {
+            Some("a tool measured where the axes stand")
+        }
+        Data::Tool { .. }
+        | Data::Measured { .. }
+        | Data::Offset { .. }
+        | Data::Position(_)
+        | Data::ToolInSpindle(_) => None,
+    }
+}

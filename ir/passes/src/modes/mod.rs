@@ -1,0 +1,15 @@
+//! What is in force: units, distances, feeds, path control, and what codes do besides their name.
+
+pub(crate) mod at_once;
+pub mod convert_distance;
+pub mod convert_units;
+pub mod drop_redundant;
+pub mod feed_time;
+pub mod feed_unit;
+pub(crate) mod fine_digits;
+pub mod flatten_facts;
+pub mod one_distance;
+pub mod one_move;
+pub mod own_distance;
+pub(crate) mod path_control;
+pub mod side_effects;

@@ -1,0 +1,158 @@
+//! `path-control`: how corners are taken, and advice, in the words that the target has.
+//!
+//! Ways of rounding that it cannot say become its plain rounding, going through an end point becomes
+//! stopping at it, and an exact stop of one move becomes a mode for it where the mode before is known.
+//! A mode that the target is always in is left out, and told; another is not, so that its writer
+//! refuses it. Advice that it has no word for is left out and told, once for each kind.
+
+use crate::support::write::{Rebuild, rebuild};
+use crate::{Target, each_body};
+use ncc_ir::canon::{AdviceKind, PathMode};
+use ncc_ir::caps::Caps;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::arguments;
+use ncc_ir::program::kinds::{flow, moves};
+use ncc_ir::program::{Op, PathControl, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+/// What the pass remembers from piece to piece of a program.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct State {
+    /// The mode that the program has said last.
+    said: Option<PathControl>,
+    /// The mode that is to be said again before the block behind the next move, and whether that move
+    /// has been made.
+    again: Option<(PathControl, bool)>,
+    /// What was told, a bit each: kinds of advice, then modes.
+    told: u64,
+}
+
+impl State {
+    /// Whether a mode waits to be said again.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.again.is_some()
+    }
+
+    /// What is in force is not known any more: the body of a procedure.
+    pub(crate) fn start_over(&mut self) {
+        (self.said, self.again) = (None, None);
+    }
+
+    fn first_time(&mut self, bit: u32) -> bool {
+        let fresh = self.told >> bit & 1 == 0;
+        self.told |= 1 << bit;
+        fresh
+    }
+}
+
+/// Brings modes and advice into the target's words.
+pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    each_body(program, entry, |body, _| {
+        state.start_over();
+        over(body, &mut state, target, diags);
+    });
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let caps = &target.caps;
+    rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
+        if !stmt.joined
+            && let Some((control, _)) = state.again.take_if(|(_, moved)| *moved)
+        {
+            let op = Op::SetMotionControlMode(Box::new(control));
+            made.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op) });
+        }
+        match &stmt.op {
+            Op::SetMotionControlMode(control) => {
+                let control = sayable(control, caps, stmt.span, state, diags);
+                state.again = None;
+                state.said = stmt.skip.is_none().then(|| control.clone());
+                let freely = control.mode == PathMode::Continuous && caps.rounds_freely;
+                if freely && target.corners_bounded && state.first_time(34) {
+                    diags.push(Diagnostic::new(Fault::RoundsFreely, stmt.span));
+                }
+                if caps.only_path == Some(control.mode) && !caps.says_path(control.mode) {
+                    if state.first_time(32) {
+                        let path = control.mode.name().into();
+                        diags.push(Diagnostic::new(Fault::AssumedPath { path }, stmt.span));
+                    }
+                    return made.leave_out(stmt);
+                }
+                made.push(Stmt { op: Op::SetMotionControlMode(Box::new(control)), ..stmt });
+            }
+            Op::ExactStop if !caps.exact_stop && caps.says_path(PathMode::ExactStop) => match &state.said {
+                // What is computed may be something else behind it.
+                Some(control)
+                    if !arguments::computed(&Op::SetMotionControlMode(Box::new(control.clone()))) =>
+                {
+                    if control.mode != PathMode::ExactStop {
+                        state.again = Some((control.clone(), false));
+                    }
+                    let stop = PathControl::plain(PathMode::ExactStop);
+                    made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
+                }
+                _ => {
+                    let what = "an exact stop of one move, where the mode before it is not known".into();
+                    diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    made.leave_out(stmt);
+                }
+            },
+            Op::Advise(advice) if !caps.advises(advice.kind, advice.value) => {
+                // What F counts on arcs is compared where one is cut.
+                if advice.kind != AdviceKind::CompensatedFeed && state.first_time(advice.kind as u32) {
+                    let kind = advice.kind.name().into();
+                    diags.push(Diagnostic::new(Fault::AdviceLeftOut { kind }, stmt.span));
+                }
+                made.leave_out(stmt);
+            }
+            flow!() => {
+                state.said = None;
+                made.push(stmt);
+            }
+            moves!() | Op::Position(_) => {
+                if let Some((_, moved)) = &mut state.again {
+                    *moved = true;
+                }
+                made.push(stmt);
+            }
+            _ => made.push(stmt),
+        }
+    });
+}
+
+/// The mode in words that the target has, as far as there are any.
+fn sayable(
+    control: &PathControl,
+    caps: &Caps,
+    at: Span,
+    state: &mut State,
+    diags: &mut Vec<Diagnostic>,
+) -> PathControl {
+    let mut own = control.clone();
+    if !caps.says_path(own.mode) {
+        let plain = match own.mode.plain() {
+            PathMode::ExactPath if !caps.says_path(PathMode::ExactPath) => PathMode::ExactStop,
+            mode => mode,
+        };
+        own = PathControl::plain(plain);
+    }
+    if own.rapids.is_some() && !caps.path_in_rapids {
+        own.rapids = None;
+    }
+    if let Some(merged) = own.merged.take_if(|_| !caps.path_merges)
+        && own.within.as_ref() != Some(&merged)
+        && state.first_time(33)
+    {
+        diags.push(Diagnostic::new(Fault::AdviceLeftOut { kind: "moves-made-one".into() }, at));
+    }
+    if (own.mode, &own.within, &own.rapids) != (control.mode, &control.within, &control.rapids)
+        && state.first_time(40 + control.mode as u32)
+    {
+        let (from, to) = (control.mode.name().into(), own.mode.name().into());
+        diags.push(Diagnostic::new(Fault::PathRelaxed { from, to }, at));
+    }
+    own
+}

@@ -1,0 +1,110 @@
+//! `length-by-hand`: tool lengths for a control that has none, because its tools are changed by hand.
+//!
+//! ```text
+//! T3 M06              M5 M9 G53 G0 Z0 T3 M0
+//! G43 H3 Z10.    →    G00 Z10.
+//! ```
+//!
+//! The operator sets the zero of Z by the tool that is put in, so that Z counts from its tip. That is the same cut if all
+//! of a tool's moves along Z are measured by its own length, or all of them by none. Anything else is refused: another
+//! tool's length, and a tool that moves along Z with its length and without.
+//!
+//! Not here: the change itself (the writer), and edges of tools (`tool_edge`, which comes before).
+
+use crate::support::walk::Walk;
+use crate::support::write::rebuild;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::{Op, Stmt};
+
+/// What is known of the tool in the spindle.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct State {
+    /// Whether Z has moved by its length, or without; `None` if it has not moved.
+    used: Option<bool>,
+    /// Whether a length that the program states itself may be in force.
+    stated: bool,
+    /// Tools of which the operator's work has been told.
+    told: Vec<u32>,
+    /// A refusal stands, so that no further one follows from it.
+    refused: bool,
+}
+
+impl State {
+    /// Whether further moves are to be looked at.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.used.is_none()
+    }
+}
+
+/// Leaves lengths out of a piece of a body.
+pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+    rebuild(body, |stmt, made| {
+        walk.enter(stmt.skip);
+        if walk.commands_z(&stmt.op) && !state.stated {
+            state.moves_z(&stmt, walk, diags);
+        }
+        let leaves_out = match &stmt.op {
+            Op::ChangeTool => {
+                (state.used, state.refused) = (None, false);
+                false
+            }
+            Op::UseToolLengthOffset(entry) => {
+                let entry = entry.literal().and_then(|n| n.whole());
+                let ends_stated = entry == Some(0) && state.stated;
+                state.stated = false;
+                state.calls(entry, &stmt, walk, diags);
+                !ends_stated
+            }
+            Op::UseToolLength(_) => {
+                state.stated = true;
+                false
+            }
+            _ => false,
+        };
+        walk.step(&stmt);
+        if leaves_out { made.leave_out(stmt) } else { made.push(stmt) }
+    });
+}
+
+impl State {
+    /// A length is called up.
+    fn calls(&mut self, entry: Option<i64>, stmt: &Stmt, walk: &Walk, diags: &mut Vec<Diagnostic>) {
+        match (entry, walk.at.tool) {
+            (Some(0), _) => {}
+            (Some(entry), Some(tool)) if entry == tool => {
+                let tool = tool as u32;
+                if !self.told.contains(&tool) {
+                    self.told.push(tool);
+                    diags.push(Diagnostic::new(Fault::LengthByHand { tool }, stmt.span));
+                }
+            }
+            (Some(entry), _) => {
+                self.refuse(
+                    format!("entry {entry} of the length table with another tool in the spindle"),
+                    stmt,
+                    diags,
+                );
+            }
+            (None, _) => self.refuse("a computed length offset".to_owned(), stmt, diags),
+        }
+    }
+
+    /// Z moves.
+    fn moves_z(&mut self, stmt: &Stmt, walk: &Walk, diags: &mut Vec<Diagnostic>) {
+        let entry = walk.at.modes.length_offset.filter(|entry| *entry > 0);
+        let by_length = entry.is_some();
+        let own = entry.is_none_or(|entry| walk.at.tool == Some(i64::from(entry)));
+        if !own {
+            self.refuse("a move along Z by the length of another tool".to_owned(), stmt, diags);
+        } else if self.used.is_some_and(|used| used != by_length) {
+            self.refuse("moves of one tool along Z with its length and without".to_owned(), stmt, diags);
+        }
+        self.used = Some(by_length);
+    }
+
+    fn refuse(&mut self, what: String, stmt: &Stmt, diags: &mut Vec<Diagnostic>) {
+        if !std::mem::replace(&mut self.refused, true) {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! `offset-with-z`: a tool-length offset goes into the block that next commands the Z axis.
+//!
+//! An offset moves nothing and is taken up with the next command of Z, so that the machine does the
+//! same. It stands in a block with Z because some controls move the axis by the offset at once if
+//! it stands alone (16-C; 30i-C, parameter 5006#6).
+
+use crate::support::walk::Walk;
+use crate::support::write::Rebuild;
+use crate::{Target, each_body};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::kinds::flow;
+use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct State {
+    waiting: Option<Waiting>,
+    /// Number of the present block.
+    block: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Waiting {
+    entry: Expr,
+    span: Span,
+    skip: Option<u8>,
+    /// Number of its block.
+    block: u64,
+    /// It has been reported.
+    told: bool,
+    /// Whether it is in force already: where no move along Z comes, nothing is lost without it.
+    in_force: bool,
+}
+
+/// Moves the offsets.
+pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| {
+        let mut state = State::default();
+        over(body, walk, &mut state, diags);
+        state.flush(body, diags);
+    });
+}
+
+impl State {
+    /// Whether an offset waits.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// The end of the body: an offset that nothing takes up stands where it may do no harm, last.
+    pub(crate) fn flush(&mut self, body: &mut Vec<Stmt>, _: &mut Vec<Diagnostic>) {
+        if let Some(waiting) = self.waiting.take().filter(|waiting| !waiting.in_force) {
+            body.push(waiting.into_stmt());
+        }
+    }
+}
+
+impl Waiting {
+    fn into_stmt(self) -> Stmt {
+        let mut stmt = Stmt::new(self.span, Op::UseToolLengthOffset(self.entry));
+        stmt.skip = self.skip;
+        stmt
+    }
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+    let input = std::mem::take(body);
+    let mut made = Rebuild::new(input.len() + 1);
+    for stmt in input {
+        walk.enter(stmt.skip);
+        state.block = state.block.wrapping_add(u64::from(!stmt.joined));
+        let commands = walk.commands_z(&stmt.op) || calls_up(walk, &stmt.op);
+        let leaves = leaves(&stmt.op);
+        let with_tip = made.out.last().is_some_and(|last| matches!(last.op, Op::UseToolCentrePoint(_)));
+        match &stmt.op {
+            // One word says both, where it stands.
+            Op::UseToolLengthOffset(_) if stmt.joined && with_tip => {
+                walk.step(&stmt);
+                if let Some(before) = state.waiting.take()
+                    && before.skip.is_some()
+                {
+                    cannot(diags, before.span);
+                }
+                made.push(stmt);
+            }
+            Op::UseToolLengthOffset(entry) => {
+                let in_force = state.waiting.is_none() && stmt.skip.is_none() && is_in_force(walk, entry);
+                walk.step(&stmt);
+                if let Some(before) = state.waiting.take()
+                    && before.skip != stmt.skip
+                    && stmt.skip.is_some()
+                {
+                    // With the switch on, the one before is still the one that waits.
+                    cannot(diags, stmt.span);
+                }
+                state.waiting = Some(Waiting {
+                    entry: entry.clone(),
+                    span: stmt.span,
+                    skip: stmt.skip,
+                    block: state.block,
+                    told: false,
+                    in_force,
+                });
+                made.leave_out(stmt);
+            }
+            _ if state.waiting.is_some() && commands => {
+                walk.step(&stmt);
+                take_up(stmt, state, &mut made, diags);
+            }
+            Op::ProgramEnd | Op::BeginAgain if state.waiting.is_some() => {
+                walk.step(&stmt);
+                match state.waiting.take() {
+                    Some(waiting) if !waiting.in_force => put_before(stmt, waiting.into_stmt(), &mut made),
+                    Some(_) | None => made.push(stmt),
+                }
+            }
+            _ if leaves && state.waiting.is_some() => {
+                walk.step(&stmt);
+                if let Some(waiting) = state.waiting.take() {
+                    cannot(diags, waiting.span);
+                    put_before(stmt, waiting.into_stmt(), &mut made);
+                }
+            }
+            _ => {
+                walk.step(&stmt);
+                made.push(stmt);
+            }
+        }
+    }
+    *body = made.out;
+}
+
+/// Whether an entry is surely in force, and its values are those that it was called up with.
+fn is_in_force(walk: &Walk, entry: &Expr) -> bool {
+    let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+    !walk.waiting && entry.is_some() && walk.at.modes.length_offset == entry
+}
+
+/// Whether a statement calls up a cycle that drills along Z: its block says Z.
+fn calls_up(walk: &Walk, op: &Op) -> bool {
+    match op {
+        Op::StartCycle(cycle) => walk.at.plane(cycle.plane).is_none_or(|p| p == ncc_ir::canon::Plane::Xy),
+        _ => false,
+    }
+}
+
+/// Whether the program goes on where this pass does not follow.
+fn leaves(op: &Op) -> bool {
+    matches!(op, flow!())
+}
+
+fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
+    let what = "a tool-length offset without a block that commands Z".into();
+    diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+}
+
+/// Puts a waiting offset into the block of the statement that takes it up.
+fn take_up(stmt: Stmt, state: &mut State, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
+    let Some(waiting) = &mut state.waiting else { return made.push(stmt) };
+    if waiting.skip.is_some() && waiting.skip != stmt.skip {
+        cannot(diags, waiting.span);
+    }
+    let mut offset = waiting.clone().into_stmt();
+    offset.skip = stmt.skip;
+    if !waiting.told && waiting.block != state.block {
+        diags.push(Diagnostic::new(Fault::AssumedOffsetWithZ, waiting.span));
+        waiting.told = true;
+    }
+    // A block that may be skipped takes it up only then: the next one has to say it again.
+    if stmt.skip == waiting.skip {
+        state.waiting = None;
+    }
+    put_before(stmt, offset, made);
+}
+
+/// Puts a statement into the block of another, in its place within the block.
+fn put_before(mut stmt: Stmt, mut offset: Stmt, made: &mut Rebuild) {
+    if matches!(stmt.op, flow!() | Op::ProgramEnd | Op::BeginAgain) {
+        // It goes into no block, but before the whole of this one.
+        let block = if stmt.joined && made.is_open() {
+            made.out.iter().rev().take_while(|s| s.joined).count() + 1
+        } else {
+            0
+        };
+        let at = made.out.len().saturating_sub(block);
+        offset.joined = false;
+        made.out.insert(at, offset);
+        return made.push(stmt);
+    }
+    // The end of a cycle or its call, in the same block, comes after the offset.
+    let mut after = Vec::new();
+    let mut with_last = stmt.joined && made.is_open();
+    while with_last
+        && made.out.last().is_some_and(|last| matches!(last.op, Op::EndCycle | Op::StartCycle(_)))
+        && let Some(last) = made.out.pop()
+    {
+        with_last = last.joined;
+        after.push(std::mem::replace(&mut stmt, last));
+    }
+    offset.joined = stmt.joined;
+    offset.number = stmt.number.take();
+    made.push(offset);
+    stmt.joined = true;
+    made.push(stmt);
+    while let Some(next) = after.pop() {
+        made.push(next);
+    }
+}

@@ -1,0 +1,52 @@
+//! `spindle-angle`: the spindle stopped at an angle, on the target's machine.
+//!
+//! Where the zero of the angle is, is a matter of each machine: that it is in one place on both is taken for
+//! granted and told. Where the target has no stop at an angle of its own, the angle must be stated: that of the
+//! source's control, if its profile says it.
+
+use crate::Target;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::track::Tracker;
+
+/// What has been told.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct State {
+    zero: bool,
+    own: bool,
+}
+
+/// States angles where they need to be stated.
+pub(crate) fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    for procedure in &mut program.procedures {
+        over(&mut procedure.body, &mut state, target, diags);
+    }
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(stmts: &mut [Stmt], state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+    for stmt in stmts {
+        let Op::OrientSpindle(angle) = &mut stmt.op else { continue };
+        if angle.is_none() && !target.caps.own_stop {
+            let Some(own) = target.orientation else {
+                let what = "a stop of the spindle at the control's own angle".into();
+                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                continue;
+            };
+            *angle = Some(Expr::Num(own));
+            if !std::mem::replace(&mut state.own, true) {
+                let degrees = own.nanos(false).unwrap_or(0) as f64 / 1e9;
+                let (parameter, value) = ("orientation of the spindle", format!("{degrees} degrees"));
+                let fault = Fault::AssumedParameter { parameter: parameter.into(), value: value.into() };
+                diags.push(Diagnostic::new(fault, stmt.span));
+            }
+        }
+        if angle.is_some() && target.other_control && !std::mem::replace(&mut state.zero, true) {
+            let (parameter, value) = ("zero of angles of the spindle", "that of the other machine");
+            let fault = Fault::AssumedParameter { parameter: parameter.into(), value: value.into() };
+            diags.push(Diagnostic::new(fault, stmt.span));
+        }
+    }
+}

@@ -1,0 +1,570 @@
+//! `tool-axis`: control of the tool's tip, and tilted working planes, in the target's form.
+//!
+//! Some controls take up the tool's length with the word that switches control of its tip on, and drop both
+//! with one word; others say the two apart. A plane's turns are said about Z, X and Z, or about three
+//! different axes: the same plane is found by sums with quarter and half turns where they do, otherwise from the
+//! directions of its axes, to a billionth of a degree, which the target's digits round. What the kinematics of the two machines have to agree about is told
+//! once.
+
+use crate::support::walk::Walk;
+use crate::support::write::{Rebuild, rebuild};
+use crate::{Target, each_body};
+use ncc_exec::TiltedPlane;
+use ncc_ir::canon::Axis;
+use ncc_ir::caps::{TiltForm, TipForm};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, variables};
+use ncc_ir::program::{FrameSlot, Op, Program, Slot, Stmt, Tilt};
+use ncc_ir::track::Tracker;
+
+/// What the pass remembers from piece to piece of a program.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct State {
+    tip: Known,
+    tilt: Known,
+    /// Whether the length that comes next was said already with the word before it.
+    pair: bool,
+    /// Whether each was told.
+    told: [bool; 2],
+}
+
+/// Whether something is in force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Now {
+    #[default]
+    Off,
+    On,
+    Unknown,
+}
+
+/// What is known of something that can be on. At the start it is off.
+#[derive(Clone, Copy, Debug, Default)]
+struct Known {
+    now: Now,
+    /// Whether a program was met that switches it on.
+    met: bool,
+    /// Whether an end of it was left out where it was not known to be off.
+    left_out: bool,
+}
+
+impl Known {
+    fn is_off(self) -> bool {
+        self.now == Now::Off
+    }
+
+    fn is_on(self) -> bool {
+        self.now == Now::On
+    }
+
+    fn set(&mut self, on: bool, skipped: bool) {
+        let to = if on { Now::On } else { Now::Off };
+        self.now = if skipped && self.now != to { Now::Unknown } else { to };
+        self.met |= on;
+    }
+
+    /// After a call, or at the start of what is called.
+    fn lose(&mut self) {
+        self.now = Now::Unknown;
+    }
+
+    /// Notes that an end is left out; later it cannot have been on.
+    fn leave_out(&mut self) {
+        self.left_out |= !self.is_off();
+    }
+}
+
+impl State {
+    /// Whether lengths are this pass's business too.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.tip.met
+    }
+
+    /// At the start of another body.
+    pub(crate) fn start_over(&mut self) {
+        self.tip.lose();
+        self.tilt.lose();
+        self.pair = false;
+    }
+}
+
+/// Whether it is a length that is said.
+pub(crate) fn is_length(op: &Op) -> bool {
+    matches!(op, Op::UseToolLengthOffset(_))
+}
+
+/// Says them as the target does.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    let mut first = true;
+    each_body(program, entry, |body, walk| {
+        if !std::mem::replace(&mut first, false) {
+            state.start_over();
+        }
+        over(body, walk, &mut state, target, diags);
+    });
+}
+
+/// The same for one piece of a body.
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let caps = &target.caps;
+    let lengths = lengths_behind(body);
+    let oriented = orientations_behind(body);
+    let mut at = 0;
+    rebuild(body, |stmt, made: &mut Rebuild| {
+        let place = at;
+        at += 1;
+        walk.enter(stmt.skip);
+        let span = stmt.span;
+        let before = walk.at.modes.length_offset;
+        let offset = walk.at.modes.work_offset;
+        walk.step(&stmt);
+        let mut refuse = |what: &str| {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+        };
+        let skipped = stmt.skip.is_some();
+        match &stmt.op {
+            Op::UseToolCentrePoint(on) => {
+                let on = *on;
+                if on && caps.tip == TipForm::None {
+                    return refuse("control of the tool's tip");
+                }
+                if on && state.tip.left_out {
+                    return refuse("control of the tool's tip behind an end of it that may have none");
+                }
+                let needless = match (caps.tip, on) {
+                    (TipForm::None, _) => true,
+                    (TipForm::WithLength, true) => state.tip.is_on(),
+                    // Where no program before has switched it on, none can be on.
+                    (TipForm::WithLength, false) => state.tip.is_off() || !state.tip.met,
+                    (TipForm::Apart | TipForm::Any, _) => false,
+                };
+                if needless && !on {
+                    state.tip.leave_out();
+                }
+                let told = &mut state.told[0];
+                if on && target.other_control && !std::mem::replace(told, true) {
+                    diags.push(Diagnostic::new(Fault::AssumedTip, span));
+                }
+                state.tip.set(on, skipped);
+                if needless {
+                    return made.leave_out(stmt);
+                }
+                if caps.tip == TipForm::WithLength {
+                    let behind = lengths.get(place).copied().flatten();
+                    if let Err(what) = with_length(stmt, on, behind, before, state, made) {
+                        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    }
+                    return;
+                }
+                made.push(stmt);
+            }
+            Op::UseToolLengthOffset(entry) if caps.tip == TipForm::WithLength && state.tip.met => {
+                let entry = number(entry);
+                if std::mem::take(&mut state.pair) {
+                    return made.leave_out(stmt);
+                }
+                if state.tip.is_off() {
+                    return made.push(stmt);
+                }
+                if entry.is_some() && entry == before && state.tip.is_on() {
+                    return made.leave_out(stmt);
+                }
+                refuse("another length where the tool's tip may be under control");
+            }
+            // The one in force is said again; a control may take no such word there.
+            Op::SetOriginOffsets(n) if caps.tip == TipForm::WithLength && !state.tip.is_off() => {
+                match offset == Some(*n) && state.tip.is_on() {
+                    true => made.leave_out(stmt),
+                    false => made.push(stmt),
+                }
+            }
+            Op::SetSlot(slot) => {
+                let Slot::Tilt(tilt) = &**slot else { return made.push(stmt) };
+                if caps.tilt == TiltForm::None {
+                    return refuse("a tilted plane");
+                }
+                if state.tilt.left_out {
+                    return refuse("a tilted plane behind an end of one that may be none");
+                }
+                let said = match said_as(tilt, caps.tilt) {
+                    Ok(said) => said,
+                    Err(what) => return refuse(what),
+                };
+                state.tilt.set(true, skipped);
+                if target.other_control && !std::mem::replace(&mut state.told[1], true) {
+                    diags.push(Diagnostic::new(Fault::AssumedTilt, span));
+                }
+                let set = Op::SetSlot(Box::new(Slot::Tilt(Box::new(said))));
+                match oriented.get(place).copied().flatten() {
+                    Some(at) if caps.tilt == TiltForm::AxisByAxis => {
+                        made.replace(stmt, [(true, set), (true, at.op())]);
+                    }
+                    Some(_) | None => made.push(Stmt { op: set, ..stmt }),
+                }
+            }
+            Op::ClearFrame(FrameSlot::Tilt) => {
+                let needless = match caps.tilt {
+                    TiltForm::None => true,
+                    TiltForm::Euler => state.tilt.is_off() || !state.tilt.met,
+                    TiltForm::AxisByAxis | TiltForm::Any => false,
+                };
+                if needless {
+                    state.tilt.leave_out();
+                }
+                state.tilt.set(false, skipped);
+                if needless { made.leave_out(stmt) } else { made.push(stmt) }
+            }
+            Op::OrientToolAxis(_) => match caps.tilt {
+                TiltForm::None => refuse("the tool's axis turned onto a tilted plane"),
+                TiltForm::AxisByAxis if oriented.iter().flatten().any(|o| o.place == place) => {
+                    made.leave_out(stmt);
+                }
+                TiltForm::AxisByAxis => refuse("the tool's axis turned apart from its plane"),
+                TiltForm::Euler => made.push(Stmt { op: Op::OrientToolAxis(None), ..stmt }),
+                TiltForm::Any => made.push(stmt),
+            },
+            flow!() => {
+                state.tip.lose();
+                state.tilt.lose();
+                made.push(stmt);
+            }
+            Op::UseToolLengthOffset(_)
+            | Op::UseToolLength(_)
+            | Op::UseToolEdge { .. }
+            | Op::SelectTool(_)
+            | Op::SelectToolByName(_)
+            | Op::ChangeTool
+            | Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::SetFrame(_)
+            | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
+            | Op::Probe(_)
+            | Op::Detour(_)
+            | Op::UseMachineCoordinates { .. }
+            | Op::GoToReference(_)
+            | Op::SetData(_)
+            | Op::SetFeedRate(_)
+            | Op::Position(_)
+            | drilling!()
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::BeginAgain
+            | variables!()
+            | miscellaneous!()
+            | conduct!()
+            | modes!()
+            | moves!()
+            | polar!() => made.push(stmt),
+        }
+    });
+}
+
+/// Control of the tip where the length is said with it: the length that belongs to the word stands behind
+/// it, and what is in force is said again where no other comes.
+fn with_length(
+    stmt: Stmt,
+    on: bool,
+    behind: Option<u32>,
+    in_force: Option<u32>,
+    state: &mut State,
+    made: &mut Rebuild,
+) -> Result<(), &'static str> {
+    let length = |entry: u32| Op::UseToolLengthOffset(Expr::int(i64::from(entry)));
+    let op = stmt.op.clone();
+    if stmt.skip.is_some() {
+        return Err("control of the tool's tip in a block that can be skipped");
+    }
+    match (on, behind) {
+        (true, Some(entry @ 1..)) | (false, Some(entry @ 0)) => {
+            state.pair = true;
+            made.replace(stmt, [(true, op), (true, length(entry))]);
+        }
+        (true, None) => match in_force {
+            Some(entry @ 1..) => {
+                made.replace(stmt, [(true, op), (true, length(entry))]);
+            }
+            Some(0) | None => return Err("control of the tool's tip without a length that is known"),
+        },
+        (true, Some(0)) => return Err("control of the tool's tip without a length"),
+        // The word that ends it takes the length away too.
+        (false, Some(_)) => made.replace(stmt, [(true, op), (true, length(0))]),
+        (false, None) => match in_force {
+            Some(0) => made.replace(stmt, [(true, op), (true, length(0))]),
+            Some(entry) => made.replace(stmt, [(true, op), (true, length(0)), (false, length(entry))]),
+            None => return Err("the end of control of the tool's tip under a length that is not known"),
+        },
+    }
+    Ok(())
+}
+
+fn number(entry: &Expr) -> Option<u32> {
+    entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok())
+}
+
+/// For each statement that switches control of the tip: the length that is said behind it before anything
+/// moves.
+fn lengths_behind(body: &[Stmt]) -> Vec<Option<u32>> {
+    if !body.iter().any(|stmt| matches!(stmt.op, Op::UseToolCentrePoint(_))) {
+        return Vec::new();
+    }
+    let mut behind = vec![None; body.len()];
+    let mut next: Option<(u32, Option<u8>)> = None;
+    for (place, stmt) in body.iter().enumerate().rev() {
+        match &stmt.op {
+            Op::UseToolLengthOffset(entry) => next = number(entry).map(|entry| (entry, stmt.skip)),
+            Op::UseToolCentrePoint(_) => {
+                if let Some(behind) = behind.get_mut(place) {
+                    *behind = next.filter(|next| next.1 == stmt.skip).map(|next| next.0);
+                }
+                next = None;
+            }
+            miscellaneous!() | conduct!() | modes!() | Op::SetFeedRate(_) => {}
+            _ => next = None,
+        }
+    }
+    behind
+}
+
+/// Where the tool is turned onto a plane that was set before.
+#[derive(Clone, Copy, Debug)]
+struct Oriented {
+    place: usize,
+    toward: Option<ncc_ir::program::Toward>,
+}
+
+impl Oriented {
+    fn op(self) -> Op {
+        Op::OrientToolAxis(self.toward)
+    }
+}
+
+/// For each statement that sets a tilted plane: where the tool is turned onto it, if nothing happens
+/// between.
+fn orientations_behind(body: &[Stmt]) -> Vec<Option<Oriented>> {
+    if !body.iter().any(|stmt| matches!(stmt.op, Op::OrientToolAxis(_))) {
+        return Vec::new();
+    }
+    let mut behind = vec![None; body.len()];
+    let mut next: Option<(Oriented, Option<u8>)> = None;
+    for (place, stmt) in body.iter().enumerate().rev() {
+        match &stmt.op {
+            Op::OrientToolAxis(toward) => next = Some((Oriented { place, toward: *toward }, stmt.skip)),
+            Op::SetSlot(_) => {
+                if let Some(behind) = behind.get_mut(place) {
+                    *behind = next.filter(|next| next.1 == stmt.skip).map(|next| next.0);
+                }
+                next = None;
+            }
+            Op::Comment(_) | Op::Blank | Op::NoEffect(_) => {}
+            _ => next = None,
+        }
+    }
+    behind
+}
+
+/// Turns about axes, one after the other, in nanos of a degree; none is 0.
+type Turns = Vec<(Axis, Nanos)>;
+
+const QUARTER: Nanos = 90 * ONE;
+const HALF: Nanos = 180 * ONE;
+
+/// The same plane in the target's form.
+fn said_as(tilt: &Tilt, form: TiltForm) -> Result<Tilt, &'static str> {
+    let fits = |about: &[Axis; 3]| match form {
+        TiltForm::None => false,
+        TiltForm::Euler => *about == [Axis::Z, Axis::X, Axis::Z],
+        TiltForm::AxisByAxis => about[0] != about[1] && about[1] != about[2] && about[0] != about[2],
+        TiltForm::Any => true,
+    };
+    if fits(&tilt.about) {
+        return Ok(tilt.clone());
+    }
+    let mut turns = Turns::new();
+    for (about, angle) in tilt.about.iter().zip(&tilt.angles) {
+        let angle =
+            angle.literal().and_then(|n| n.nanos(false)).ok_or("a tilted plane by computed angles")?;
+        turns.push((*about, angle));
+    }
+    let found = match form {
+        TiltForm::Euler => about_z_x_z(&turns),
+        TiltForm::AxisByAxis => axis_by_axis(&turns),
+        TiltForm::None | TiltForm::Any => None,
+    };
+    let (about, angles) = found.unwrap_or_else(|| by_directions(&turns, form));
+    let angles = angles.map(|angle| Expr::Num(Num::from_nanos(angle, 9, Unit::Degree)));
+    Ok(Tilt { origin: tilt.origin.clone(), about, angles })
+}
+
+/// Turns without those of nothing, neighbours about one axis together, each of less than a whole turn.
+fn together(turns: &[(Axis, Nanos)]) -> Turns {
+    let mut out = Turns::new();
+    for (about, angle) in turns {
+        let before = match out.last() {
+            Some((last, before)) if last == about => *before,
+            Some(_) | None => 0,
+        };
+        if out.last().is_some_and(|(last, _)| last == about) {
+            out.pop();
+        }
+        let angle = (before + angle) % (2 * HALF);
+        let angle = match () {
+            () if angle > HALF => angle - 2 * HALF,
+            () if angle <= -HALF => angle + 2 * HALF,
+            () => angle,
+        };
+        if angle != 0 {
+            out.push((*about, angle));
+        }
+    }
+    out
+}
+
+/// Turns laid out on three axes in a given order.
+fn laid_out(turns: &[(Axis, Nanos)], order: [Axis; 3]) -> Option<[Nanos; 3]> {
+    let mut angles = [0; 3];
+    let mut at = 0;
+    for (about, angle) in turns {
+        let place = order.iter().enumerate().skip(at).find(|(_, axis)| *axis == about)?.0;
+        *angles.get_mut(place)? = *angle;
+        at = place + 1;
+    }
+    Some(angles)
+}
+
+/// A turn about Y is one about X, a quarter of a turn round Z.
+fn about_z_x_z(turns: &[(Axis, Nanos)]) -> Option<([Axis; 3], [Nanos; 3])> {
+    let order = [Axis::Z, Axis::X, Axis::Z];
+    let turns = together(turns);
+    let without_y: Turns = turns
+        .iter()
+        .flat_map(|(about, angle)| match about {
+            Axis::Y => vec![(Axis::Z, QUARTER), (Axis::X, *angle), (Axis::Z, -QUARTER)],
+            _ => vec![(*about, *angle)],
+        })
+        .collect();
+    [turns, together(&without_y)].iter().find_map(|turns| Some((order, laid_out(turns, order)?)))
+}
+
+/// What stands between two turns about Z that make quarters or halves of a turn is one about X or Y.
+fn axis_by_axis(turns: &[(Axis, Nanos)]) -> Option<([Axis; 3], [Nanos; 3])> {
+    use Axis::{X, Y, Z};
+    const ORDERS: [[Axis; 3]; 6] = [[X, Y, Z], [Z, Y, X], [Z, X, Y], [X, Z, Y], [Y, X, Z], [Y, Z, X]];
+    let turns = together(turns);
+    let mut ways = vec![turns.clone()];
+    if let [(Z, i), (X, j), (Z, k)] = turns[..] {
+        let way = |turns: &[(Axis, Nanos)]| together(turns);
+        ways.extend(match (i, j, k) {
+            (_, _, k) if k == -QUARTER => Some(way(&[(Z, i - QUARTER), (Y, j)])),
+            (_, _, k) if k == QUARTER => Some(way(&[(Z, i + QUARTER), (Y, -j)])),
+            (_, _, k) if k == HALF => Some(way(&[(Z, i + HALF), (X, -j)])),
+            (i, ..) if i == QUARTER => Some(way(&[(Y, j), (Z, k + QUARTER)])),
+            (i, ..) if i == -QUARTER => Some(way(&[(Y, -j), (Z, k - QUARTER)])),
+            (i, ..) if i == HALF => Some(way(&[(X, -j), (Z, k + HALF)])),
+            (_, j, _) if j == HALF => Some(way(&[(Z, i - k), (X, HALF)])),
+            _ => None,
+        });
+    }
+    ways.iter().find_map(|turns| ORDERS.iter().find_map(|order| Some((*order, laid_out(turns, *order)?))))
+}
+
+/// The turns about Z, X and Z, or about X, Y and Z, that lead to the same directions. Where the first and the
+/// last turn are about one line, the one that stands for both is the last of the former, the first of the latter.
+fn by_directions(turns: &[(Axis, Nanos)], form: TiltForm) -> ([Axis; 3], [Nanos; 3]) {
+    let mut three = [(Axis::Z, 0); 3];
+    for (turn, given) in three.iter_mut().zip(turns) {
+        *turn = *given;
+    }
+    let [x, y, z] = TiltedPlane::turned([0; 3], three).axes;
+    // Below this the line of nodes is lost in the directions' last digits.
+    const NONE: f64 = 1e-9;
+    let (about, angles) = match form {
+        TiltForm::Euler => {
+            let lean = x[2].hypot(y[2]);
+            let angles = match lean < NONE {
+                true => [0.0, if z[2] < 0.0 { std::f64::consts::PI } else { 0.0 }, (-x[1]).atan2(x[0])],
+                false => [x[2].atan2(-y[2]), lean.atan2(z[2]), z[0].atan2(z[1])],
+            };
+            ([Axis::Z, Axis::X, Axis::Z], angles)
+        }
+        TiltForm::AxisByAxis | TiltForm::None | TiltForm::Any => {
+            let level = x[0].hypot(x[1]);
+            let lean = x[2].atan2(level);
+            let angles = match level < NONE {
+                true => [z[1].atan2(y[1]), lean, 0.0],
+                false => [(-y[2]).atan2(z[2]), lean, (-x[1]).atan2(x[0])],
+            };
+            ([Axis::X, Axis::Y, Axis::Z], angles)
+        }
+    };
+    (about, angles.map(|angle: f64| (angle.to_degrees() * ONE as f64).round() as Nanos))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane(about: [Axis; 3], angles: [Nanos; 3]) -> TiltedPlane {
+        let mut turns = [(Axis::X, 0); 3];
+        for (place, turn) in turns.iter_mut().enumerate() {
+            *turn = (about[place], angles[place]);
+        }
+        TiltedPlane::turned([0; 3], turns)
+    }
+
+    #[test]
+    fn a_plane_in_another_form_is_the_same_plane() {
+        use Axis::{X, Y, Z};
+        let orders = [[X, Y, Z], [Z, Y, X], [Z, X, Y], [X, Z, Y], [Y, X, Z], [Y, Z, X]];
+        let angles = [-180, -137, -90, -30, 0, 12, 45, 90, 118, 180];
+        let (mut to_euler, mut to_axes) = (0, 0);
+        let by_directions = |about: [Axis; 3], angles: [Nanos; 3]| {
+            let turns: Turns = about.into_iter().zip(angles).collect();
+            for form in [TiltForm::Euler, TiltForm::AxisByAxis] {
+                let (other, found) = by_directions(&turns, form);
+                let same = plane(about, angles).is_same(&plane(other, found), 0, 1);
+                assert!(same, "{about:?} {angles:?} as {other:?} {found:?}");
+            }
+        };
+        for i in angles {
+            for j in angles {
+                for k in angles {
+                    let angles = [i * ONE, j * ONE, k * ONE];
+                    let turns = |about: [Axis; 3]| std::array::from_fn::<_, 3, _>(|n| (about[n], angles[n]));
+                    for about in orders {
+                        by_directions(about, angles);
+                        if let Some((other, found)) = about_z_x_z(&turns(about)) {
+                            to_euler += 1;
+                            let same = plane(about, angles).is_same(&plane(other, found), 0, 1);
+                            assert!(same, "{about:?} {i} {j} {k} as {found:?}");
+                        }
+                    }
+                    let about = [Z, X, Z];
+                    by_directions(about, angles);
+                    if let Some((other, found)) = axis_by_axis(&turns(about)) {
+                        to_axes += 1;
+                        let same = plane(about, angles).is_same(&plane(other, found), 0, 1);
+                        assert!(same, "{about:?} {i} {j} {k} as {other:?} {found:?}");
+                    }
+                }
+            }
+        }
+        assert!(to_euler > 300 && to_axes > 600, "{to_euler} {to_axes}");
+    }
+
+    #[test]
+    fn turns_are_about_the_axes_that_those_before_have_made() {
+        // About Z by 90 and the new X, which is the old Y, by 90: the plane's Z lies along the old X.
+        let made = plane([Axis::Z, Axis::X, Axis::Z], [QUARTER, QUARTER, 0]);
+        let third: [f64; 3] = std::array::from_fn(|row| made.axes[row][2]);
+        assert!((third[0] - 1.0).abs() < 1e-12 && third[1].abs() < 1e-12, "{third:?}");
+    }
+}

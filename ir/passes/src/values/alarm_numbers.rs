@@ -1,0 +1,95 @@
+//! Alarms under the numbers that the target has, or with their number before the text where it has none
+//! ([`ncc_ir::alarms`]), and told; so is a text that ends before its end.
+//!
+//! The numbers of alarms that are computed stay. Not here: alarms that the target gives by itself.
+
+use ncc_ir::alarms::Alarms;
+use ncc_ir::computed::call_of::NO_SUCH_PROGRAM;
+use ncc_ir::computed::code_of::NO_SUCH_CODE;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Alarm, NO_SUCH_BLOCK, Op, Program, Stmt};
+use ncc_ir::source::Span;
+
+/// Most alarms that are told.
+const MOST_TOLD: usize = 20;
+
+/// Says the alarms of a program as a control does that has these. `calls` is whether it says calls of a computed
+/// program, or so often, and jumps to a computed block, as the alarm comes with them.
+pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<Diagnostic>) {
+    let own: &[&str] = match calls {
+        true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
+        false => &[NO_SUCH_CODE],
+    };
+    let mut told: Vec<(String, Span)> = Vec::new();
+    for procedure in &mut program.procedures {
+        body(&mut procedure.body, alarms, own, &mut told);
+    }
+    if let Some((_, at)) = told.first() {
+        let all: Vec<&str> = told.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
+        let map = all.join(", ").into();
+        diags.push(Diagnostic::new(Fault::AlarmsRenumbered { map }, *at));
+    }
+}
+
+/// Texts of alarms in the characters that a control shows, as its comments are, and told.
+pub fn in_its_characters(program: &mut Program, alarms: &Alarms, diags: &mut Vec<Diagnostic>) {
+    program.procedures.iter_mut().for_each(|procedure| characters(&mut procedure.body, alarms, diags));
+}
+
+fn characters(stmts: &mut [Stmt], alarms: &Alarms, diags: &mut Vec<Diagnostic>) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            // One without a number is another's, of which `run` makes one of the control's.
+            Op::Alarm(alarm) if alarm.number.is_some() => {
+                let shown = alarms.shown(&alarm.text);
+                if shown != alarm.text {
+                    alarm.text = shown;
+                    diags.push(Diagnostic::new(Fault::CommentReformatted, stmt.span));
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| characters(stmts, alarms, diags)),
+            _ => {}
+        }
+    }
+}
+
+fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], told: &mut Vec<(String, Span)>) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            Op::Alarm(alarm) => {
+                if let Some(other) = other(alarm, alarms, own) {
+                    let number = |alarm: &Alarm| {
+                        let number = alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole());
+                        number.map_or_else(
+                            || format!("the one with the text {:?}", &*alarm.text),
+                            |n| n.to_string(),
+                        )
+                    };
+                    let mut what = format!("{} is {}", number(alarm), number(&other));
+                    if other.number.is_some() && other.text.chars().count() < alarm.text.chars().count() {
+                        what.push_str(&format!(" with the text {:?}", &*other.text));
+                    }
+                    if !told.iter().any(|(known, _)| *known == what) {
+                        told.push((what, stmt.span));
+                    }
+                    **alarm = other;
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, own, told)),
+            _ => {}
+        }
+    }
+}
+
+/// What an alarm becomes, if that is another one.
+fn other(alarm: &Alarm, alarms: &Alarms, own: &[&str]) -> Option<Alarm> {
+    let own = alarm.number.is_none() && own.contains(&&*alarm.text);
+    let number = match &alarm.number {
+        None => None,
+        Some(number) => Some(number.literal().and_then(|n| n.whole())?),
+    };
+    let (said, text) = alarms.said(number, &alarm.text).filter(|_| !own)?;
+    let same = said == number && text == alarm.text;
+    (!same).then(|| Alarm { number: said.map(Expr::int), text })
+}

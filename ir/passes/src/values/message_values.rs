@@ -1,0 +1,35 @@
+//! `message_values`: values in messages with the digits that the target has, and told: `-1.25` on a control that leaves
+//! out the zeros at their end is `-1.250000` on one that does not. Whole numbers stand as they are on both.
+//!
+//! Not here: values that are no variables, which are given to one before (`control_forms`).
+
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::{Op, Piece, Program, Stmt};
+use ncc_ir::source::Span;
+
+/// Says the values of a program's messages with so many digits behind the point.
+pub fn run(program: &mut Program, digits: u8, diags: &mut Vec<Diagnostic>) {
+    let mut first = None;
+    for procedure in &mut program.procedures {
+        body(&mut procedure.body, digits, &mut first);
+    }
+    diags.extend(first.map(|at| Diagnostic::new(Fault::ValuesInFull { digits }, at)));
+}
+
+fn body(stmts: &mut [Stmt], in_full: u8, first: &mut Option<Span>) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            Op::MessageOf(pieces) => {
+                for piece in pieces {
+                    let Piece::Value { digits, short, .. } = piece else { continue };
+                    if std::mem::take(short) && *digits > 0 {
+                        *digits = in_full;
+                        first.get_or_insert(stmt.span);
+                    }
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, in_full, first)),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,602 @@
+//! Which variable becomes which.
+//!
+//! In this order, each rule for all variables in the order of the text before the next one:
+//!
+//! 1. What the target has under the same name stays.
+//! 2. A number stays behind the target's prefix, where the target has it for such a lifetime: `#101` is `R101`.
+//! 3. Else it is the number and 100, where that is free: `R1` is `#101`.
+//! 4. Else, as a name that the target does not have, the first free number of those that all programs see.
+//!
+//! Variables of a call stay what they are where the target has such numbers or names; a name becomes the first free
+//! number of the call's own, a number the name `V_` with it or with the letter of its argument. Where the target has
+//! neither for the main program, its variables are those that all programs see, by rules 2 to 4; so they are where
+//! what it calls has them too, and the target has no such calls. An array without one in the target is numbers one
+//! after the other.
+//!
+//! Arguments are handed over as the target does: by letters, where a name of one letter, or that ends in an underline
+//! and a letter, has that one; one after the other, and put where the program has them at its head; or by names.
+//!
+//! Refused: a variable for which there is no room; variables of a caller that is itself called with its own; variables
+//! by computed numbers of which not all stay, or move by 100.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+use crate::values::variables::look::{Look, Seen, leave_out_results};
+use crate::values::variables::put::{Put, plain_calls};
+use ncc_ir::computed::computes::{Computes, Handed, LETTERS, Said};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::{Expr, Node, Numbers, Scope, Var};
+use ncc_ir::program::valid::returns_alone;
+use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Text, Type};
+use ncc_ir::source::Span;
+
+/// By how much a number moves that the target does not have.
+const FURTHER: u32 = 100;
+
+/// Most variables that are told.
+const MOST_TOLD: usize = 40;
+
+/// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
+/// source's and the target's.
+pub(super) fn put(
+    program: &mut Program,
+    from: &Computes,
+    computes: &Computes,
+    diags: &mut Vec<Diagnostic>,
+) -> Vec<(Var, Var)> {
+    leave_out_results(program, from, computes);
+    let mut plan = Plan::new(program, from, computes);
+    if let Err(refused) = plan.make(program) {
+        diags.push(refused);
+        return Vec::new();
+    }
+    let own: Vec<bool> = (0..program.procedures.len()).map(|at| plan.has_own(at)).collect();
+    let names: Vec<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
+    for (at, procedure) in program.procedures.iter_mut().enumerate() {
+        let told = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
+        let mut put = Put { plan: &plan, locals: plan.locals_of(at), told, refused: None };
+        put.body(&mut procedure.body);
+        if let Some(refused) = put.refused {
+            diags.push(refused);
+            return Vec::new();
+        }
+        if computes.shares && !from.shares {
+            plain_calls(&mut procedure.body, &names, &own);
+        }
+        plan.head(at, procedure);
+    }
+    plan.tell(program, diags);
+    let mut all: Vec<(Var, Var)> = Vec::new();
+    if computes.handed == Handed::Places {
+        // A call gives them one after the other, and the head puts them where they are.
+        let places = (1..).map(|place: u32| Var::Local(place.to_string().into()));
+        all.extend(plan.parameters[0].iter().cloned().zip(places));
+    }
+    let others = plan.common.iter().chain(plan.locals_of(0));
+    let given = |old: &Var| computes.handed == Handed::Places && plan.parameters[0].contains(old);
+    all.extend(others.filter(|(old, _)| !given(old)).map(|(old, new)| (old.clone(), new.clone())));
+    all
+}
+
+/// Variables, and what they are in the target.
+pub(super) type Map = HashMap<Var, Var>;
+
+/// Where the variables of a procedure's calls are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Home {
+    /// With the call.
+    Own,
+    /// Where all procedures see them.
+    Common,
+    /// There is no place for them.
+    None,
+}
+
+/// Which variable becomes which.
+pub(super) struct Plan<'c> {
+    pub(super) from: &'c Computes,
+    pub(super) computes: &'c Computes,
+    looks: Vec<Look>,
+    /// Parameters of each procedure.
+    parameters: Vec<Vec<Var>>,
+    homes: Vec<Home>,
+    /// By which procedure the variables of one are known, where several have the same.
+    roots: Vec<usize>,
+    /// The map of variables that all procedures see, and of locals that become such.
+    pub(super) common: Map,
+    /// That of each procedure's own.
+    locals: Vec<Map>,
+    /// How far variables by computed numbers move.
+    pub(super) further: u32,
+    /// Numbers that are in use, of those that all programs see.
+    taken: BTreeSet<u32>,
+}
+
+/// The number of a variable by the names of its control.
+pub(super) fn number_of(var: &Var, computes: &Computes) -> Option<u32> {
+    let name = var.name();
+    let digits = name.strip_prefix(&*computes.prefix)?;
+    digits.parse().ok().filter(|n: &u32| n.to_string() == digits)
+}
+
+fn among(ranges: &[[u32; 2]], n: u32) -> bool {
+    ranges.iter().any(|[from, to]| (*from..=*to).contains(&n))
+}
+
+fn no_room(name: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(
+        Fault::Computes { what: format!("the variable {name}, for which there is no room").into() },
+        at,
+    )
+}
+
+impl<'c> Plan<'c> {
+    fn new(program: &Program, from: &'c Computes, computes: &'c Computes) -> Plan<'c> {
+        let looks = program.procedures.iter().map(|procedure| {
+            let mut look = Look::default();
+            look.body(&procedure.body);
+            look
+        });
+        Plan {
+            from,
+            computes,
+            looks: looks.collect(),
+            parameters: program.procedures.iter().map(|p| p.parameters.clone()).collect(),
+            homes: Vec::new(),
+            roots: Vec::new(),
+            common: Map::new(),
+            locals: vec![Map::new(); program.procedures.len()],
+            further: 0,
+            taken: BTreeSet::new(),
+        }
+    }
+
+    /// Whether a procedure has variables of its own.
+    fn has_own(&self, at: usize) -> bool {
+        let local = |seen: &Seen| matches!(seen.var, Var::Local(_));
+        let by_number = |(row, _): &(Numbers, Span)| row.scope == Scope::Local;
+        !self.parameters[at].is_empty()
+            || self.looks[at].seen.iter().any(local)
+            || self.looks[at].numbered.iter().any(by_number)
+    }
+
+    fn locals_of(&self, at: usize) -> &Map {
+        &self.locals[self.roots[at]]
+    }
+
+    fn make(&mut self, program: &Program) -> Result<(), Diagnostic> {
+        self.find_homes(program);
+        let own_numbers = !self.computes.local.is_empty();
+        for at in 0..self.looks.len() {
+            if self.homes[at] == Home::None
+                && let Some(seen) = self.looks[at].seen.iter().find(|s| matches!(s.var, Var::Local(_)))
+            {
+                let what = format!("the variable {} of what calls this, which has its own", seen.var.name());
+                return Err(Diagnostic::new(Fault::Computes { what: what.into() }, seen.at));
+            }
+        }
+        self.go_further()?;
+        // What all procedures see, in the order of the text.
+        let mut all: Vec<Seen> = Vec::new();
+        let mut places: HashMap<Var, usize> = HashMap::new();
+        for (at, look) in self.looks.iter().enumerate() {
+            for seen in &look.seen {
+                let common = match &seen.var {
+                    Var::Common(_) | Var::Retentive(_) => true,
+                    Var::Local(_) => match self.homes[at] {
+                        Home::Common => true,
+                        Home::Own if at == 0 && !self.main_is_called(program) => {
+                            !self.stays_with_main(seen, own_numbers)
+                        }
+                        Home::Own | Home::None => false,
+                    },
+                    Var::System(_) => false,
+                };
+                match places.get(&seen.var) {
+                    Some(at) => all[*at].elements = all[*at].elements.or(seen.elements),
+                    None if common => {
+                        places.insert(seen.var.clone(), all.len());
+                        all.push(seen.clone());
+                    }
+                    None => {}
+                }
+            }
+        }
+        self.place_common(&all)?;
+        for at in 0..self.looks.len() {
+            if self.homes[at] == Home::Own && self.roots[at] == at {
+                self.place_own(at)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the main procedure has a caller, whose variables are not its own.
+    fn main_is_called(&self, program: &Program) -> bool {
+        let alone = self.computes.handed == Handed::Places && returns_alone(program).is_some();
+        alone || !program.procedures[0].parameters.is_empty()
+    }
+
+    /// Whether a variable of the main procedure is one in the target too; else all programs see it.
+    fn stays_with_main(&self, seen: &Seen, own_numbers: bool) -> bool {
+        let number = number_of(&seen.var, self.from);
+        match (number, &self.computes.named) {
+            _ if self.computes.says(&seen.var) => true,
+            (Some(n), _) if own_numbers => among(&self.computes.local, n),
+            (Some(_), _) => false,
+            (None, named) => named.is_some(),
+        }
+    }
+
+    /// Finds whose variables each procedure has.
+    fn find_homes(&mut self, program: &Program) {
+        let count = program.procedures.len();
+        let by_name = program.by_name();
+        let index = |name: &str| by_name.get(name).copied();
+        let mut shared: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); count];
+        let mut begins = BTreeSet::from([0]);
+        for (at, procedure) in program.procedures.iter().enumerate() {
+            each_call(&procedure.body, &mut |name, own| {
+                let Some(called) = index(name) else { return };
+                if own {
+                    begins.insert(called);
+                } else {
+                    shared[at].insert(called);
+                }
+            });
+        }
+        let group = |root: usize| {
+            let mut group = BTreeSet::from([root]);
+            let mut ahead = vec![root];
+            while let Some(at) = ahead.pop() {
+                ahead.extend(shared[at].iter().filter(|next| group.insert(**next)));
+            }
+            group
+        };
+        let groups: BTreeMap<usize, BTreeSet<usize>> =
+            begins.iter().map(|root| (*root, group(*root))).collect();
+        self.homes = vec![Home::Own; count];
+        self.roots = (0..count).collect();
+        let mut roots: Vec<Vec<usize>> = vec![Vec::new(); count];
+        for (root, group) in &groups {
+            group.iter().for_each(|at| roots[*at].push(*root));
+        }
+        let users: BTreeMap<usize, usize> = groups
+            .iter()
+            .map(|(root, group)| (*root, group.iter().filter(|p| self.has_own(**p)).count()))
+            .collect();
+        for (at, of) in roots.into_iter().enumerate() {
+            if let Some(root) = of.first() {
+                self.roots[at] = *root;
+            }
+            if self.computes.shares || !self.has_own(at) {
+                continue;
+            }
+            self.homes[at] = match of.as_slice() {
+                [] => Home::Own,
+                [root] if *root == at && users[root] == 1 => Home::Own,
+                [0] => Home::Common,
+                _ => Home::None,
+            };
+        }
+    }
+
+    /// How far variables by computed numbers move, so that all of them do alike.
+    fn go_further(&mut self) -> Result<(), Diagnostic> {
+        let rows: Vec<&(Numbers, Span)> = self.looks.iter().flat_map(|look| &look.numbered).collect();
+        let Some((_, at)) = rows.first().copied().cloned() else { return Ok(()) };
+        let refused = || {
+            let what = "a variable whose number is computed, among those that have other numbers".into();
+            Diagnostic::new(Fault::Computes { what }, at)
+        };
+        let keeps_own = !self.computes.local.is_empty();
+        for (at, look) in self.looks.iter().enumerate() {
+            let own = look.numbered.iter().any(|(row, _)| row.scope == Scope::Local);
+            // A call's own have names.
+            if own && !keeps_own && at > 0 && self.homes[at] == Home::Own {
+                return Err(refused());
+            }
+        }
+        let used: Vec<u32> = self
+            .looks
+            .iter()
+            .flat_map(|look| &look.seen)
+            .filter(|seen| !matches!(seen.var, Var::System(_)))
+            .filter_map(|seen| number_of(&seen.var, self.from))
+            .collect();
+        let has = |n: u32| {
+            [&self.computes.local, &self.computes.common, &self.computes.retentive]
+                .iter()
+                .any(|ranges| among(ranges, n))
+        };
+        let first = rows.iter().map(|(row, _)| row.from).min().unwrap_or_default();
+        let stays = has(first) && used.iter().all(|n| has(*n))
+            || !used.is_empty() && used.iter().all(|n| among(&self.computes.common, *n));
+        self.further = match stays {
+            true => 0,
+            false if used.iter().all(|n| among(&self.computes.common, n + FURTHER)) => FURTHER,
+            false => return Err(refused()),
+        };
+        // Any of them may be in use.
+        for (row, _) in rows {
+            if row.scope != Scope::Local || !keeps_own {
+                self.taken.extend((row.from..=row.to.min(row.from + 9999)).map(|n| n + self.further));
+            }
+        }
+        Ok(())
+    }
+
+    fn common_var(&self, n: u32, kept: bool) -> Option<Var> {
+        let name = || format!("{}{n}", self.computes.prefix).into();
+        let common = among(&self.computes.common, n).then(|| Var::Common(name()));
+        let retentive = among(&self.computes.retentive, n).then(|| Var::Retentive(name()));
+        if kept { retentive.or(common) } else { common }
+    }
+
+    fn place_common(&mut self, all: &[Seen]) -> Result<(), Diagnostic> {
+        let by_number = self.looks.iter().any(|look| !look.numbered.is_empty());
+        let take = |plan: &mut Plan, seen: &Seen, to: Var| {
+            plan.taken.extend(number_of(&to, plan.computes));
+            plan.common.insert(seen.var.clone(), to);
+        };
+        let mut left: Vec<&Seen> = Vec::new();
+        for seen in all {
+            // Arrays that the target does not have come last.
+            let stays = match seen.elements {
+                Some(_) => self.computes.has(Said::Array) && self.computes.says(&seen.var),
+                None => self.computes.says(&seen.var) && !matches!(seen.var, Var::Local(_)),
+            };
+            if stays && (!by_number || self.further == 0 || number_of(&seen.var, self.from).is_none()) {
+                take(self, seen, seen.var.clone());
+            } else {
+                left.push(seen);
+            }
+        }
+        // Where a number may be computed, each goes as far as the others.
+        let steps: &[u32] = if by_number { &[self.further] } else { &[0, FURTHER] };
+        for step in steps {
+            for seen in std::mem::take(&mut left) {
+                let number = number_of(&seen.var, self.from).filter(|_| seen.elements.is_none());
+                let kept = matches!(seen.var, Var::Retentive(_));
+                let to = number.and_then(|n| self.common_var(n + step, kept));
+                let free = |var: &Var, plan: &Plan| {
+                    let number = number_of(var, plan.computes);
+                    by_number || number.is_none_or(|n| !plan.taken.contains(&n))
+                };
+                match to {
+                    Some(to) if free(&to, self) => take(self, seen, to),
+                    _ => left.push(seen),
+                }
+            }
+        }
+        let mut used: HashSet<Var> = self.common.values().cloned().collect();
+        for seen in left {
+            let name = seen.var.name();
+            let common = !matches!(seen.var, Var::Local(_));
+            let named = self
+                .computes
+                .named
+                .as_ref()
+                .filter(|named| named.common.is_some() && seen.elements.is_none());
+            if let (Some(named), true) = (named, number_of(&seen.var, self.from).is_none()) {
+                let made = |name: &str| Var::Common(named.adapted(name, true));
+                let to = unlike(&name, |name| Some(made(name)).filter(|var| !used.contains(var)));
+                if let Some(to) = to.filter(|_| common || named.common.is_some()) {
+                    used.insert(to.clone());
+                    take(self, seen, to);
+                    continue;
+                }
+            }
+            let count = seen.elements.unwrap_or(1).max(1);
+            // What is kept when the control is off is kept there too, if anything is.
+            let kept = matches!(seen.var, Var::Retentive(_)) && !self.computes.retentive.is_empty();
+            let ranges = if kept { &self.computes.retentive } else { &self.computes.common };
+            let run = run(ranges, &self.taken, count).ok_or_else(|| no_room(&name, seen.at))?;
+            self.taken.extend(run..run + count);
+            let to = self.common_var(run, kept).ok_or_else(|| no_room(&name, seen.at))?;
+            used.insert(to.clone());
+            self.common.insert(seen.var.clone(), to);
+        }
+        Ok(())
+    }
+
+    /// The variables of a procedure's calls.
+    fn place_own(&mut self, at: usize) -> Result<(), Diagnostic> {
+        // With those of all that has the same ones.
+        let mut all: Vec<Seen> = Vec::new();
+        let parameters = &self.parameters[at];
+        let first = self.looks[at].seen.first().map_or(Span::default(), |seen| seen.at);
+        all.extend(parameters.iter().map(|var| Seen { var: var.clone(), elements: None, at: first }));
+        let mut places: HashMap<Var, usize> =
+            all.iter().enumerate().rev().map(|(place, seen)| (seen.var.clone(), place)).collect();
+        let same = |other: &usize| self.roots[*other] == at && self.homes[*other] == Home::Own;
+        for (other, look) in self.looks.iter().enumerate().filter(|(other, _)| same(other)) {
+            let local = look.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
+            for seen in local.filter(|seen| other > 0 || !self.common.contains_key(&seen.var)) {
+                match places.get(&seen.var) {
+                    Some(at) => all[*at].elements = all[*at].elements.or(seen.elements),
+                    None => {
+                        places.insert(seen.var.clone(), all.len());
+                        all.push(seen.clone());
+                    }
+                }
+            }
+        }
+        let mut map = Map::new();
+        let mut numbers = BTreeSet::new();
+        for seen in &all {
+            let array = seen.elements.is_some() && !self.computes.has(Said::Array);
+            if self.computes.says(&seen.var) && !array {
+                numbers.extend(number_of(&seen.var, self.computes));
+                map.insert(seen.var.clone(), seen.var.clone());
+            }
+        }
+        let letters = self.computes.handed == Handed::Letters;
+        let by_number = self.looks[at].numbered.iter().any(|(row, _)| row.scope == Scope::Local);
+        if by_number {
+            numbers.extend(self.computes.local.iter().flat_map(|[from, to]| *from..=*to));
+        }
+        let own = |n: u32, computes: &Computes| Var::Local(format!("{}{n}", computes.prefix).into());
+        if letters {
+            for parameter in parameters.iter().filter(|p| number_of(p, self.from).is_none()) {
+                let n = letter_for(&parameter.name(), &numbers)
+                    .ok_or_else(|| no_room(&parameter.name(), first))?;
+                numbers.insert(n);
+                map.insert(parameter.clone(), own(n, self.computes));
+            }
+        }
+        let mut used: HashSet<Var> = map.values().cloned().collect();
+        for seen in all {
+            if map.contains_key(&seen.var) {
+                continue;
+            }
+            let name = seen.var.name();
+            let number = number_of(&seen.var, self.from);
+            let array = seen.elements.is_some() && !self.computes.has(Said::Array);
+            if let Some(named) = self.computes.named.as_ref().filter(|_| !array) {
+                let is_parameter = self.parameters[at].contains(&seen.var);
+                let wanted = match number {
+                    Some(n) => {
+                        let letter =
+                            LETTERS.iter().find(|(_, own)| *own == n).map(|(letter, _)| char::from(*letter));
+                        let letter = letter.filter(|_| is_parameter && self.from.handed == Handed::Letters);
+                        letter.map_or_else(|| format!("V_{n}"), |letter| format!("V_{letter}"))
+                    }
+                    None => name.to_string(),
+                };
+                let made = |name: &str| Var::Local(named.adapted(name, false));
+                let to = unlike(&wanted, |name| Some(made(name)).filter(|var| !used.contains(var)));
+                let to = to.ok_or_else(|| no_room(&name, seen.at))?;
+                used.insert(to.clone());
+                map.insert(seen.var.clone(), to);
+                continue;
+            }
+            let count = seen.elements.unwrap_or(1).max(1);
+            let run = run(&self.computes.local, &numbers, count).ok_or_else(|| no_room(&name, seen.at))?;
+            numbers.extend(run..run + count);
+            used.insert(own(run, self.computes));
+            map.insert(seen.var.clone(), own(run, self.computes));
+        }
+        self.locals[at] = map;
+        Ok(())
+    }
+
+    /// What stands at the head of a procedure: its parameters, and variables that have to be made known.
+    fn head(&self, at: usize, procedure: &mut Procedure) {
+        let span = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
+        let locals = self.locals_of(at);
+        for parameter in &mut procedure.parameters {
+            if let Some(to) = locals.get(parameter) {
+                *parameter = to.clone();
+            }
+        }
+        let mut head: Vec<Stmt> = Vec::new();
+        let mark = &self.computes.mark;
+        let names = self.parameters[at].iter().zip(&procedure.parameters).filter_map(|(old, new)| {
+            let lost = number_of(old, self.from).is_none() && number_of(new, self.computes).is_some();
+            lost.then(|| format!("{mark}{} {}", new.name(), old.name()))
+        });
+        let names: Vec<String> = names.collect();
+        if !names.is_empty() && self.computes.handed == Handed::Letters {
+            head.push(Stmt::new(span, Op::Comment(names.join(", ").into())));
+        }
+        if self.computes.handed == Handed::Places {
+            for (place, parameter) in procedure.parameters.iter_mut().enumerate().rev() {
+                let own = Var::Local((place + 1).to_string().into());
+                if *parameter != own {
+                    let value = Expr::Node(Box::new(Node::Var(own.clone())));
+                    let to = std::mem::replace(parameter, own);
+                    head.push(Stmt::new(span, Op::Assign(to.into(), value)));
+                }
+            }
+        }
+        if self.computes.has(Said::Declare) && self.roots.get(at) == Some(&at) {
+            let declared = &self.looks[at].declared;
+            for seen in &self.looks[at].seen {
+                let Some(new) = locals.get(&seen.var) else { continue };
+                let known = declared.contains(&*seen.var.name()) || procedure.parameters.contains(new);
+                if !known && number_of(new, self.computes).is_none() {
+                    let (kind, sizes, initial) = (Type::Real, Box::default(), Vec::new());
+                    let declare = Declare { var: new.clone(), kind, sizes, initial };
+                    head.push(Stmt::new(span, Op::Declare(Box::new(declare))));
+                }
+            }
+        }
+        procedure.body.splice(0..0, head);
+    }
+
+    /// Tells which variables are called otherwise, once.
+    fn tell(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
+        let mut told: Vec<String> = Vec::new();
+        let (from, to) = (&self.from.mark, &self.computes.mark);
+        let mut done: HashSet<(usize, &Var)> = HashSet::new();
+        for (at, look) in self.looks.iter().enumerate() {
+            let parameters = self.parameters[at].iter();
+            for old in parameters.chain(look.seen.iter().map(|seen| &seen.var)) {
+                let root = self.roots[at];
+                let (new, of) = match (self.locals[root].get(old), self.common.get(old)) {
+                    (Some(new), _) => (new, root),
+                    (None, Some(new)) => (new, 0),
+                    (None, None) => continue,
+                };
+                let other = match number_of(old, self.from) {
+                    Some(n) => number_of(new, self.computes) != Some(n),
+                    None => !old.name().eq_ignore_ascii_case(&new.name()),
+                };
+                if other && done.insert((of, old)) {
+                    let whose =
+                        if of == 0 { String::new() } else { format!(" of {}", program.procedures[of].name) };
+                    told.push(format!("{from}{}{whose} is {to}{}", old.name(), new.name()));
+                }
+            }
+        }
+        if told.is_empty() {
+            return;
+        }
+        let more = told.len().saturating_sub(MOST_TOLD);
+        told.truncate(MOST_TOLD);
+        if more > 0 {
+            told.push(format!("and {more} more"));
+        }
+        let first =
+            self.looks.iter().flat_map(|look| &look.seen).map(|seen| seen.at).min_by_key(|at| at.start);
+        let map = told.join(", ").into();
+        diags.push(Diagnostic::new(Fault::VariablesRenamed { map }, first.unwrap_or_default()));
+    }
+}
+
+/// Shows every call of a body: what it calls, and whether that has variables of its own.
+fn each_call(body: &[Stmt], seen: &mut dyn FnMut(&str, bool)) {
+    for stmt in body {
+        match &stmt.op {
+            Op::Call(call) => seen(&call.name, !call.shared || !call.arguments.is_empty()),
+            Op::Control(control) => control.bodies().for_each(|body| each_call(body, seen)),
+            _ => {}
+        }
+    }
+}
+
+/// The number of the letter by which a parameter of that name is given its value.
+fn letter_for(name: &str, taken: &BTreeSet<u32>) -> Option<u32> {
+    let mut last = name.bytes().rev();
+    let own = match (last.next(), last.next()) {
+        (Some(letter), None | Some(b'_')) => Some(letter.to_ascii_uppercase()),
+        _ => None,
+    };
+    let own = LETTERS.iter().find(|(letter, _)| own == Some(*letter)).map(|(_, n)| *n);
+    let plain = LETTERS.iter().filter(|(letter, _)| !b"MST".contains(letter)).map(|(_, n)| *n);
+    own.into_iter().chain(plain).find(|n| !taken.contains(n))
+}
+
+/// The first of so many numbers, one after the other, of which none is in use.
+fn run(ranges: &[[u32; 2]], taken: &BTreeSet<u32>, count: u32) -> Option<u32> {
+    ranges.iter().find_map(|[from, to]| {
+        let last = (to + 1).checked_sub(count)?;
+        (*from..=last).find(|first| (*first..first + count).all(|n| !taken.contains(&n)))
+    })
+}
+
+/// A name that is not in use, with a number behind it if need be.
+fn unlike(name: &str, made: impl Fn(&str) -> Option<Var>) -> Option<Var> {
+    made(name).or_else(|| (2..1000).find_map(|more| made(&format!("{name}_{more}"))))
+}

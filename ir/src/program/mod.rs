@@ -1,0 +1,693 @@
+//! `Program`: what a part program says.
+//!
+//! Procedures of statements. A statement is a canonical machining function, a cycle, a pattern of
+//! positions, control, or an assignment; it knows its place in the source, and may have a block
+//! number, a skip level and a comment. Statements with `joined` stand in the same block as the one
+//! before, so that a back-end can keep blocks together.
+//!
+//! Coordinates are in the program's own frame; frames are named slots, never baked in. Modal facts
+//! are [`Fact`]s: a statement says what it means as far as its own procedure knows it.
+//!
+//! Not here: block layout, number formats, the spelling of any control.
+
+pub mod arguments;
+pub mod cycle;
+pub mod kinds;
+pub mod numbered;
+pub mod valid;
+
+mod arc;
+mod frame;
+mod lines;
+mod machine;
+mod polar;
+
+pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
+pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
+pub use lines::Lines;
+pub use machine::{
+    CutterRadius, Data, DataMode, Detour, Probe, Reference, ReferencePoint, ToolLength, ToolValue,
+};
+pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
+
+use std::collections::HashMap;
+
+use crate::canon::{
+    AXES, AdviceKind, Axis, CornerShape, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel,
+    RotaryWay, Side, SpindleMode, Turn, Units,
+};
+use crate::expr::{Expr, Target, Var};
+use crate::program::cycle::{Cycle, Pattern};
+pub use crate::shown::{Alarm, NO_SUCH_BLOCK, Output, Piece};
+use crate::source::Span;
+
+/// A part program: the main procedure first, then its subprograms.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// What the text calls it.
+    pub name: ProgramName,
+    /// Facts that were taken for granted because the program relies on them and never says them.
+    pub assumed: Modes,
+    /// `procedures[0]` is the main procedure.
+    pub procedures: Vec<Procedure>,
+}
+
+impl Program {
+    /// Places in `procedures` of all but the main procedure, by their names; of several with one name the first counts.
+    pub fn by_name(&self) -> HashMap<&str, usize> {
+        let named = self.procedures.iter().enumerate().skip(1).rev();
+        named.map(|(place, procedure)| (&*procedure.name, place)).collect()
+    }
+}
+
+/// The program's own number and title.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ProgramName {
+    /// A number such as Fanuc's O word, if the text has one.
+    pub number: Option<u32>,
+    /// A title, if the text has one.
+    pub title: Option<Text>,
+}
+
+/// Text of a comment or message, as Unicode. Front-ends decode (UTF-8, else Latin-1).
+pub type Text = Box<str>;
+
+/// A procedure: the main program, a subprogram or a macro.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Procedure {
+    /// By what it is called; for the main procedure, its number as text, or empty.
+    pub name: Text,
+    /// A title, if it has one.
+    pub title: Option<Text>,
+    /// Parameters, in the order of a call's arguments. One that all procedures see is the caller's variable itself: the
+    /// call gives it that variable's value, and an assignment behind the call, in its block, gives it back.
+    pub parameters: Vec<Var>,
+    /// What the parameters hold, in their order, where that is said; else any number. A call has converted what it
+    /// hands over.
+    pub kinds: Vec<Type>,
+    /// What is said of it as a whole, in the order in which it is said.
+    pub attributes: Vec<Attribute>,
+    /// What it does.
+    pub body: Vec<Stmt>,
+}
+
+/// What is said of a procedure as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attribute {
+    /// `gives-back`: behind each call the modes, the work offset and the chain of frames are those that were in force
+    /// before it. The statements that say so stand there (the pass `given_back`).
+    GivesBack,
+    /// `runs-through`: advice to stop behind none of its blocks where the operator has the control stop behind each.
+    RunsThrough,
+    /// `not-shown`: advice not to show its blocks.
+    NotShown,
+}
+
+/// A statement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stmt {
+    /// Where it was written.
+    pub span: Span,
+    /// Block number, on the first statement of its block.
+    pub number: Option<u32>,
+    /// Block-skip level, 1 to 10: not executed while that switch is on. Every statement of the
+    /// block carries it.
+    pub skip: Option<u8>,
+    /// Whether it stands in the same block as the statement before.
+    pub joined: bool,
+    /// A comment that stands in the block, on its last statement.
+    pub comment: Option<Box<Text>>,
+    /// What it does.
+    pub op: Op,
+}
+
+impl Stmt {
+    /// A statement in a block of its own.
+    pub fn new(span: Span, op: Op) -> Stmt {
+        Stmt { span, number: None, skip: None, joined: false, comment: None, op }
+    }
+}
+
+/// A coordinate word.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coord {
+    /// Its value.
+    pub value: Expr,
+    /// From where it is measured.
+    pub distance: Fact<Distance>,
+}
+
+/// The axis words of a move; an axis without a word stays where it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Point {
+    /// One place per axis, in the order of [`Axis::ALL`].
+    pub axes: [Option<Coord>; AXES],
+}
+
+impl Point {
+    /// The word of an axis.
+    #[inline]
+    pub fn get(&self, axis: Axis) -> Option<&Coord> {
+        self.axes[axis as usize].as_ref()
+    }
+
+    /// Sets the word of an axis.
+    pub fn set(&mut self, axis: Axis, coord: Coord) {
+        self.axes[axis as usize] = Some(coord);
+    }
+
+    /// Whether no axis has a word.
+    pub fn is_empty(&self) -> bool {
+        self.axes.iter().all(Option::is_none)
+    }
+}
+
+/// A straight move, or hole position.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Move {
+    /// Where to.
+    pub to: Point,
+    /// Whether the block itself says the motion code. A back-end that inherits it need not.
+    pub said: bool,
+}
+
+/// A straight move in step with the spindle, as threads are cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Synchronised {
+    /// Where to.
+    pub to: Point,
+    /// How far the axis goes in a turn.
+    pub pitch: Pitch,
+    /// Whether feed and spindle each go on their own, and a compensating chuck makes good what they
+    /// are apart.
+    pub chuck: bool,
+    /// The sense in which the control turns the spindle for this move, to hold it after; without, it
+    /// turns as it does.
+    pub turn: Option<Turn>,
+    /// Whether it comes back to where it began, the spindle turned round for the way back and turning as
+    /// before after it.
+    pub back: bool,
+}
+
+/// How far an axis goes in one turn of the spindle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pitch {
+    /// So far, positive.
+    Stated(Expr),
+    /// As feed and speed in force say.
+    Feed,
+}
+
+/// How corners are taken from here on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathControl {
+    /// The mode.
+    pub mode: PathMode,
+    /// How far from a corner, or from the path, where the mode says that.
+    pub within: Option<Expr>,
+    /// The same for rapids, where it is another one.
+    pub rapids: Option<Expr>,
+    /// How far from their common line straight moves at one feed may lie that the control makes one, where it
+    /// is another length than `within`; 0 is not at all.
+    pub merged: Option<Expr>,
+}
+
+impl PathControl {
+    /// A mode without lengths of its own.
+    pub fn plain(mode: PathMode) -> PathControl {
+        PathControl { mode, within: None, rapids: None, merged: None }
+    }
+}
+
+/// A word that advises the control, and changes nothing of what the program says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// What of.
+    pub kind: AdviceKind,
+    /// Which of the kind's values.
+    pub value: u8,
+    /// The length that belongs to it, if it has one.
+    pub amount: Option<Expr>,
+}
+
+impl Advice {
+    /// The name of its value.
+    pub fn value_name(&self) -> &'static str {
+        self.kind.values().get(usize::from(self.value)).copied().unwrap_or("off")
+    }
+}
+
+/// Blocks that are executed again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RepeatBlocks {
+    /// Label where they begin: the last one of that name before this statement.
+    pub from: Text,
+    /// Label where they end, its own block included; without, they end before this statement.
+    pub to: Option<Text>,
+    /// How many times, after they have been passed once: a whole number; one that is computed is 1 or more.
+    pub times: Expr,
+}
+
+/// What a statement does. The upper-case name in each comment is its name in text.
+///
+/// Within one block the order is that of the statements: settings, feed and speed, tool, spindle
+/// and coolant on, dwell, offsets, motion, then spindle and coolant off, stops and end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Op {
+    /// `COMMENT`: text on its own, no effect.
+    Comment(Text),
+    /// `NO_EFFECT`: a word whose dictionary row says that no effect is known; the translation
+    /// assumes that it has none. The text is the dictionary's name of the row.
+    NoEffect(Text),
+    /// An empty block.
+    Blank,
+
+    /// `USE_LENGTH_UNITS`
+    UseLengthUnits(Units),
+    /// `SET_DISTANCE_MODE`
+    SetDistanceMode(Distance),
+    /// `SELECT_PLANE`
+    SelectPlane(Plane),
+    /// `SET_FEED_MODE`
+    SetFeedMode(FeedMode),
+    /// `SET_RETURN_LEVEL`: where cycles leave the tool.
+    SetReturnLevel(ReturnLevel),
+    /// `SET_ORIGIN_OFFSETS`: makes a work offset current; 1 is the first.
+    SetOriginOffsets(u16),
+    /// `CLEAR_FRAME`: empties a slot of the coordinate chain.
+    ClearFrame(FrameSlot),
+    /// `SET_FRAME` or `ADD_FRAME`: a step of [`FrameSlot::Chain`].
+    SetFrame(Box<Frame>),
+    /// `SET_SHIFT`, `SET_ROTATION`, `SET_SCALE`, `SET_MIRROR`, `CLEAR_MIRROR`, `SET_TILT`: fills a slot of the
+    /// coordinate chain.
+    SetSlot(Box<Slot>),
+    /// `SET_POSITION`: from here on, the present point has these coordinates in the work offset with the
+    /// shift of the origin, which is changed so; the local shift of the axes named is over.
+    SetPosition(Box<[Option<Expr>; AXES]>),
+    /// `USE_ORIGIN_SHIFT`: off, there is no shift of the origin from here on, and its numbers are kept; on, it
+    /// is again what it was then. What is said of it in between takes the place of what was kept.
+    UseOriginShift(bool),
+    /// `USE_MACHINE_COORDINATES`: words of the straight move that follows in this block are machine
+    /// coordinates; work offset and frames are off for it.
+    UseMachineCoordinates {
+        /// Whether the tool's length stays; else it is off for the block too.
+        length: bool,
+    },
+    /// `PROBE`: the straight move at feed that follows in this block is NIST's `STRAIGHT_PROBE`: it ends where
+    /// the probe says so. Where that is, along the axes that it names, no program knows.
+    Probe(Probe),
+    /// `DETOUR`: the rapid straight move that follows in this block goes another way than straight.
+    Detour(Detour),
+    /// `USE_TOOL_CENTRE_POINT`: whether points are those of the tool's tip, which the control keeps there
+    /// while rotary axes turn the tool or the work. Moves nothing. Where the axes stand in the program's
+    /// coordinates behind it, the machine alone knows.
+    UseToolCentrePoint(bool),
+    /// `ORIENT_TOOL_AXIS`: rotary axes go to where the tool stands upright on the tilted plane. Which way,
+    /// and what the linear axes do meanwhile, is the machine's.
+    OrientToolAxis(Option<Toward>),
+    /// `SET_OFFSET_DATA` or `SET_TOOL_DATA`: puts values into the control's tables.
+    SetData(Box<Data>),
+    /// `START_CUTTER_RADIUS_COMPENSATION`: from the next move in the plane on, the programmed contour is
+    /// that of the work, and the tool goes beside it by its radius.
+    StartCutterRadiusCompensation {
+        /// On which side of it.
+        side: Side,
+        /// By which radius.
+        radius: CutterRadius,
+    },
+    /// `STOP_CUTTER_RADIUS_COMPENSATION`
+    StopCutterRadiusCompensation,
+    /// `SET_MOTION_CONTROL_MODE`: how corners are taken from here on.
+    SetMotionControlMode(Box<PathControl>),
+    /// `EXACT_STOP`: the move that follows in this block ends in an exact stop.
+    ExactStop,
+    /// `TURN_ROTARY_AXES`: which way round A, B and C go in the straight move that follows in this block, whose
+    /// words say angles of one turn for them. Where the axis then stands is that angle.
+    TurnRotaryAxes([Option<RotaryWay>; 3]),
+    /// `ROUND_CORNER`, `CHAMFER_CORNER` or `CHAMFER_CORNER_BY_LENGTH`: the corner between the move that follows
+    /// in this block and the next one of the plane is rounded or chamfered. Both are programmed to the
+    /// corner itself.
+    Corner {
+        /// How.
+        shape: CornerShape,
+        /// By which length.
+        size: Expr,
+    },
+    /// `ADVISE`: a word for the control's own conduct, without effect on what the program says.
+    Advise(Box<Advice>),
+
+    /// `SET_FEED_RATE`: mm/min or inch/min under [`FeedMode::PerMinute`], mm or inch a turn under
+    /// [`FeedMode::PerRevolution`], turns of the clock's minute (a pure number) under
+    /// [`FeedMode::InverseTime`], and then for one move. A change of the feed mode takes the feed away.
+    SetFeedRate(Expr),
+    /// `SET_SPINDLE_SPEED`: rev/min, or under [`SpindleMode::Surface`] the surface speed in m/min, in inches in
+    /// ft/min.
+    SetSpindleSpeed(Expr),
+    /// `SET_SPINDLE_MODE`: what the speed counts. A change takes the speed away: what a control makes of the
+    /// one before differs, and a turning spindle needs another before anything moves.
+    SetSpindleMode(SpindleMode),
+    /// `LIMIT_SPINDLE_SPEED`: no more than so many rev/min under a surface speed, from here on. Whether it
+    /// counts for a speed in turns as well differs (a Sinumerik's does under G97, those of a Fanuc and of
+    /// LinuxCNC do not), so a spindle that turns is given no speed above it.
+    LimitSpindleSpeed(Expr),
+    /// `SELECT_TOOL`
+    SelectTool(Expr),
+    /// `SELECT_TOOL_BY_NAME`
+    SelectToolByName(Text),
+    /// `CHANGE_TOOL`: to the selected tool.
+    ChangeTool,
+    /// `USE_TOOL_LENGTH_OFFSET`: entry of the length table, 0 for none. Moves nothing; taken up
+    /// with the next move of the drilling axis (Z).
+    UseToolLengthOffset(Expr),
+    /// `USE_TOOL_LENGTH`, `ADD_TOOL_LENGTH`, `ADD_TOOL_LENGTH_OFFSET`: a length that is no entry of the table.
+    UseToolLength(Box<ToolLength>),
+    /// `USE_TOOL_EDGE`: length of an edge of the tool in the spindle, 0 for none. Moves nothing;
+    /// taken up with the next move of the drilling axis (Z). Edge 1 of a tool is the entry of the
+    /// length table with the tool's number.
+    UseToolEdge {
+        /// Its number.
+        edge: Expr,
+        /// Whether the block itself says it; else it comes with the tool.
+        said: bool,
+    },
+    /// `START_SPINDLE_CLOCKWISE`
+    StartSpindleClockwise,
+    /// `START_SPINDLE_COUNTERCLOCKWISE`
+    StartSpindleCounterclockwise,
+    /// `STOP_SPINDLE_TURNING`
+    StopSpindleTurning,
+    /// `ORIENT_SPINDLE`: stops it at an angle in degrees; `None` is the machine's own.
+    OrientSpindle(Option<Expr>),
+    /// `MACHINE_FUNCTION`: switches something of the machine that no dialect has a word for, by a name
+    /// that means the same on every machine. No axis moves, no tool changes.
+    MachineFunction(Text),
+    /// `FLOOD_ON`
+    FloodOn,
+    /// `MIST_ON`
+    MistOn,
+    /// `COOLANT_OFF`: NIST's `FLOOD_OFF` and `MIST_OFF` at once.
+    CoolantOff,
+    /// `DWELL`: seconds.
+    Dwell(Expr),
+
+    /// `STRAIGHT_TRAVERSE`
+    StraightTraverse(Move),
+    /// `STRAIGHT_FEED`
+    StraightFeed(Move),
+    /// `SYNCHRONISED_FEED`: NIST's `START_SPEED_FEED_SYNCH`, `STRAIGHT_FEED` and `STOP_SPEED_FEED_SYNCH`
+    /// at once.
+    SynchronisedFeed(Box<Synchronised>),
+    /// `GO_TO_REFERENCE`: rapid move to a point of the machine. What bare axis words do afterwards is
+    /// as before it.
+    GoToReference(Box<Reference>),
+    /// `ARC_FEED`
+    ArcFeed(Box<Arc>),
+    /// `ARC_BY_ANGLE`, `ARC_ABOUT_BY_ANGLE`, `ARC_ABOUT`, `ARC_THROUGH`, `ARC_TANGENT`: arcs in other
+    /// forms.
+    ArcForm(Box<ArcForm>),
+    /// `SET_POLE`: about which point polar words are.
+    SetPole(Box<SetPole>),
+    /// `POLAR`: a move to a point by radius and angle.
+    Polar(Box<Polar>),
+    /// `POSITION`: axis words that do whatever motion is in force.
+    Position(Move),
+
+    /// `START_CYCLE`: calls a cycle up; makes no hole yet.
+    StartCycle(Box<Cycle>),
+    /// `HOLE`: the cycle in force at a position.
+    Hole(Move),
+    /// `CIRCLE_PATTERN`, `LINE_PATTERN`, `RECTANGULAR_LAYOUT` or `POSITION_LIST`: the cycle in force
+    /// at each position.
+    Pattern(Box<Pattern>),
+    /// `END_CYCLE`
+    EndCycle,
+
+    /// `PROGRAM_STOP`
+    ProgramStop,
+    /// `OPTIONAL_PROGRAM_STOP`
+    OptionalProgramStop,
+    /// `PROGRAM_END`
+    ProgramEnd,
+    /// `BEGIN_AGAIN`: the main program begins anew, for ever. Nothing of the control is reset.
+    BeginAgain,
+    /// `MESSAGE`: text for the operator.
+    Message(Text),
+    /// `MESSAGE_OF`: text for the operator with values in it.
+    MessageOf(Box<[Piece]>),
+    /// `OPEN_OUTPUT`, `OUTPUT`, `CLOSE_OUTPUT`: text for a device.
+    Output(Box<Output>),
+    /// `ALARM`: the program ends with an alarm for the operator; what turns goes on turning or not, as the machine
+    /// will have it.
+    Alarm(Box<Alarm>),
+
+    /// `CALL`
+    Call(Box<Call>),
+    /// `RETURN`
+    Return,
+    /// `REPEAT_BLOCKS`: blocks from a label to here, or to another label, again.
+    RepeatBlocks(Box<RepeatBlocks>),
+    /// Assignment.
+    Assign(Target, Expr),
+    /// `DECLARE`: a variable, or an array, that has its first values from here on, each time it is executed.
+    Declare(Box<Declare>),
+    /// Structured control.
+    Control(Box<Control>),
+    /// `GOTO` a label.
+    Goto(Text),
+    /// A label, the target of jumps.
+    Label(Text),
+    /// `LEAVE`: goes behind the innermost body that is executed again and again.
+    Leave,
+    /// `NEXT_TURN`: goes to its next turn.
+    NextTurn,
+}
+
+impl Op {
+    /// Whether a length is called up, or off, which many controls take up with the next command of Z.
+    pub const fn calls_length(&self) -> bool {
+        matches!(self, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
+    }
+
+    /// The move itself, where its point is polar; else the operation.
+    pub fn unwrapped(&self) -> &Op {
+        match self {
+            Op::Polar(polar) => &polar.op,
+            op => op,
+        }
+    }
+
+    /// Its upper-case name in text; control has lower-case words.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Op::Comment(_) => "COMMENT",
+            Op::NoEffect(_) => "NO_EFFECT",
+            Op::Blank => "BLANK",
+            Op::UseLengthUnits(_) => "USE_LENGTH_UNITS",
+            Op::SetDistanceMode(_) => "SET_DISTANCE_MODE",
+            Op::SelectPlane(_) => "SELECT_PLANE",
+            Op::SetFeedMode(_) => "SET_FEED_MODE",
+            Op::SetReturnLevel(_) => "SET_RETURN_LEVEL",
+            Op::SetOriginOffsets(_) => "SET_ORIGIN_OFFSETS",
+            Op::ClearFrame(_) => "CLEAR_FRAME",
+            Op::SetFrame(frame) => {
+                if frame.added {
+                    "ADD_FRAME"
+                } else {
+                    "SET_FRAME"
+                }
+            }
+            Op::SetSlot(slot) => slot.name(),
+            Op::SetPosition(_) => "SET_POSITION",
+            Op::UseOriginShift(_) => "USE_ORIGIN_SHIFT",
+            Op::UseToolCentrePoint(_) => "USE_TOOL_CENTRE_POINT",
+            Op::OrientToolAxis(_) => "ORIENT_TOOL_AXIS",
+            Op::UseMachineCoordinates { .. } => "USE_MACHINE_COORDINATES",
+            Op::Probe(_) => "PROBE",
+            Op::Detour(_) => "DETOUR",
+            Op::SetData(data) => match **data {
+                Data::Offset { .. } => "SET_OFFSET_DATA",
+                Data::Tool { .. } => "SET_TOOL_DATA",
+                Data::Measured { .. } => "MEASURE_TOOL",
+                Data::Position(_) => "STORE_POSITION",
+                Data::ToolInSpindle(_) => "SET_TOOL_NUMBER",
+            },
+            Op::GoToReference(_) => "GO_TO_REFERENCE",
+            Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
+            Op::StartCutterRadiusCompensation { .. } => "START_CUTTER_RADIUS_COMPENSATION",
+            Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
+            Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",
+            Op::ExactStop => "EXACT_STOP",
+            Op::TurnRotaryAxes(_) => "TURN_ROTARY_AXES",
+            Op::Corner { shape, .. } => match shape {
+                CornerShape::Round => "ROUND_CORNER",
+                CornerShape::Leg => "CHAMFER_CORNER",
+                CornerShape::Length => "CHAMFER_CORNER_BY_LENGTH",
+            },
+            Op::Advise(_) => "ADVISE",
+            Op::SetFeedRate(_) => "SET_FEED_RATE",
+            Op::SetSpindleSpeed(_) => "SET_SPINDLE_SPEED",
+            Op::SetSpindleMode(_) => "SET_SPINDLE_MODE",
+            Op::LimitSpindleSpeed(_) => "LIMIT_SPINDLE_SPEED",
+            Op::SelectTool(_) => "SELECT_TOOL",
+            Op::SelectToolByName(_) => "SELECT_TOOL_BY_NAME",
+            Op::ChangeTool => "CHANGE_TOOL",
+            Op::UseToolLengthOffset(_) => "USE_TOOL_LENGTH_OFFSET",
+            Op::UseToolLength(length) => match **length {
+                ToolLength::Value(_) => "USE_TOOL_LENGTH",
+                ToolLength::Added(_) => "ADD_TOOL_LENGTH",
+                ToolLength::AddedEntry(_) => "ADD_TOOL_LENGTH_OFFSET",
+                ToolLength::Offsets { added: false, .. } => "USE_TOOL_OFFSETS",
+                ToolLength::Offsets { added: true, .. } => "ADD_TOOL_OFFSETS",
+            },
+            Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
+            Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
+            Op::StopSpindleTurning => "STOP_SPINDLE_TURNING",
+            Op::OrientSpindle(_) => "ORIENT_SPINDLE",
+            Op::MachineFunction(_) => "MACHINE_FUNCTION",
+            Op::FloodOn => "FLOOD_ON",
+            Op::MistOn => "MIST_ON",
+            Op::CoolantOff => "COOLANT_OFF",
+            Op::Dwell(_) => "DWELL",
+            Op::StraightTraverse(_) => "STRAIGHT_TRAVERSE",
+            Op::StraightFeed(_) => "STRAIGHT_FEED",
+            Op::SynchronisedFeed(_) => "SYNCHRONISED_FEED",
+            Op::ArcFeed(_) => "ARC_FEED",
+            Op::ArcForm(arc) => arc.shape.name(),
+            Op::SetPole(_) => "SET_POLE",
+            Op::Polar(_) => "POLAR",
+            Op::Position(_) => "POSITION",
+            Op::StartCycle(_) => "START_CYCLE",
+            Op::Hole(_) => "HOLE",
+            Op::Pattern(pattern) => match **pattern {
+                Pattern::Circle { .. } => "CIRCLE_PATTERN",
+                Pattern::Line { .. } => "LINE_PATTERN",
+                Pattern::Grid { .. } => "RECTANGULAR_LAYOUT",
+                Pattern::List(_) => "POSITION_LIST",
+            },
+            Op::EndCycle => "END_CYCLE",
+            Op::ProgramStop => "PROGRAM_STOP",
+            Op::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
+            Op::ProgramEnd => "PROGRAM_END",
+            Op::BeginAgain => "BEGIN_AGAIN",
+            Op::Message(_) => "MESSAGE",
+            Op::MessageOf(_) => "MESSAGE_OF",
+            Op::Output(output) => match **output {
+                Output::Open => "OPEN_OUTPUT",
+                Output::Line(_) => "OUTPUT",
+                Output::Close => "CLOSE_OUTPUT",
+            },
+            Op::Alarm(_) => "ALARM",
+            Op::Call(_) => "CALL",
+            Op::Return => "RETURN",
+            Op::RepeatBlocks(_) => "REPEAT_BLOCKS",
+            Op::Assign(..) => "assignment",
+            Op::Declare(_) => "DECLARE",
+            Op::Control(control) => match **control {
+                Control::Repeat { .. } => "repeat",
+                Control::Loop { .. } => "loop",
+                Control::While { .. } => "while",
+                Control::Until { .. } => "until",
+                Control::For { .. } => "for",
+                Control::If { .. } => "if",
+            },
+            Op::Goto(_) => "GOTO",
+            Op::Label(_) => "LABEL",
+            Op::Leave => "LEAVE",
+            Op::NextTurn => "NEXT_TURN",
+        }
+    }
+}
+
+/// A variable that is made known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declare {
+    /// Which.
+    pub var: Var,
+    /// What it holds.
+    pub kind: Type,
+    /// Of an array, how many elements in each direction.
+    pub sizes: Box<[u32]>,
+    /// First values, of the elements one after the other; what has none is zero.
+    pub initial: Vec<Option<Expr>>,
+}
+
+/// What a variable holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// A number.
+    Real,
+    /// A whole number.
+    Int,
+    /// 1 or 0.
+    Bool,
+}
+
+impl Type {
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Type::Real => "real",
+            Type::Int => "int",
+            Type::Bool => "bool",
+        }
+    }
+}
+
+/// A call of a procedure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    /// Name of the procedure.
+    pub name: Text,
+    /// How many times, one after the other.
+    pub times: u32,
+    /// Arguments, for a procedure with parameters.
+    pub arguments: Vec<Expr>,
+    /// Whether the procedure has its caller's local variables (Fanuc's `M98`); else it has its own (`G65`).
+    pub shared: bool,
+}
+
+/// Structured control.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)] // The field names are the meaning.
+pub enum Control {
+    /// The body, a number of times.
+    Repeat { times: Expr, body: Vec<Stmt> },
+    /// Endless, left by a jump or the program's end.
+    Loop { body: Vec<Stmt> },
+    /// Tested before each turn.
+    While { condition: Expr, body: Vec<Stmt> },
+    /// Tested behind each turn, and left when it holds.
+    Until { condition: Expr, body: Vec<Stmt> },
+    /// Counted.
+    For { variable: Var, from: Expr, to: Expr, step: Expr, body: Vec<Stmt> },
+    /// One or the other.
+    If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+}
+
+impl Control {
+    /// Its bodies: of a decision what is executed where it holds and where it does not, else the one.
+    pub fn bodies(&self) -> impl Iterator<Item = &Vec<Stmt>> {
+        let (first, second) = match self {
+            Control::Repeat { body, .. }
+            | Control::Loop { body }
+            | Control::While { body, .. }
+            | Control::Until { body, .. }
+            | Control::For { body, .. } => (body, None),
+            Control::If { then, otherwise, .. } => (then, Some(otherwise)),
+        };
+        std::iter::once(first).chain(second)
+    }
+
+    /// The same, to be changed.
+    pub fn bodies_mut(&mut self) -> impl Iterator<Item = &mut Vec<Stmt>> {
+        let (first, second) = match self {
+            Control::Repeat { body, .. }
+            | Control::Loop { body }
+            | Control::While { body, .. }
+            | Control::Until { body, .. }
+            | Control::For { body, .. } => (body, None),
+            Control::If { then, otherwise, .. } => (then, Some(otherwise)),
+        };
+        std::iter::once(first).chain(second)
+    }
+}
