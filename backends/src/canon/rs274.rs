@@ -475,7 +475,7 @@ impl Printer<'_> {
                 self.call("PROGRAM_STOP()");
             }
             Op::OptionalProgramStop => self.call("OPTIONAL_PROGRAM_STOP()"),
-            Op::BeginAgain => self.end(false),
+            Op::BeginAgain => return Err(cannot("a program that begins again")),
             Op::ProgramEnd => {
                 let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
                 self.end(code.is_some_and(|code| code.eq_ignore_ascii_case(b"M30")));
