@@ -108,7 +108,9 @@ fn stored(beginning: &[u8]) -> Option<Stored> {
         }
     }
     let lines = beginning.trim_ascii_end();
-    (lines.contains(&b'\r') && !beginning.contains(&b'\n')).then_some(Stored::CrAlone)
+    // A file with bytes that stand in no text, not on paper tape either, is none.
+    let text = !beginning.iter().any(|byte| matches!(byte, 1..=8 | 14..=16 | 21..=25 | 27..=31));
+    (text && lines.contains(&b'\r') && !beginning.contains(&b'\n')).then_some(Stored::CrAlone)
 }
 
 /// Refuses a text that no control reads as it is stored, by what it is.
@@ -487,6 +489,7 @@ mod tests {
         assert_eq!(stored(&marked), Some(Stored::Wide("UTF-16LE")));
         assert_eq!(stored(program.replace('\n', "\r").as_bytes()), Some(Stored::CrAlone));
         assert_eq!(stored(b"G0 X1\rM2"), Some(Stored::CrAlone));
+        assert_eq!(stored(b"\x7fELF\x02\x01\r\0"), None, "no text at all");
         for text in
             [&b""[..], b"M2", b"M2\r", b"G0\r\nM2\r\n", b"\0\0\0\0\0\0\0\0%\nM30\n", program.as_bytes()]
         {
