@@ -287,7 +287,7 @@ impl Checker {
                 spindle::changed(self);
                 length::changed(self, event);
             }
-            // What is on stays on for the next time.
+            // Spindle and coolant stay on for the next pass.
             Kind::BeginAgain => self.ended = true,
             Kind::ProgramEnd => {
                 left::on(self, event.span);

@@ -1,4 +1,5 @@
-//! `--args FILE` and `--value NAME=NUMBER`: the values that a program may be given by who calls it, or by who set its variables before.
+//! `--args FILE` and `--value NAME=NUMBER`: the values that a program may be given by its caller, or by whoever set its
+//! variables before.
 //!
 //! A TOML file with a table `[variables]`: a number, a list of numbers, or `from` and `to`, with `vacant = true` where
 //! there may be no value at all. Names are as the program has them.
@@ -82,7 +83,7 @@ fn plain(name: &str) -> String {
     name.trim_start_matches('#').trim_start_matches('<').trim_end_matches('>').to_ascii_lowercase()
 }
 
-/// What a variable holds at the start, as the command line says it: `#500=12.5`, `_td=0.25`, `R5=3`.
+/// Reads `--value`: the name of a variable and its value at the start, `#500=12.5`, `_td=0.25`, `R5=3`.
 ///
 /// # Errors
 /// It is not of this form.

@@ -1,7 +1,7 @@
 //! Ctrl-C, and what else asks a process to end: the run says where the program was, nothing is written, and the exit
 //! code is 130.
 //!
-//! A run of a program stops by itself ([`ncc_ir::halt`]), and so does the reading of a source (`chunks`). What takes
+//! A run of a program stops by itself ([`ncc_exec::halt`]), and so does the reading of a source (`chunks`). What takes
 //! long besides is ended after `GRACE`, but never while a file is being put in its place.
 
 use std::fmt;
@@ -9,8 +9,8 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::{RwLock, RwLockReadGuard};
 use std::time::Duration;
 
+use ncc_exec::halt;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::halt;
 
 use crate::files::Source;
 use crate::problem::{Exit, Problem};
@@ -28,7 +28,7 @@ pub fn listen() {
         std::thread::sleep(GRACE);
         // One that died while it held the lock is over as well.
         let _placing = PLACING.write();
-        let _ = writeln!(io::stderr(), "error: interrupted; nothing was written");
+        let _ = writeln!(io::stderr(), "error: interrupted; no file is half written");
         std::process::exit(i32::from(Exit::Interrupted as u8));
     });
 }
@@ -51,7 +51,7 @@ impl fmt::Display for Interrupted {
 
 impl std::error::Error for Interrupted {}
 
-/// Where a run was interrupted, as the problem of its source.
+/// The problem that names the line of its source at which a run was interrupted.
 ///
 /// # Errors
 /// Reading the source.

@@ -58,7 +58,7 @@ pub struct Job {
     pub start: [Option<Nanos>; AXES],
     /// What the source's variables may be given before it begins.
     pub given: Given,
-    /// What the user states that variables hold at the start, which the output sets itself.
+    /// Values of variables at the start, as the user states them. The output sets them itself.
     pub values: Vec<(String, Num)>,
     /// The program number of the output, where the target has one.
     pub program_number: Option<u32>,

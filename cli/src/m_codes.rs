@@ -106,13 +106,17 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
                 Some(_) => Meaning::MachineFunction(format!("m{}", code.number).leak()),
                 None => Meaning::LeftOut,
             };
+            let read_as = code.written.filter(|_| coolant_code(code).is_some());
             dialect.put_m_code(*number, means, "--m-code");
+            if let Some(row) = dialect.code.iter_mut().find(|row| row.code == format!("M{number:02}")) {
+                row.read_as = read_as.map(|written| format!("M{written:02}"));
+            }
         }
     });
     Ok(())
 }
 
-/// What a code does, if it switches coolant.
+/// The meaning of a code that switches coolant.
 fn coolant(dialect: &Dialect, number: u16) -> Option<Meaning> {
     let means = dialect.code_row(b'M', u32::from(number) * 10)?.means?;
     matches!(means, Meaning::FloodOn | Meaning::MistOn | Meaning::CoolantOff).then_some(means)

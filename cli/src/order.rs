@@ -33,7 +33,7 @@ pub(crate) struct Order {
     pub(crate) to: Settings,
     /// What variables may be given.
     given: Given,
-    /// What they hold at the start, as the user and the profile state it.
+    /// Their values at the start, from the command line and the profile.
     values: Vec<(String, Num)>,
     /// The dialect of the sources; `None` if it is to be recognised.
     pub(crate) named: Option<&'static Dialect>,

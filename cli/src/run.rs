@@ -38,8 +38,8 @@ pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
     let exit = run_verb(arguments);
-    // What was asked to stop may have taken that for a fault of the program.
-    if ncc_ir::halt::is_asked() { Exit::Interrupted } else { exit }
+    // A verb that was interrupted may have ended with the exit code of a fault in the program.
+    if ncc_exec::halt::is_asked() { Exit::Interrupted } else { exit }
 }
 
 fn run_verb(arguments: Vec<OsString>) -> Exit {
@@ -296,7 +296,7 @@ fn translated(
     }
     let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
     // Of a run that was interrupted, the messages say where it was.
-    if let Some(name) = args.report.as_ref().filter(|_| !ncc_ir::halt::is_asked()) {
+    if let Some(name) = args.report.as_ref().filter(|_| !ncc_exec::halt::is_asked()) {
         files::to_file(name, &mut |out| report::write(out, &mut about, &outcome))?;
     }
     if let (Some(name), Some(record)) = (&args.map, record) {

@@ -22,7 +22,6 @@ pub mod computed;
 pub mod diag;
 pub mod expr;
 pub mod geometry;
-pub mod halt;
 pub mod letters;
 pub mod program;
 pub mod rank;

@@ -511,7 +511,7 @@ fn decide(
     };
     // The greater value is shown first.
     let order = if candidate.fact == Fact::DecimalPoint { [1, 0] } else { [0, 1] };
-    // Where the control reads feeds alone as whole units, that is the way out for a feed.
+    // A control that can read F alone in whole units offers that for a feed.
     let of_feed = |at: usize| {
         let feed = matches!(shown[at], Shown::Word { feed: true, .. });
         feed && candidate.answers[at] == Answer::WritePoints

@@ -4,6 +4,7 @@ use ncc_dialects::{
     ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
     STORED_POSITION, STRAIGHT_LINE,
 };
+use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
@@ -390,7 +391,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         {
             own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
         }
-        Fault::CannotSay { what } if what.starts_with("a compensated contour with ") => own(
+        Fault::CannotSay { what } if [NOWHERE, STILL].contains(&&**what) => own(
             "leave out the blocks here that move by less than the target's least increment, or not in the plane",
         ),
         Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {

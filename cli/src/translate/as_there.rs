@@ -74,7 +74,7 @@ pub(super) fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
     found
 }
 
-/// Where the first block begins that does more than state modes.
+/// The place of the first block that does more than state modes.
 fn behind_the_modes(body: &[Stmt]) -> usize {
     let states = |stmt: &Stmt| {
         let plain = matches!(

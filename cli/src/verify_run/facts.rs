@@ -7,7 +7,7 @@
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
 use ncc_exec::verify::{Aspect, Difference};
-use ncc_exec::{Event, Exec, by_control, touched};
+use ncc_exec::{Event, Exec, NOWHERE, STILL, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::{Axis, Modes};
@@ -133,12 +133,14 @@ pub(super) fn reader_of_output(job: &Job) -> Reader {
     reader
 }
 
-/// The output cannot be executed further. What the target's control has no words for, in the digits that it writes, is
-/// refused at the block of the source of which the next event is; anything else is a fault of the translation.
+/// The output cannot be executed further. Blocks of a compensated contour that move nowhere in the digits of the target
+/// are refused at the block of the source of which the next event is; anything else is a fault of the translation.
 pub(super) fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
     let at = next.map_or(last, |event| event.span);
     match &fault.fault {
-        Fault::CannotSay { .. } => Stop::Source(Diagnostic::new(fault.fault.clone(), at)),
+        Fault::CannotSay { what } if [NOWHERE, STILL].contains(&&**what) => {
+            Stop::Source(Diagnostic::new(fault.fault.clone(), at))
+        }
         _ => unreadable(fault, last),
     }
 }

@@ -7,7 +7,7 @@
 //! A jump looks for its label in its direction, the nearest first, and labels may stand there twice. Which label is
 //! meant is found when the program has been read; labels of one name then get names of their own.
 //!
-//! Refused by name: jumps that are computed, jumps to the start of the program, structures that a switch may skip,
+//! Refused by name: jumps that are computed, jumps to the start of a subprogram, structures that a switch may skip,
 //! and a modal cycle or rounding that differs between a jump and its label.
 
 use std::collections::HashSet;

@@ -226,6 +226,12 @@ impl Lower {
             let name = row.refuse.as_deref().unwrap_or_default();
             return self.not_supported(&row.code, name, given.span, out);
         };
+        if let Some(other) = row.read_as.as_deref()
+            && self.first_time(&row.code)
+        {
+            let code = format!("{} ({other} in its place)", row.code);
+            out.report(Fault::CodeLeftOut { code: code.into() }, given.span);
+        }
         let code = Code {
             name: &row.code,
             meaning: NameMeaning::Code(meaning),

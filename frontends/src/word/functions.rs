@@ -352,6 +352,13 @@ impl Lower {
 
     /// A code that stands for itself, before or after the motion.
     fn function(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
+        if let Some(other) = code.row.read_as.as_deref()
+            && self.assume
+            && self.first_time(code.row)
+        {
+            let code_text = format!("{} ({other} in its place)", code.row.code);
+            out.report(Fault::CodeLeftOut { code: code_text.into() }, code.span);
+        }
         let op = match code.meaning {
             Meaning::ChangeTool => {
                 if self.state.tool == Know::Unsaid {

@@ -40,6 +40,9 @@ pub struct CodeRow {
     /// Whether it is passed over in a block with another code of its group; said twice, it counts once.
     #[serde(default)]
     pub passed_over: bool,
+    /// Another code of this control, as which the user has this one read: no key of a dictionary.
+    #[serde(skip)]
+    pub read_as: Option<String>,
     /// Whether a return to a reference point without axis words is one of all axes at once: X, Y, Z, and of the rotary
     /// axes those that the text has named before.
     #[serde(default)]
@@ -118,6 +121,7 @@ impl Dialect {
     pub fn put_m_code(&mut self, number: u16, means: Meaning, source: &str) {
         let row = CodeRow {
             passed_over: false,
+            read_as: None,
             alone_all_axes: false,
             after_move: false,
             code: format!("M{number:02}"),

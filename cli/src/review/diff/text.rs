@@ -176,7 +176,7 @@ fn read(side: &mut Side) -> io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// What a block says.
+/// The words of a block, or their hash where the block is long.
 #[derive(Debug, PartialEq, Eq, Hash)]
 enum Key {
     Text(Box<[u8]>),

@@ -15,6 +15,11 @@ use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, variables};
 use ncc_ir::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use ncc_ir::source::Span;
 
+/// What no other control does alike: a block of a compensated contour that moves nowhere, and one more behind it.
+pub const NOWHERE: &str = "a compensated contour with a block that goes nowhere";
+/// The same, of blocks that do not move in the plane.
+pub const STILL: &str = "a compensated contour with two still blocks in a row";
+
 /// Compensation of a move. Without one, all the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Compensation {
@@ -289,8 +294,8 @@ impl Exec {
                 if self.contour.elsewhere {
                     // The corner before them is each control's own.
                     let (what, at) = match self.contour.nowhere {
-                        Some(at) => ("a compensated contour with a block that goes nowhere", at),
-                        None => ("a compensated contour with two still blocks in a row", span),
+                        Some(at) => (NOWHERE, at),
+                        None => (STILL, span),
                     };
                     return self.fault(Fault::CannotSay { what: what.into() }, at);
                 }

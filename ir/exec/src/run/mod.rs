@@ -13,6 +13,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::{Exec, message};
+use crate::halt;
 use crate::run::code::{Again, At, Called, Code, Declared, Step};
 use crate::run::needed::needed;
 use crate::run::nesting::{Blocks, Frame};
@@ -24,7 +25,6 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::expr::value::Value;
 use ncc_ir::expr::{Expr, Var};
-use ncc_ir::halt;
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Centre, Coord, Op, Program, Stmt};
 use ncc_ir::source::Span;

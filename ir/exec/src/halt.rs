@@ -1,7 +1,7 @@
 //! A request to stop, such as ctrl-C on the command line.
 //!
-//! It holds for the whole process. Every run of a program looks at it before each step (`ncc-exec`) and
-//! ends with [`crate::diag::Fault::Interrupted`], which names the block that was next. Not here: who asks, and what
+//! It holds for the whole process. Every run of a program looks at it before each step ([`crate::Runner`]) and
+//! ends with [`ncc_ir::diag::Fault::Interrupted`], which names the block that was next. Not here: who asks, and what
 //! becomes of the output (the command line).
 
 use std::sync::atomic::{AtomicBool, Ordering};
