@@ -20,6 +20,23 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("pictures", &["ncc-exec", "ncc-ir", "ncc-timeline"]),
     ("check", &["ncc-exec", "ncc-ir"]),
     ("review", &["ncc-exec", "ncc-ir"]),
+    (
+        "driver",
+        &[
+            "ncc-backends",
+            "ncc-check",
+            "ncc-dialects",
+            "ncc-exec",
+            "ncc-frontends",
+            "ncc-ir",
+            "ncc-machines",
+            "ncc-passes",
+            "ncc-pictures",
+            "ncc-review",
+            "ncc-timeline",
+        ],
+    ),
+    ("engine", &["ncc-backends", "ncc-dialects", "ncc-driver", "ncc-ir", "ncc-machines", "ncc-timeline"]),
 ];
 
 /// Most files and folders in a folder of source files.
@@ -27,7 +44,7 @@ const MOST: usize = 25;
 
 /// Folders that have more, and how many: none may grow, and one that is short enough is taken out of here.
 const LONGER: &[(&str, usize)] =
-    &[("frontends/src/word", 54), ("cli/src", 46), ("frontends/src/siemens", 39), ("backends/src/word", 34)];
+    &[("frontends/src/word", 54), ("frontends/src/siemens", 39), ("backends/src/word", 34)];
 
 /// Crates of ours under a heading of a manifest.
 fn ours(manifest: &str, heading: &str) -> BTreeSet<String> {
