@@ -27,6 +27,7 @@ use ncc_passes::modes::own_distance;
 use ncc_passes::support::known_facts::{self, Known};
 use ncc_passes::values::variables::{self, Digits, Renamed};
 use ncc_passes::values::{alarm_numbers, arithmetic, exact_comparisons, message_values, unit_in_force};
+use ncc_passes::watch::ran_whole;
 use ncc_passes::{Target, leave_out_output, output_elsewhere};
 
 use crate::job::Job;
@@ -62,6 +63,7 @@ pub fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
     }
     let at = behind_the_modes(&main.body);
     main.body.splice(at..at, sets);
+    ran_whole("values-at-start", program);
     found
 }
 
@@ -125,6 +127,7 @@ pub fn calls_and_jumps(job: &Job, [source, program]: [&Program; 2], found: &mut 
 pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     let caps = job.to.caps();
     leave_out_output(program, &caps, found);
+    ran_whole("leave-out-output", program);
     let opens = caps.computes.as_ref().is_some_and(|there| there.output_opened);
     if job.from.dialect.id != job.to.dialect.id {
         found.extend(output_elsewhere(program, opens));
@@ -132,8 +135,10 @@ pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     let Some(there) = caps.computes else { return };
     let Some(alarms) = &there.alarms else { return };
     alarm_numbers::in_its_characters(program, alarms, found);
+    ran_whole("alarm-texts", program);
     if job.from.dialect.id != job.to.dialect.id {
         alarm_numbers::run(program, alarms, there.has(Said::CallOf), found);
+        ran_whole("alarm-numbers", program);
     }
 }
 
@@ -152,28 +157,39 @@ pub fn say(
     entry.modes = entry.modes.or(program.assumed);
     if from.id != to.id && !there.has(Said::CodeOf) {
         known_facts::put_back(program, &entry, there);
+        ran_whole("codes-put-back", program);
     }
     for procedure in &mut program.procedures {
         code_of::without_alarms(&mut procedure.body, &|control| there.says_number(control));
     }
+    ran_whole("codes-without-alarms", program);
     expand_repeats::where_it_computes(program, &job.to.caps(), found);
+    ran_whole("expand-repeats", program);
     machine_cuts::read(program, &entry, &job.to.caps(), found);
+    ran_whole("machine-cuts", program);
     let lengths = to.numbers(Quantity::Length);
     if let Some(alarm) = there.planes_alarm {
         planes_checked::run(program, alarm, lengths.decimals);
+        ran_whole("planes-checked", program);
     }
     computed_holes::run(program, &job.to.caps(), found);
+    ran_whole("computed-holes", program);
     exact_comparisons::run(program, there, found);
+    ran_whole("exact-comparisons", program);
     if let Some(digits) = there.values_in_full {
         message_values::run(program, digits, found);
+        ran_whole("message-values", program);
     }
     control_forms::run(program, there);
+    ran_whole("control-forms", program);
     arithmetic::run(program, there, from.formula.tolerance(), found);
+    ran_whole("arithmetic", program);
     // Its own words are left as they are, where they say by themselves where they lead.
     let own = to.program.o_words && from.id == to.id;
     let computes = job.from.caps().computes.unwrap_or_default();
     if there.restates && !own || computed_frames::behind_control(program) {
         known = known_facts::run(program, &entry, from.id != to.id);
+        ran_whole("known-facts", program);
     } else if computes.blocks != there.blocks {
         // Words of another language lead to stretches of its blocks; what they say stays as it is.
         known = known_facts::run(&mut program.clone(), &entry, true);
@@ -181,13 +197,17 @@ pub fn say(
         let measures = job.from.caps().word_distance && !job.to.caps().word_distance;
         if measures && !own_distance::places(program, &known).is_empty() {
             known = known_facts::run(program, &entry, true);
+            ran_whole("known-facts", program);
         }
     }
     centres_from_start::run(program, &job.to.caps());
+    ran_whole("centres-from-start", program);
     let rows = || to.system.iter().filter(|row| row.counts(&job.to));
     spindle_points::run(program, &|asked| rows().flat_map(SystemRow::says).any(|(said, _)| said == *asked));
+    ran_whole("spindle-points", program);
     if from.id != to.id {
         unit_in_force::run(program, there);
+        ran_whole("unit-in-force", program);
     }
     if computes.calls != there.calls {
         found.extend(there.too_deep(program));
@@ -197,6 +217,7 @@ pub fn say(
     let seconds = to.code.iter().any(both).then(|| to.numbers(Quantity::Seconds).increment);
     let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch], seconds };
     let renamed = variables::run(program, &computes, there, digits, found);
+    ran_whole("variables", program);
     (known, renamed)
 }
 

@@ -9,6 +9,7 @@ use ncc_ir::caps::Caps;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
+use ncc_passes::watch::ran_whole;
 use ncc_passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 
 /// Statements that are held back at most; a program of holes alone is folded in stretches.
@@ -32,6 +33,7 @@ pub fn run(
     for pass in passes {
         let target = if FOLDS_OF_EVENTS.contains(&pass.name) { target } else { &nothing };
         (pass.run)(program, target, entry, found);
+        ran_whole(pass.name, program);
     }
 }
 

@@ -25,6 +25,7 @@ use ncc_passes::modes::side_effects::SideEffects;
 use ncc_passes::support::known_facts::Known;
 use ncc_passes::tools::machine_numbers::Renumbering;
 use ncc_passes::values::variables::Renamed;
+use ncc_passes::watch::{ran, ran_whole};
 use ncc_passes::{Legaliser, leave_out_values};
 
 use crate::job::{Failure, Job, Outcome, Output, Rest};
@@ -197,9 +198,11 @@ impl<'j> Translation<'j> {
         let original = touched.then(|| unfolded.unwrap_or_else(|| stmts.clone()));
         if !passes {
             self.side_effects.over(stmts, &mut found);
+            ran("side-effects", stmts);
         }
         if touched {
             self.renumbering.over(stmts, &mut found);
+            ran("machine-numbers", stmts);
         }
         self.legaliser.run(stmts, &there, lines, &mut found);
         if let Some(original) = original {
@@ -256,13 +259,16 @@ impl<'j> Translation<'j> {
         let mut program = source.clone();
         if self.job.from.dialect.program.macro_b {
             passed_labels::run(&mut program);
+            ran_whole("unused-labels", &program);
         }
         let mut found = as_there::begin_with(self.job, &mut program);
         self.side_effects.run(&mut program.procedures, &mut found);
+        ran_whole("side-effects", &program);
         if returns_alone(&source).is_some() {
             self.legaliser.nothing_before();
         }
         self.legaliser.frame_increments(&mut program, !self.job.passes.is_empty(), &mut found);
+        ran_whole("frame-increments", &program);
         self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {
             let mut told = left_out(&program, &self.job.to.caps());
@@ -274,6 +280,7 @@ impl<'j> Translation<'j> {
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             self.renumbering.tool_names(&mut program);
+            ran_whole("tool-names", &program);
             let caps = self.job.to.caps();
             // What is folded or rewritten by name must be known when it is.
             let plainly = self.job.passes.is_empty() && self.folder.is_none();
@@ -281,6 +288,7 @@ impl<'j> Translation<'j> {
             let mut found = Vec::new();
             if let Some(there) = there {
                 leave_out_values(&mut program, &caps, &mut found);
+                ran_whole("leave-out-values", &program);
                 let stands = self.legaliser.stands();
                 (known, renamed) = as_there::say(self.job, &mut program, there, stands, &mut found);
             }
@@ -317,6 +325,7 @@ impl<'j> Translation<'j> {
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
         self.legaliser.frame_increments(&mut program, false, &mut found);
+        ran_whole("frame-increments", &program);
         if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
             self.take(found, Told::Writer);
             return Ok(());
@@ -324,6 +333,7 @@ impl<'j> Translation<'j> {
         let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         let there = self.taken_there(main, &assumed, &mut found);
         self.renumbering.run(&mut program, &mut found);
+        ran_whole("machine-numbers", &program);
         if computes {
             self.legaliser.run_computing(&mut program, &known, &mut found);
             self.writer.know(&program, &own_distance, stands);
