@@ -196,7 +196,7 @@ fn path(legs: &[Leg], side: Side, diameter: f64) -> Result<Vec<(usize, Leg)>, Di
     let target = Target { decimals: 3, compensating: Compensating::default(), ..Target::default() };
     let pass = PASSES.iter().find(|pass| pass.name == "expand-compensation").expect("the pass");
     let mut found = Vec::new();
-    (pass.run)(&mut program, &target, &at, &mut found);
+    pass.alone.expect("a pass that runs alone")(&mut program, &target, &at, &mut found);
     if let Some(refused) = found.into_iter().find(|d| d.fault.gravity() == Gravity::Error) {
         return Err(refused);
     }

@@ -1,6 +1,6 @@
 //! The order in which passes run: which pass ran right behind which, over all programs into five dialects.
 //!
-//! `tests/passes/order.txt` has a line for each such pair: `^` is the beginning of a translation. A pass that moves
+//! `tests/order.txt` has a line for each such pair: `^` is the beginning of a translation. A pass that moves
 //! changes the file, and so does one that nothing needs any more.
 
 use std::cell::RefCell;
@@ -37,7 +37,7 @@ fn passes_run_in_their_order() {
         let _ = writeln!(text, "{first} {second}");
     }
     let mut failures = Failures::default();
-    let path = corpus::root().join("tests/passes/order.txt");
+    let path = corpus::root().join("tests/order.txt");
     failures.check("the order of passes", expect::file(&path, text.as_bytes()));
     failures.finish();
 }

@@ -152,7 +152,12 @@ impl Meaning {
 /// Without calls and repetitions.
 fn write_out(program: &mut Program) {
     for pass in PASSES.iter().filter(|p| p.name == "expand-calls" || p.name == "expand-repeats") {
-        (pass.run)(program, &Target::default(), &Tracker::unknown(), &mut Vec::new());
+        pass.alone.expect("a pass that runs alone")(
+            program,
+            &Target::default(),
+            &Tracker::unknown(),
+            &mut Vec::new(),
+        );
     }
 }
 

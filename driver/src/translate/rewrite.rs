@@ -15,9 +15,9 @@ use ncc_passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 /// Statements that are held back at most; a program of holes alone is folded in stretches.
 const MOST_HELD: usize = 1 << 16;
 
-/// The pass of a name.
+/// The pass of a name, of those that can be asked for.
 pub fn pass(name: &str) -> Option<&'static Pass> {
-    PASSES.iter().find(|pass| pass.name == name)
+    PASSES.iter().find(|pass| pass.name == name && pass.alone.is_some())
 }
 
 /// Runs passes on a program, one after the other. An expansion that is asked for expands everything,
@@ -32,7 +32,8 @@ pub fn run(
     let nothing = Target { caps: Caps::default(), ..target.clone() };
     for pass in passes {
         let target = if FOLDS_OF_EVENTS.contains(&pass.name) { target } else { &nothing };
-        (pass.run)(program, target, entry, found);
+        let Some(run) = pass.alone else { continue };
+        run(program, target, entry, found);
         ran_whole(pass.name, program);
     }
 }

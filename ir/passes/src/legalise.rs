@@ -6,96 +6,95 @@
 
 mod computing;
 pub(crate) mod messages;
+pub(crate) mod refuse;
 mod settings;
 mod subprograms;
 mod tool_data;
 
 use std::rc::Rc;
 
+use crate::PASSES;
 use crate::Target;
-use crate::arcs::{
-    arc_form, arc_radii, compensated_modes, convert_arcs, cutter_radius, expand_corners, expand_turns,
-    polar_words,
-};
+use crate::arcs::{arc_form, compensated_modes, convert_arcs, cutter_radius, expand_corners, polar_words};
 use crate::flow::{
     expand_calls, expand_repeats, number_names, repeat_ends, skip_levels, specialise_procedures,
 };
 use crate::frames::{
-    expand_frames, frame_increments, machine_moves, offset_here, origin_shift, rotary_turns, rotary_ways,
-    work_offset,
+    expand_frames, frame_increments, machine_moves, origin_shift, rotary_turns, work_offset,
 };
-use crate::holes::{absolute_holes, approach, expand_cycles, expand_patterns, return_plane, state_clearance};
-use crate::modes::{at_once, feed_time, feed_unit, flatten_facts, one_distance, one_move, path_control};
+use crate::holes::{expand_cycles, return_plane};
+use crate::modes::{at_once, feed_time, feed_unit, one_distance, one_move, path_control};
+use crate::pass::{Moment, Pass, Piece};
 use crate::support::known_facts;
 use crate::support::needs::{
-    ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE,
-    PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
+    ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MOVE, PATH,
+    PATTERN, POLAR, SHIFT, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use crate::support::walk::Walk;
 use crate::support::write::EXACT;
-use crate::threads::{in_step, tapped_holes, taps};
+use crate::threads::{in_step, taps};
 use crate::tools::{
     length_axis, length_by_hand, offset_with_z, spindle_angle, tool_axis, tool_change, tool_edge,
     z_after_change,
 };
 use crate::watch::ran;
-use ncc_ir::behaviour::{Behaviour, Behaviours};
+use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Modes};
 use ncc_ir::caps::{Caps, PolarForm};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::round::ArcRule;
 use ncc_ir::program::kinds::moves;
-use ncc_ir::program::{Arc, Data, Lines, Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
 pub struct Legaliser {
-    target: Target,
+    pub(crate) target: Target,
     /// What the target lacks.
-    lacks: u32,
+    pub(crate) lacks: u32,
     /// Whether words of the source may have a measure of their own that the target's cannot have.
-    measures: bool,
+    pub(crate) measures: bool,
     /// Which arcs the source's control accepts, if the target's has another rule.
-    source_arcs: Option<ArcRule>,
+    pub(crate) source_arcs: Option<ArcRule>,
     /// Whether feeds are said again behind a change of units.
-    feed_again: bool,
+    pub(crate) feed_again: bool,
     /// Whether the target counts F of some moves otherwise than the source.
-    times_differ: bool,
+    pub(crate) times_differ: bool,
     /// Whether any pass wants to know where the tool is.
-    follow: bool,
-    walk: Walk,
-    cycles: expand_cycles::State,
-    length: offset_with_z::State,
-    one: one_move::State,
-    work: work_offset::State,
-    shift: origin_shift::State,
-    path: path_control::State,
-    polar: polar_words::State,
-    corners: expand_corners::State,
-    angle: spindle_angle::State,
-    skip: skip_levels::State,
-    arcs: arc_form::State,
-    feed: feed_unit::State,
+    pub(crate) follow: bool,
+    pub(crate) walk: Walk,
+    pub(crate) cycles: expand_cycles::State,
+    pub(crate) length: offset_with_z::State,
+    pub(crate) one: one_move::State,
+    pub(crate) work: work_offset::State,
+    pub(crate) shift: origin_shift::State,
+    pub(crate) path: path_control::State,
+    pub(crate) polar: polar_words::State,
+    pub(crate) corners: expand_corners::State,
+    pub(crate) angle: spindle_angle::State,
+    pub(crate) skip: skip_levels::State,
+    pub(crate) arcs: arc_form::State,
+    pub(crate) feed: feed_unit::State,
     /// What holds after each call and label of a program that is kept whole.
-    entries: Option<Rc<known_facts::Known>>,
-    times: feed_time::State,
-    edge: tool_edge::State,
-    radius: cutter_radius::State,
-    compensated: compensated_modes::State,
-    axis: tool_axis::State,
-    frames: expand_frames::State,
-    taps: taps::State,
-    threads: in_step::State,
-    machine: machine_moves::State,
-    change: tool_change::State,
-    at_once: at_once::State,
-    increments: frame_increments::State,
-    length_axis: length_axis::State,
-    by_hand: length_by_hand::State,
-    rotary: rotary_turns::State,
-    z_left: z_after_change::State,
+    pub(crate) entries: Option<Rc<known_facts::Known>>,
+    pub(crate) times: feed_time::State,
+    pub(crate) edge: tool_edge::State,
+    pub(crate) radius: cutter_radius::State,
+    pub(crate) compensated: compensated_modes::State,
+    pub(crate) axis: tool_axis::State,
+    pub(crate) frames: expand_frames::State,
+    pub(crate) taps: taps::State,
+    pub(crate) threads: in_step::State,
+    pub(crate) machine: machine_moves::State,
+    pub(crate) change: tool_change::State,
+    pub(crate) at_once: at_once::State,
+    pub(crate) increments: frame_increments::State,
+    pub(crate) length_axis: length_axis::State,
+    pub(crate) by_hand: length_by_hand::State,
+    pub(crate) rotary: rotary_turns::State,
+    pub(crate) z_left: z_after_change::State,
 }
 
 impl Legaliser {
@@ -227,109 +226,67 @@ impl Legaliser {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
         let lines = self.absolute(lines);
-        if self.rotary.is_used() && lines.is_none() {
-            self.rotary.check(stmts, &self.walk, diags);
-            ran("rotary-turns", stmts);
+        // Nothing is mended on arrival, and no walk begins there.
+        let nowhere = Walk::default();
+        let mut piece = Piece { stmts, needs: 0, start: &nowhere, assumed, lines, diags, done: false };
+        self.steps(Moment::Arrival, &mut piece);
+        piece.needs = self.needs(piece.stmts);
+        self.follow_cycles(&piece);
+        let start = (piece.needs != 0).then(|| self.walk.clone());
+        self.follow_piece(&piece);
+        if let Some(start) = start {
+            let mut piece = Piece { start: &start, stmts: piece.stmts, diags: piece.diags, ..piece };
+            self.mend(&mut piece, None);
         }
-        if self.length_axis.is_used() {
-            self.length_axis.check(stmts, &self.walk, diags);
-            ran("length-axis", stmts);
+        let mut piece = Piece { stmts, needs: 0, start: &nowhere, assumed, lines, diags, done: false };
+        self.steps(Moment::Departure, &mut piece);
+    }
+
+    /// Runs the passes of a moment.
+    fn steps(&mut self, moment: Moment, piece: &mut Piece) {
+        for pass in PASSES {
+            self.step(pass, moment, piece);
         }
-        if lines.is_none() && offset_here::concerns(stmts, &self.target.caps) {
-            offset_here::over(stmts, self.walk.clone(), &self.target.caps);
-            ran("offset-here", stmts);
-        }
-        if self.z_left.concerns(stmts) {
-            self.z_left.over(stmts, &self.walk);
-            ran("z-after-change", stmts);
-        }
-        match lines {
-            Some(lines) => self.increments.note_lines(lines),
-            None if self.increments.concerns(stmts, self.walk.at.modes.distance) => {
-                self.increments.over(stmts, &self.walk, diags);
-                ran("frame-increments", stmts);
+    }
+
+    /// Runs a pass if its moment is there and it is needed.
+    fn step(&mut self, pass: &Pass, moment: Moment, piece: &mut Piece) {
+        let Some(step) = pass.step.filter(|step| step.moment == moment) else { return };
+        if (step.needed)(self, piece) {
+            (step.run)(self, piece);
+            if !piece.done {
+                ran(pass.name, piece.stmts);
             }
-            None => self.increments.note(stmts, &self.walk),
+        } else {
+            (step.otherwise)(self, piece);
         }
-        if self.target.caps.change_stops_spindle {
-            let up = self.target.caps.behaviours.surely(Behaviour::ZAtChange);
-            self.change.over(stmts, up, diags);
-            ran("tool-change", stmts);
-        }
-        let ends = self.target.caps.feed_ends_with_mode;
-        if ends || self.feed_again {
-            let changes = self.entries.is_some()
-                || stmts.iter().any(|stmt| match stmt.op {
-                    Op::SetFeedMode(_) => true,
-                    Op::UseLengthUnits(_) => self.feed_again,
-                    _ => false,
-                });
-            match changes || self.feed.is_busy() {
-                true => {
-                    let (mut walk, entries) = (self.walk.clone(), self.entries.clone());
-                    feed_unit::again(
-                        stmts,
-                        &mut walk,
-                        &mut self.feed,
-                        &self.target,
-                        entries.as_deref(),
-                        diags,
-                    );
-                    ran("feed-again", stmts);
-                }
-                false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
-            }
-        }
-        if self.times_differ && lines.is_none() {
-            match self.entries.is_some() || self.times.concerns(stmts, &self.walk) {
-                true => {
-                    let (mut walk, entries) = (self.walk.clone(), self.entries.clone());
-                    feed_time::over(
-                        stmts,
-                        &mut walk,
-                        &mut self.times,
-                        &self.target,
-                        entries.as_deref(),
-                        diags,
-                    );
-                    ran("feed-time", stmts);
-                }
-                false => self.times.note(stmts),
-            }
-        }
-        let needs = self.needs(stmts);
+    }
+
+    /// Notes what cycles and threads behind a piece may rely on that has none itself.
+    fn follow_cycles(&mut self, piece: &Piece) {
         self.threads.said = self.taps.said;
-        if needs & (CYCLE | THREAD) == 0 && self.target.caps.threads.turned {
-            stmts.iter().for_each(|stmt| self.threads.note(stmt));
+        if !piece.needs(CYCLE | THREAD) && self.target.caps.threads.turned {
+            piece.stmts.iter().for_each(|stmt| self.threads.note(stmt));
         }
-        if needs & CYCLE == 0 {
+        if !piece.needs(CYCLE) {
             // Feeds and speeds that a tap may rely on.
-            stmts.iter().for_each(|stmt| self.taps.note(stmt));
+            piece.stmts.iter().for_each(|stmt| self.taps.note(stmt));
         }
-        let start = (needs != 0).then(|| self.walk.clone());
-        if needs & MOVE == 0 && self.lacks & MOVE != 0 {
+    }
+
+    /// Follows the tool, and what passes note of a piece that they do not change.
+    fn follow_piece(&mut self, piece: &Piece) {
+        let stmts = &*piece.stmts;
+        if !piece.needs(MOVE) && self.lacks & MOVE != 0 {
             self.one.note(stmts);
         }
-        if needs & FRAME == 0 && self.lacks & FRAME != 0 {
+        if !piece.needs(FRAME) && self.lacks & FRAME != 0 {
             self.frames.note(stmts);
         }
-        if self.measures && !self.target.caps.arc_forms && needs & ARC == 0 {
+        if self.measures && !self.target.caps.arc_forms && !piece.needs(ARC) {
             arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
         } else if self.follow {
             self.walk.pass(stmts);
-        }
-        if let Some(start) = start {
-            self.mend(stmts, needs, &start, assumed, diags);
-        }
-        if self.compensated.refused.any() {
-            let entries = self.entries.clone();
-            match entries.is_some() || self.compensated.concerns(stmts) {
-                true => {
-                    compensated_modes::over(stmts, &mut self.compensated, entries.as_deref(), diags);
-                    ran("compensated-modes", stmts);
-                }
-                false => self.compensated.note(stmts),
-            }
         }
     }
 
@@ -406,51 +363,53 @@ impl Legaliser {
         needs
     }
 
+    /// Runs the passes that a piece needs, or those of them behind one.
     #[cold]
-    fn mend(
-        &mut self,
-        stmts: &mut Vec<Stmt>,
-        needs: u32,
-        start: &Walk,
-        assumed: &Modes,
-        diags: &mut Vec<Diagnostic>,
-    ) {
-        if needs & CONTROL != 0 {
-            expand_repeats::over(stmts, &self.target, diags);
-            ran("expand-repeats", stmts);
-        }
-        if needs & POLAR != 0 {
-            match self.with_polar_words(stmts, needs, start, assumed) {
-                Some(mut found) => return diags.append(&mut found),
-                None => {
-                    // Corners and frames are worked out from exact points.
-                    let exact = Target { decimals: EXACT - 1, ..self.target.clone() };
-                    let target = if needs & (CORNER | FRAME) != 0 { &exact } else { &self.target };
-                    polar_words::over(stmts, &mut start.clone(), &mut self.polar, target, false, diags);
-                    ran("polar-words", stmts);
-                }
+    fn mend(&mut self, piece: &mut Piece, behind: Option<&'static str>) {
+        let first = behind.and_then(|name| PASSES.iter().position(|pass| pass.name == name));
+        let rest = &PASSES[first.map_or(0, |at| at + 1)..];
+        for pass in rest {
+            self.step(pass, Moment::Placing, piece);
+            if piece.done {
+                return;
             }
         }
-        self.mend_further(stmts, needs & !POLAR, start, assumed, diags);
+        if self.follow && piece.needs(CONTROL | WORK | SHIFT | FRAME | MACHINE) {
+            self.walk = piece.start.clone();
+            if piece.needs(FRAME) && !piece.needs(ARC) {
+                self.arcs = arc_form::State::default();
+                arc_form::follow(piece.stmts, &mut self.walk, &mut self.arcs);
+            } else {
+                self.walk.pass(piece.stmts);
+            }
+        }
+        self.steps(Moment::Wording, piece);
     }
 
-    /// The same with polar points in the target's form; `None`, and nothing done, if another pass has to
-    /// write out what they belong to.
-    fn with_polar_words(
-        &mut self,
-        stmts: &mut Vec<Stmt>,
-        needs: u32,
-        start: &Walk,
-        assumed: &Modes,
-    ) -> Option<Vec<Diagnostic>> {
-        let looks_into =
-            needs & (FRAME | EVERY | CORNER) != 0 || self.cycles.is_busy() || self.taps.is_busy();
+    /// Says polar points in the target's form; by coordinates where another pass has to write out what they belong to.
+    pub(crate) fn polar_words(&mut self, piece: &mut Piece) {
+        if let Some(mut found) = self.with_polar_words(piece) {
+            piece.diags.append(&mut found);
+            piece.done = true;
+            return;
+        }
+        // Corners and frames are worked out from exact points.
+        let exact = Target { decimals: EXACT - 1, ..self.target.clone() };
+        let target = if piece.needs(CORNER | FRAME) { &exact } else { &self.target };
+        polar_words::over(piece.stmts, &mut piece.start.clone(), &mut self.polar, target, false, piece.diags);
+        piece.needs &= !POLAR;
+    }
+
+    /// The same with polar points in the target's form, and all passes behind; `None`, and nothing done, if another pass
+    /// has to write out what they belong to.
+    fn with_polar_words(&mut self, piece: &mut Piece) -> Option<Vec<Diagnostic>> {
+        let looks_into = piece.needs(FRAME | EVERY | CORNER) || self.cycles.is_busy() || self.taps.is_busy();
         if self.target.caps.polar == PolarForm::None || looks_into {
             return None;
         }
-        let (mut own, mut kept, mut found) = (self.clone(), stmts.clone(), Vec::new());
-        polar_words::over(&mut kept, &mut start.clone(), &mut own.polar, &own.target, true, &mut found);
-        ran("polar-words", &kept);
+        let (mut own, mut kept, mut found) = (self.clone(), piece.stmts.clone(), Vec::new());
+        polar_words::over(&mut kept, &mut piece.start.clone(), &mut own.polar, &own.target, true, &mut found);
+        ran(polar_words::PASS.name, &kept);
         let holes = |stmts: &[Stmt]| {
             let polar = stmts.iter().filter(|stmt| matches!(stmt.op, Op::Polar(_))).count();
             let calls = stmts.iter().filter(|stmt| matches!(stmt.op, Op::StartCycle(_))).count();
@@ -459,197 +418,24 @@ impl Legaliser {
             [polar, calls, others]
         };
         let before = holes(&kept);
-        own.mend_further(&mut kept, needs & !POLAR, start, assumed, &mut found);
+        let Piece { start, assumed, lines, .. } = *piece;
+        let needs = piece.needs & !POLAR;
+        let mut copy =
+            Piece { stmts: &mut kept, needs, start, assumed, lines, diags: &mut found, done: false };
+        own.mend(&mut copy, Some(polar_words::PASS.name));
         let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
         if refused || needs & (CYCLE | PATTERN) != 0 && holes(&kept) != before {
             return None;
         }
-        (*self, *stmts) = (own, kept);
+        (*self, *piece.stmts) = (own, kept);
         Some(found)
     }
 
-    fn mend_further(
-        &mut self,
-        stmts: &mut Vec<Stmt>,
-        needs: u32,
-        start: &Walk,
-        assumed: &Modes,
-        diags: &mut Vec<Diagnostic>,
-    ) {
-        if needs & WORK != 0 {
-            work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
-            ran("work-offset", stmts);
-        }
-        if needs & PATH != 0 {
-            path_control::over(stmts, &mut self.path, &self.target, diags);
-            ran("path-control", stmts);
-        }
-        if needs & TURN != 0 {
-            rotary_ways::over(stmts, &mut start.clone(), &self.target, diags);
-            ran("rotary-ways", stmts);
-        }
-        if needs & SKIP != 0 {
-            skip_levels::over(stmts, &mut self.skip, &self.target, diags);
-            ran("skip-levels", stmts);
-        }
-        let needs = needs | self.mend_corners(stmts, needs, start, diags);
-        if needs & FRAME != 0 {
-            expand_frames::over(stmts, &mut start.clone(), &mut self.frames, &self.target, diags);
-            ran("expand-frames", stmts);
-        }
-        // A shift that the program has set itself is over by now.
-        if needs & SHIFT != 0 {
-            origin_shift::over(stmts, &mut self.shift, diags);
-            ran("origin-shift", stmts);
-        }
-        let mut needs = needs;
-        if needs & MACHINE != 0 {
-            let found = diags.len();
-            machine_moves::over(stmts, &mut start.clone(), &mut self.machine, &self.target, diags);
-            ran("machine-moves", stmts);
-            let cut = diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
-            if let Some(at) = cut.map(|cut| cut.span) {
-                origin_shift::take(&mut self.shift, at, diags);
-            }
-            needs |= self.lacks & (EDGE | TABLE | LENGTH);
-        }
-        if self.follow && needs & (CONTROL | WORK | SHIFT | FRAME | MACHINE) != 0 {
-            self.walk = start.clone();
-            if needs & FRAME != 0 && needs & ARC == 0 {
-                self.arcs = arc_form::State::default();
-                arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
-            } else {
-                self.walk.pass(stmts);
-            }
-        }
-        // Every pass walks from the same start: what it walks over does what the piece does.
-        if needs & ARC != 0 {
-            convert_arcs::too_fine(stmts, &mut start.clone(), &self.target, diags);
-            ran("fine-arcs", stmts);
-        }
-        if needs & ARC != 0 && !self.target.caps.arc_forms {
-            arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
-            ran("arc-form", stmts);
-        }
-        // Computed words are from zero, others may not be.
-        let computed = self.measures && needs & (ARC | FRAME | CORNER) != 0;
-        let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
-        let mut needs = if mixed { needs | MEASURE } else { needs };
-        if needs & MEASURE != 0 && !self.target.caps.feed_apart {
-            feed_unit::over(stmts, &mut start.clone(), &self.target);
-            ran("feed-unit", stmts);
-        }
-        if needs & MEASURE != 0 && !self.target.caps.word_distance {
-            one_distance::over(stmts, &mut start.clone(), diags);
-            ran("one-distance", stmts);
-        }
-        if needs & (EDGE | TABLE) != 0 {
-            tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
-            ran("tool-edge", stmts);
-        }
-        if needs & TABLE != 0 && self.target.caps.change_by_hand {
-            length_by_hand::over(stmts, &mut start.clone(), &mut self.by_hand, diags);
-            ran("length-by-hand", stmts);
-        }
-        if needs & TOOL_AXIS != 0 {
-            tool_axis::over(stmts, &mut start.clone(), &mut self.axis, &self.target, diags);
-            ran("tool-axis", stmts);
-        }
-        if needs & RADIUS != 0 {
-            cutter_radius::over(stmts, &mut start.clone(), &mut self.radius, &self.target, diags);
-            ran("cutter-radius", stmts);
-        }
-        if needs & (ARC | MESSAGE | CALL | CONTROL | MACHINE) != 0 {
-            self.check(stmts, &mut start.clone(), diags);
-            ran("refuse", stmts);
-        }
-        if needs & THREAD != 0 && stmts.iter().any(|stmt| in_step::is_cycle(stmt, &self.target)) {
-            in_step::as_cycles(stmts, &mut start.clone(), &self.target);
-            ran("threads-as-cycles", stmts);
-            needs |= self.lacks & CYCLE;
-        }
-        if needs & THREAD != 0 && stmts.iter().any(|stmt| tapped_holes::is_half(stmt, &self.target)) {
-            tapped_holes::over(stmts, &mut start.clone(), &self.target);
-            ran("tapped-holes", stmts);
-            needs |= self.lacks & CYCLE;
-        }
-        if needs & CYCLE != 0 {
-            state_clearance::over(stmts, start.clone(), &self.target, diags);
-            ran("state-clearance", stmts);
-            taps::over(stmts, &mut start.clone(), &mut self.taps, &self.target, diags);
-            ran("taps", stmts);
-            return_plane::over(stmts, &mut start.clone(), &self.target, diags);
-            ran("return-plane", stmts);
-        }
-        if needs & PATTERN != 0 {
-            expand_patterns::over(stmts, &mut start.clone(), &self.target, diags);
-            ran("expand-patterns", stmts);
-        }
-        if needs & CYCLE != 0 {
-            approach::over(stmts, &mut start.clone(), &self.target, diags);
-            ran("approach", stmts);
-            expand_cycles::over(stmts, &mut start.clone(), &mut self.cycles, &self.target, diags);
-            ran("expand-cycles", stmts);
-            if !self.target.caps.incremental_cycles {
-                absolute_holes::over(stmts, &mut start.clone(), diags);
-                ran("absolute-holes", stmts);
-            } else if self.target.caps.cycles_measured_anew {
-                absolute_holes::alike(stmts, &mut start.clone(), diags);
-                ran("holes-alike", stmts);
-            }
-        }
-        spindle_angle::over(stmts, &mut self.angle, &self.target, diags);
-        ran("spindle-angle", stmts);
-        if needs & (CYCLE | THREAD) != 0 && self.lacks & THREAD != 0 {
-            in_step::over(stmts, &mut start.clone(), &mut self.threads, &self.target, diags);
-            ran("threads", stmts);
-        }
-        if needs & PATTERN != 0 {
-            expand_patterns::reform(stmts, &mut start.clone(), &self.target, diags);
-            ran("reform-patterns", stmts);
-        }
-        if needs & ARC != 0 && !self.target.caps.arc_turns {
-            expand_turns::over(stmts, &mut start.clone(), &self.target, diags);
-            ran("expand-turns", stmts);
-        }
-        // An expanded cycle may have left an offset that was in its block to take up elsewhere.
-        if needs & LENGTH != 0 {
-            offset_with_z::over(stmts, &mut start.clone(), &mut self.length, diags);
-            ran("offset-with-z", stmts);
-        }
-        if needs & MOVE != 0 {
-            one_move::over(stmts, &mut self.one);
-            ran("one-move", stmts);
-        }
-        if needs & EVERY != 0 {
-            flatten_facts::over(stmts, &mut start.clone(), diags);
-            ran("flatten-facts", stmts);
-        }
-        // What is left as it is now is what is written.
-        if needs & AT_ONCE != 0 {
-            at_once::over(stmts, &mut start.clone(), &mut self.at_once, &self.target, diags);
-            ran("at-once", stmts);
-        }
-    }
-
-    /// Writes corners out, and says what is needed because of it: they are arcs, which their moves need
-    /// not be, and their words are measured from zero.
-    fn mend_corners(
-        &mut self,
-        stmts: &mut Vec<Stmt>,
-        needs: u32,
-        start: &Walk,
-        diags: &mut Vec<Diagnostic>,
-    ) -> u32 {
-        if needs & CORNER == 0 {
-            return 0;
-        }
-        let (found, whole) = (diags.len(), needs & FRAME != 0);
-        let keep = if whole { expand_corners::Keep::None } else { expand_corners::Keep::Sayable };
-        expand_corners::over(stmts, &mut start.clone(), &mut self.corners, &self.target, keep, diags);
-        ran("expand-corners", stmts);
-        let written = diags[found..].iter().any(|d| matches!(d.fault, Fault::CornerExpanded));
-        if written { self.lacks & ARC } else { 0 }
+    /// Whether words of a piece may be measured in several ways, or feeds in another unit than lengths. Computed words
+    /// are from zero, others may not be.
+    pub(crate) fn is_measured(&self, piece: &Piece) -> bool {
+        let computed = self.measures && piece.needs(ARC | FRAME | CORNER);
+        piece.needs(MEASURE) || computed && piece.stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op))
     }
 
     /// The end of the program: further statements, if any were waiting.
@@ -661,77 +447,4 @@ impl Legaliser {
         self.change.finish(diags);
         self.edge.finish(diags);
     }
-
-    /// Refuses what no pass can mend.
-    fn check(&self, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
-        let caps = &self.target.caps;
-        for stmt in &mut *stmts {
-            walk.enter(stmt.skip);
-            if !caps.offset_turns {
-                work_offset::leave_straight(&mut stmt.op);
-            }
-            if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &self.source_arcs) {
-                match arc_radii::over(arc, walk, source, &self.target) {
-                    arc_radii::Judged::Kept => {}
-                    arc_radii::Judged::ByCentre => {
-                        diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
-                    }
-                    arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
-                }
-            }
-            let mut cannot = |what: &str| {
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
-            };
-            match &stmt.op {
-                Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
-                Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
-                Op::Goto(_) if !caps.repeats => cannot("a jump"),
-                Op::Label(_) if !caps.repeats && !caps.repeat_blocks => cannot("a jump"),
-                Op::Call(_) if !caps.calls => cannot("a call"),
-                Op::Return if !caps.calls => cannot("a return"),
-                Op::UseMachineCoordinates { .. } if !caps.machine_coordinates => {
-                    cannot("a move in machine coordinates");
-                }
-                Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|l| l != *length) => {
-                    cannot(if *length {
-                        "a move in machine coordinates that is measured with the tool's length"
-                    } else {
-                        "a move in machine coordinates without the tool's length"
-                    });
-                }
-                Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
-                Op::SetData(data) => match &**data {
-                    Data::Offset { turn: Some(_), .. } if !caps.offset_turns => {
-                        cannot("rotation of a work offset");
-                    }
-                    Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
-                    Data::Tool { .. } | Data::Measured { .. } => {
-                        if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
-                            cannot(what);
-                        }
-                    }
-                    Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
-                    Data::ToolInSpindle(_) if caps.tool_number => {}
-                    Data::Position(_) => cannot("storing where the axes stand"),
-                    Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
-                    Data::Offset { .. } => cannot("this value in the control's tables"),
-                },
-                _ => {}
-            }
-            walk.step(stmt);
-        }
-        if !caps.messages {
-            messages::drop_messages(stmts, caps, diags);
-        }
-    }
-}
-
-/// Whether an arc has a word of the third axis that moves it.
-fn is_helix(arc: &Arc, here: &Tracker) -> bool {
-    let axis = match here.plane(arc.plane) {
-        Some(plane) => plane.axes().2,
-        None => return true,
-    };
-    let now = here.position[axis as usize];
-    arc.to.get(axis).is_some_and(|word| now.is_none() || here.resolve(word, now) != now)
 }

@@ -12,6 +12,7 @@ pub mod frames;
 pub mod holes;
 mod legalise;
 pub mod modes;
+pub mod pass;
 pub mod support;
 pub mod threads;
 pub mod tools;
@@ -22,13 +23,13 @@ pub use arcs::expand_compensation::Compensating;
 pub use frames::machine_moves::retract;
 pub use legalise::Legaliser;
 pub use legalise::messages::{leave_out_output, leave_out_values, output_elsewhere};
+pub use pass::Pass;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_exec::world::Sideways;
 use ncc_ir::behaviour::Behaviours;
 use ncc_ir::caps::Caps;
-use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Program, Stmt, Text};
 use ncc_ir::track::Tracker;
@@ -81,254 +82,150 @@ impl Target {
     }
 }
 
-/// A pass.
-#[derive(Clone, Copy, Debug)]
-pub struct Pass {
-    /// Its name.
-    pub name: &'static str,
-    /// What it does, in a line.
-    pub about: &'static str,
-    /// Runs it alone. The tracker says what holds before the main procedure.
-    pub run: fn(&mut Program, &Target, &Tracker, &mut Vec<Diagnostic>),
-}
-
-/// All passes, in the order in which they are run.
+/// All passes, in the order in which they are run. A pass of a file of its own is its `PASS`; others here are run by name
+/// alone, or by whoever keeps a program whole.
 pub const PASSES: &[Pass] = &[
     // Only when asked for: behind it there is nothing that computes or decides.
-    Pass {
-        name: "flatten",
-        about: "executes what computes and decides, and writes straight blocks",
-        run: flow::flatten::run,
-    },
+    Pass::whole(
+        "flatten",
+        "executes what computes and decides, and writes straight blocks",
+        Some(flow::flatten::run),
+    ),
     // Before the calls are written out: what callers disagree about may be all that is missing.
-    Pass {
-        name: "specialise-procedures",
-        about: "gives subprograms what their callers have in force, a copy for each that differs",
-        run: flow::specialise_procedures::run,
-    },
-    Pass {
-        name: "expand-calls",
-        about: "writes subprograms out where they are called",
-        run: flow::expand_calls::run,
-    },
-    Pass {
-        name: "number-names",
-        about: "gives subprograms numbers where the target calls by number",
-        run: flow::number_names::run,
-    },
-    Pass { name: "expand-repeats", about: "writes counted repetitions out", run: flow::expand_repeats::run },
-    Pass {
-        name: "work-offset",
-        about: "lets the target's only work offset stand for the program's only one",
-        run: frames::work_offset::run,
-    },
-    Pass {
-        name: "origin-shift",
-        about: "takes a target that cannot cancel a shift of the origin to start without one",
-        run: frames::origin_shift::run,
-    },
-    Pass {
-        name: "skip-levels",
-        about: "makes block-skip levels that the target cannot tell apart one",
-        run: flow::skip_levels::run,
-    },
-    Pass {
-        name: "path-control",
-        about: "says how corners are taken, and advice to the control, in the target's words",
-        run: modes::path_control::run,
-    },
-    Pass {
-        name: "rotary-ways",
-        about: "says by plain words which way round rotary axes go",
-        run: frames::rotary_ways::run,
-    },
-    Pass {
-        name: "feed-unit",
-        about: "writes feeds in the unit of length in force",
-        run: modes::feed_unit::run,
-    },
-    Pass {
-        name: "feed-time",
-        about: "says by their time moves whose feed the target counts otherwise",
-        run: modes::feed_time::run,
-    },
-    Pass {
-        name: "one-distance",
-        about: "measures the words of a block in one way",
-        run: modes::one_distance::run,
-    },
-    Pass {
-        name: "state-clearance",
-        about: "states what one control leaves to a parameter of a cycle",
-        run: holes::state_clearance::run,
-    },
-    Pass {
-        name: "tool-edge",
-        about: "names tool lengths by edges of the tool or by entries of a table",
-        run: tools::tool_edge::run,
-    },
+    Pass::whole(
+        "specialise-procedures",
+        "gives subprograms what their callers have in force, a copy for each that differs",
+        Some(flow::specialise_procedures::run),
+    ),
+    Pass::whole(
+        "expand-calls",
+        "writes subprograms out where they are called",
+        Some(flow::expand_calls::run),
+    ),
+    Pass::whole(
+        "number-names",
+        "gives subprograms numbers where the target calls by number",
+        Some(flow::number_names::run),
+    ),
+    // As a piece comes.
+    frames::rotary_turns::PASS,
+    tools::length_axis::PASS,
+    frames::offset_here::PASS,
+    tools::z_after_change::PASS,
+    frames::frame_increments::PASS,
+    tools::tool_change::PASS,
+    modes::feed_unit::AGAIN,
+    modes::feed_time::PASS,
+    // What says where things are. Points by radius and angle come before everything that looks at coordinates.
+    flow::expand_repeats::PASS,
+    arcs::polar_words::PASS,
+    frames::work_offset::PASS,
+    modes::path_control::PASS,
+    frames::rotary_ways::PASS,
+    flow::skip_levels::PASS,
+    arcs::expand_corners::PASS,
+    frames::expand_frames::PASS,
+    // A shift that the program has set itself is over by now.
+    frames::origin_shift::PASS,
+    frames::machine_moves::PASS,
+    // All else. Every pass walks from the beginning of the piece: what it walks over does what the piece does.
+    arcs::convert_arcs::FINE,
+    arcs::arc_form::PASS,
+    modes::feed_unit::PASS,
+    modes::one_distance::PASS,
+    tools::tool_edge::PASS,
+    tools::length_by_hand::PASS,
     // Behind the lengths, which say what is in force.
-    Pass {
-        name: "tool-axis",
-        about: "says control of the tool's tip and tilted planes in the target's form",
-        run: tools::tool_axis::run,
-    },
-    Pass {
-        name: "cutter-radius",
-        about: "names the radius of cutter radius compensation as the target does",
-        run: arcs::cutter_radius::run,
-    },
-    // Before everything that looks at coordinates.
-    Pass {
-        name: "polar-words",
-        about: "says points by radius and angle in the target's form, or by coordinates",
-        run: arcs::polar_words::run,
-    },
-    Pass {
-        name: "expand-corners",
-        about: "writes rounded and chamfered corners as arcs and lines",
-        run: arcs::expand_corners::run,
-    },
-    Pass {
-        name: "expand-frames",
-        about: "works chains of frames into the coordinates",
-        run: frames::expand_frames::run,
-    },
-    Pass { name: "taps", about: "says pitches of threads in the target's form", run: threads::taps::run },
+    tools::tool_axis::PASS,
+    arcs::cutter_radius::PASS,
+    legalise::refuse::PASS,
+    threads::in_step::AS_CYCLES,
+    threads::tapped_holes::PASS,
+    holes::state_clearance::PASS,
+    threads::taps::PASS,
     // Before the patterns: a first hole may come out of one.
-    Pass {
-        name: "return-plane",
-        about: "says where cycles leave the tool by planes or by levels",
-        run: holes::return_plane::run,
-    },
+    holes::return_plane::PASS,
     // Before the cycles, so that a kept cycle gets its positions.
-    Pass {
-        name: "expand-patterns",
-        about: "says patterns of holes in the target's form, or as positions",
-        run: holes::expand_patterns::run,
-    },
+    holes::expand_patterns::PASS,
     // Before the cycles: what it mends need not be expanded.
-    Pass {
-        name: "approach",
-        about: "writes the first leg to a hole out where the target would go another way",
-        run: holes::approach::run,
-    },
-    Pass {
-        name: "expand-cycles",
-        about: "turns canned cycles into their moves",
-        run: holes::expand_cycles::run,
-    },
-    // Behind the cycles, which may have been written out with stops of the spindle.
-    Pass {
-        name: "spindle-angle",
-        about: "states the angle at which the spindle stops where the target needs it",
-        run: tools::spindle_angle::run,
-    },
-    // Behind the cycles, which may have been written out as threads.
-    Pass { name: "threads", about: "says threads in the target's form", run: threads::in_step::run },
-    Pass {
-        name: "absolute-holes",
-        about: "measures planes and positions of cycles from program zero",
-        run: holes::absolute_holes::run,
-    },
-    // Before the turns, which belong to arcs with a centre.
-    Pass {
-        name: "arc-form",
-        about: "writes arcs by angle, through a point or tangent by their centre",
-        run: arcs::arc_form::run,
-    },
-    Pass {
-        name: "expand-turns",
-        about: "splits arcs of several turns into single turns",
-        run: arcs::expand_turns::run,
-    },
-    // After the cycles, whose moves along Z can take an offset up.
-    Pass {
-        name: "machine-moves",
-        about: "moves in machine coordinates and to points of the machine in the target's form",
-        run: frames::machine_moves::run,
-    },
-    Pass {
-        name: "offset-with-z",
-        about: "moves a tool-length offset into the block that takes it up",
-        run: tools::offset_with_z::run,
-    },
-    Pass {
-        name: "one-move",
-        about: "puts an exact stop of one move, and its feed by time, into the block of the move",
-        run: modes::one_move::run,
-    },
-    // Last: afterwards every move names every axis.
-    Pass {
-        name: "flatten-facts",
-        about: "gives every move all its axes, from program zero",
-        run: modes::flatten_facts::run,
-    },
+    holes::approach::PASS,
+    holes::expand_cycles::PASS,
+    holes::absolute_holes::PASS,
+    holes::absolute_holes::ALIKE,
+    // Behind the cycles, which may have been written out with stops of the spindle, and as threads.
+    tools::spindle_angle::PASS,
+    threads::in_step::PASS,
+    holes::expand_patterns::REFORM,
+    arcs::expand_turns::PASS,
+    // An expanded cycle may have left an offset that was in its block to take up elsewhere.
+    tools::offset_with_z::PASS,
+    modes::one_move::PASS,
+    // Afterwards every move names every axis.
+    modes::flatten_facts::PASS,
+    // What is left as it is now is what is written.
+    modes::at_once::PASS,
+    arcs::compensated_modes::PASS,
     // Only when asked for: the contour is gone.
-    Pass {
-        name: "expand-compensation",
-        about: "writes the path of the tool's centre for cutter radius compensation",
-        run: arcs::expand_compensation::run,
-    },
+    Pass::whole(
+        "expand-compensation",
+        "writes the path of the tool's centre for cutter radius compensation",
+        Some(arcs::expand_compensation::run),
+    ),
     // Only when asked for: another way to write the same.
-    Pass {
-        name: "millimetres",
-        about: "writes lengths and feeds in millimetres",
-        run: modes::convert_units::millimetres,
-    },
-    Pass { name: "inches", about: "writes lengths and feeds in inches", run: modes::convert_units::inches },
-    Pass {
-        name: "arcs-by-centre",
-        about: "gives arcs by radius their centre",
-        run: arcs::convert_arcs::by_centre,
-    },
-    Pass {
-        name: "arcs-by-radius",
-        about: "gives arcs their radius instead of the centre, where it says the same",
-        run: arcs::convert_arcs::by_radius,
-    },
-    Pass {
-        name: "polar-circles",
-        about: "gives the first hole of a circle by radius and angle",
-        run: holes::convert_circles::polar,
-    },
-    Pass {
-        name: "cartesian-circles",
-        about: "gives the first hole of a circle by its position",
-        run: holes::convert_circles::cartesian,
-    },
-    Pass {
-        name: "absolute",
-        about: "measures words of moves from program zero",
-        run: modes::convert_distance::absolute,
-    },
-    Pass {
-        name: "incremental",
-        about: "measures words of moves from where the axes stand",
-        run: modes::convert_distance::incremental,
-    },
+    Pass::whole(
+        "millimetres",
+        "writes lengths and feeds in millimetres",
+        Some(modes::convert_units::millimetres),
+    ),
+    Pass::whole("inches", "writes lengths and feeds in inches", Some(modes::convert_units::inches)),
+    Pass::whole("arcs-by-centre", "gives arcs by radius their centre", Some(arcs::convert_arcs::by_centre)),
+    Pass::whole(
+        "arcs-by-radius",
+        "gives arcs their radius instead of the centre, where it says the same",
+        Some(arcs::convert_arcs::by_radius),
+    ),
+    Pass::whole(
+        "polar-circles",
+        "gives the first hole of a circle by radius and angle",
+        Some(holes::convert_circles::polar),
+    ),
+    Pass::whole(
+        "cartesian-circles",
+        "gives the first hole of a circle by its position",
+        Some(holes::convert_circles::cartesian),
+    ),
+    Pass::whole(
+        "absolute",
+        "measures words of moves from program zero",
+        Some(modes::convert_distance::absolute),
+    ),
+    Pass::whole(
+        "incremental",
+        "measures words of moves from where the axes stand",
+        Some(modes::convert_distance::incremental),
+    ),
     // The other way: long-hand text gets its structure back.
-    Pass {
-        name: "fold-cycles",
-        about: "turns holes written long-hand into canned cycles",
-        run: fold::fold_cycles::run,
-    },
+    Pass::whole(
+        "fold-cycles",
+        "turns holes written long-hand into canned cycles",
+        Some(fold::fold_cycles::run),
+    ),
     // After the cycles, which give the holes.
-    Pass {
-        name: "feed-with-cycle",
-        about: "lets a cycle say the feed that stands right before it",
-        run: holes::feed_with_cycle::run,
-    },
-    Pass {
-        name: "fold-patterns",
-        about: "turns positions of holes into circles, grids, lines and lists",
-        run: fold::fold_patterns::run,
-    },
-    Pass {
-        name: "drop-redundant",
-        about: "leaves out statements that change nothing",
-        run: modes::drop_redundant::run,
-    },
+    Pass::whole(
+        "feed-with-cycle",
+        "lets a cycle say the feed that stands right before it",
+        Some(holes::feed_with_cycle::run),
+    ),
+    Pass::whole(
+        "fold-patterns",
+        "turns positions of holes into circles, grids, lines and lists",
+        Some(fold::fold_patterns::run),
+    ),
+    Pass::whole(
+        "drop-redundant",
+        "leaves out statements that change nothing",
+        Some(modes::drop_redundant::run),
+    ),
 ];
 
 /// Names of the passes that fold: moves into cycles, positions into patterns.

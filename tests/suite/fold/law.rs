@@ -54,7 +54,7 @@ pub(super) fn apply(names: &[&str], program: &mut Program, target: &Target) -> R
     for name in names {
         let pass = PASSES.iter().find(|p| p.name == *name).ok_or("no such pass")?;
         let entry = Tracker { modes: program.assumed, ..Tracker::default() };
-        (pass.run)(program, target, &entry, &mut found);
+        pass.alone.expect("a pass that runs alone")(program, target, &entry, &mut found);
     }
     match found.iter().find(|d| d.fault.gravity() == Gravity::Error) {
         Some(refused) => Err(format!("refused: {:?}", refused.fault)),

@@ -3,6 +3,8 @@
 //!
 //! Where the tool stands must be known (a tangent arc straight ahead is a line), and for a tangent arc which way it came.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::ARC;
 use crate::support::walk::Walk;
 use crate::support::write::{EXACT, rounded, unit_of};
 use crate::{Target, each_body};
@@ -16,6 +18,18 @@ use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::kinds::{conduct, miscellaneous};
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "arc-form",
+    about: "writes arcs by angle, through a point or tangent by their centre",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(ARC) && !l.target.caps.arc_forms,
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.arcs, &l.target, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece: which way the tool came.
 #[derive(Clone, Debug, Default)]

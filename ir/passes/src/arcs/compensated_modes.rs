@@ -6,6 +6,7 @@
 //!
 //! Not here: what every control refuses there, and what the source's does, which are execution's.
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::known_facts::Known;
 use crate::support::write::{Rebuild, rebuild};
 use ncc_ir::canon::ReturnLevel;
@@ -14,6 +15,28 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, PathControl, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "compensated-modes",
+    about: "refuses what the target does not take while cutter radius compensation is on",
+    alone: None,
+    step: Some(Step {
+        moment: Moment::Departure,
+        needed: |l, p| {
+            l.compensated.refused.any() && (l.entries.is_some() || l.compensated.concerns(p.stmts))
+        },
+        run: |l, p| {
+            let entries = l.entries.clone();
+            over(p.stmts, &mut l.compensated, entries.as_deref(), p.diags);
+        },
+        otherwise: |l, p| {
+            if l.compensated.refused.any() {
+                l.compensated.note(p.stmts);
+            }
+        },
+    }),
+};
 
 /// What the pass remembers from piece to piece.
 #[derive(Clone, Debug, Default)]

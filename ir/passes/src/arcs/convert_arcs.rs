@@ -4,6 +4,8 @@
 //! circles and turns, and not near half a turn, where a digit of the radius moves the centre far.
 //! Such arcs keep their centre.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::ARC;
 use crate::support::walk::Walk;
 use crate::support::write::{EXACT, rounded, unit_of};
 use crate::{Target, each_body};
@@ -14,6 +16,18 @@ use ncc_ir::expr::num::{Nanos, POW10, Unit};
 use ncc_ir::geometry;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const FINE: Pass = Pass {
+    name: "fine-arcs",
+    about: "refuses arcs that the target's digits do not resolve",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(ARC),
+        |l, p| too_fine(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// By centre, from the start of the arc.
 pub fn by_centre(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

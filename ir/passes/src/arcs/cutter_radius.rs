@@ -6,6 +6,8 @@
 //! tool goes onto the contour and leaves it is each control's own: between two of them it is taken to
 //! be the same, and told once.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::RADIUS;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
@@ -14,6 +16,18 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{CutterRadius, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "cutter-radius",
+    about: "names the radius of cutter radius compensation as the target does",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(RADIUS),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.radius, &l.target, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Debug, Default)]

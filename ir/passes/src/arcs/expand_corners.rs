@@ -5,6 +5,8 @@
 //! moves are not known from the program alone is refused, and so is one that has no next move.
 
 use crate::arcs::arc_form;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::{ARC, CORNER, FRAME};
 use crate::support::walk::Walk;
 use crate::support::write::{EXACT, Rebuild, at as exact_word, is_absolute, rounded, unit_of};
 use crate::{Target, each_body};
@@ -17,6 +19,25 @@ use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Move, Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "expand-corners",
+    about: "writes rounded and chamfered corners as arcs and lines",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(CORNER),
+        |l, p| {
+            let (found, whole) = (p.diags.len(), p.needs(FRAME));
+            let keep = if whole { Keep::None } else { Keep::Sayable };
+            over(p.stmts, &mut p.start.clone(), &mut l.corners, &l.target, keep, p.diags);
+            // They are arcs, which their moves need not be, and their words are measured from zero.
+            let written = p.diags[found..].iter().any(|d| matches!(d.fault, Fault::CornerExpanded));
+            p.needs |= if written { l.lacks & ARC } else { 0 };
+        },
+    ),
+};
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
@@ -108,7 +129,7 @@ pub(crate) fn over(
     let waits = waiting(&input);
     state.held = input.split_off(waits);
     let mut made = Rebuild::new(input.len());
-    let mut pass = Pass { target, keep, asked: None, before: None, diags };
+    let mut pass = Corners { target, keep, asked: None, before: None, diags };
     for stmt in input {
         pass.statement(stmt, &mut own, &mut made);
     }
@@ -156,7 +177,7 @@ fn is_move(op: &Op) -> bool {
 /// A move as far as it is known, and whether its words have the centre.
 type Known = Option<(Plane, Leg, bool)>;
 
-struct Pass<'p> {
+struct Corners<'p> {
     target: &'p Target,
     keep: Keep,
     asked: Option<Corner>,
@@ -164,7 +185,7 @@ struct Pass<'p> {
     diags: &'p mut Vec<Diagnostic>,
 }
 
-impl Pass<'_> {
+impl Corners<'_> {
     fn statement(&mut self, mut stmt: Stmt, walk: &mut Walk, made: &mut Rebuild) {
         walk.enter(stmt.skip);
         match &stmt.op {

@@ -2,6 +2,8 @@
 //!
 //! The way along the third axis is shared out in proportion to the angle.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::ARC;
 use crate::support::walk::Walk;
 use crate::support::write::{rebuild, rounded, unit_of};
 use crate::{Target, each_body};
@@ -12,6 +14,18 @@ use ncc_ir::geometry;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "expand-turns",
+    about: "splits arcs of several turns into single turns",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(ARC) && !l.target.caps.arc_turns,
+        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// Most turns of one arc; more is a slip of the pen.
 const MOST_TURNS: u32 = 10_000;

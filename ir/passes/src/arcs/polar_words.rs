@@ -4,6 +4,9 @@
 //! A computed coordinate is rounded to the target's digits. A point whose place is not known from the
 //! program alone is refused.
 
+use crate::legalise::Legaliser;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::POLAR;
 use crate::support::walk::Walk;
 use crate::support::write::{self, EXACT, exact, is_absolute, rebuild, rounded};
 use crate::{Target, each_body};
@@ -17,6 +20,14 @@ use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::kinds::{conduct, miscellaneous};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleWords, Program, SetPole, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "polar-words",
+    about: "says points by radius and angle in the target's form, or by coordinates",
+    alone: Some(run),
+    step: Step::at(Moment::Placing, |_, p| p.needs(POLAR), Legaliser::polar_words),
+};
 
 /// What is known of the target's text.
 #[derive(Clone, Copy, Debug, Default)]

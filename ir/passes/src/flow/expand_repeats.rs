@@ -7,6 +7,8 @@
 use std::collections::BTreeSet;
 
 use crate::flow::repeat_ends;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CONTROL;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{MOST_STATEMENTS, Target};
 use ncc_exec::again;
@@ -16,6 +18,14 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Control, Op, Program, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "expand-repeats",
+    about: "writes counted repetitions out",
+    alone: Some(run),
+    step: Step::at(Moment::Placing, |_, p| p.needs(CONTROL), |l, p| over(p.stmts, &l.target, p.diags)),
+};
 
 /// Deepest nesting of repetitions of blocks.
 const DEEPEST: u32 = 64;

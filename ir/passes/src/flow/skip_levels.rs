@@ -3,10 +3,24 @@
 //! That changes what the switches do, unless the program uses the first level only. A target without
 //! block skip is told; one that has several switches, and not so many, is refused.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::SKIP;
 use crate::{Target, each_body};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "skip-levels",
+    about: "makes block-skip levels that the target cannot tell apart one",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(SKIP),
+        |l, p| over(p.stmts, &mut l.skip, &l.target, p.diags),
+    ),
+};
 
 /// Levels that were reported: bit n is level n.
 #[derive(Clone, Copy, Debug, Default)]

@@ -8,6 +8,7 @@
 
 use std::collections::HashMap;
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use crate::support::write::at;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
@@ -21,6 +22,22 @@ use ncc_ir::program::{
     Control, Coord, Data, FrameSlot, FrameStep, Lines, Op, Point, Program, Shape, Slot, Stmt, Text,
 };
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "frame-increments",
+    about: "says incremental words behind a change of frame as both controls count them",
+    alone: None,
+    step: Some(Step {
+        moment: Moment::Arrival,
+        needed: |l, p| p.lines.is_none() && l.increments.concerns(p.stmts, l.walk.at.modes.distance),
+        run: |l, p| l.increments.over(p.stmts, &l.walk, p.diags),
+        otherwise: |l, p| match p.lines {
+            Some(lines) => l.increments.note_lines(lines),
+            None => l.increments.note(p.stmts, &l.walk),
+        },
+    }),
+};
 
 /// What is said of a word that cannot be written so.
 pub const REFUSED: &str = "an incremental word after a change of frame";

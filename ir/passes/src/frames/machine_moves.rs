@@ -13,6 +13,9 @@
 mod around;
 
 use crate::frames::machine_cuts;
+use crate::frames::origin_shift;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::{EDGE, LENGTH, MACHINE, TABLE};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, at as at_place, traverse, unit_of};
 use crate::{Target, each_body};
@@ -27,6 +30,26 @@ use ncc_ir::program::{
 };
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "machine-moves",
+    about: "moves in machine coordinates and to points of the machine in the target's form",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(MACHINE),
+        |l, p| {
+            let found = p.diags.len();
+            over(p.stmts, &mut p.start.clone(), &mut l.machine, &l.target, p.diags);
+            let cut = p.diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
+            if let Some(at) = cut.map(|cut| cut.span) {
+                origin_shift::take(&mut l.shift, at, p.diags);
+            }
+            p.needs |= l.lacks & (EDGE | TABLE | LENGTH);
+        },
+    ),
+};
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]

@@ -9,12 +9,25 @@
 //! Not here: other offsets than the one in force, whose zero no program knows, and places under a frame, which are not
 //! executed.
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::caps::Caps;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Data, DataMode, Op, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "offset-here",
+    about: "says work offsets that are set to where the axes stand as the target does",
+    alone: None,
+    step: Step::at(
+        Moment::Arrival,
+        |l, p| p.lines.is_none() && concerns(p.stmts, &l.target.caps),
+        |l, p| over(p.stmts, l.walk.clone(), &l.target.caps),
+    ),
+};
 
 /// Digits of a difference: both places are exact.
 const EXACT: u8 = 9;

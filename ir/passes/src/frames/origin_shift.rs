@@ -3,12 +3,22 @@
 //!
 //! Not here: a shift that the program has set itself, which `expand-frames` takes back before.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::SHIFT;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "origin-shift",
+    about: "takes a target that cannot cancel a shift of the origin to start without one",
+    alone: Some(run),
+    step: Step::at(Moment::Placing, |_, p| p.needs(SHIFT), |l, p| over(p.stmts, &mut l.shift, p.diags)),
+};
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Copy, Debug, Default)]

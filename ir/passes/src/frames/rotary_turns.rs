@@ -5,12 +5,25 @@
 //!
 //! Not here: what each control does ([`ncc_exec`]).
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use ncc_exec::rotary_end;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{AXES, Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "rotary-turns",
+    about: "refuses turns of rotary axes that the target would make another way",
+    alone: None,
+    step: Step::at(
+        Moment::Arrival,
+        |l, p| l.rotary.is_used() && p.lines.is_none(),
+        |l, p| l.rotary.check(p.stmts, &l.walk, p.diags),
+    ),
+};
 
 /// What both controls do, as far as it is known.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,6 +4,8 @@
 //! word says it. Another way, or one from where nobody knows, is refused: how a plain word goes round is each
 //! machine's own.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::TURN;
 use crate::support::walk::Walk;
 use crate::support::write::rebuild;
 use crate::{Target, each_body};
@@ -12,6 +14,18 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::ONE;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "rotary-ways",
+    about: "says by plain words which way round rotary axes go",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(TURN),
+        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// Half a turn, in nanos of a degree. Less than that a plain word turns the same way on every machine, whether it
 /// goes along the numbers or the shortest way.

@@ -3,6 +3,8 @@
 //! A second one is refused, and so is one that the target cannot name, but for one in which nothing moves
 //! before the next one or the end: that is left out.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::WORK;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_ir::canon::Modes;
@@ -13,6 +15,18 @@ use ncc_ir::program::kinds::{
 use ncc_ir::program::{Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "work-offset",
+    about: "lets the target's only work offset stand for the program's only one",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(WORK),
+        |l, p| over(p.stmts, &mut l.work, p.assumed, &l.target, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Copy, Debug, Default)]

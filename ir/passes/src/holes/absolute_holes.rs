@@ -4,6 +4,8 @@
 //! block would measure the planes of its cycle in another way than they are.
 
 use crate::holes::expand_cycles::level;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute};
 use crate::{Target, each_body};
@@ -12,6 +14,30 @@ use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::program::cycle::{First, Pattern};
 use ncc_ir::program::{Coord, Move, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// A pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "absolute-holes",
+    about: "measures planes and positions of cycles from program zero",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(CYCLE) && !l.target.caps.incremental_cycles,
+        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+    ),
+};
+
+/// A pass.
+pub(crate) const ALIKE: Pass = Pass {
+    name: "holes-alike",
+    about: "measures the planes of a cycle and its positions in one way",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(CYCLE) && l.target.caps.incremental_cycles && l.target.caps.cycles_measured_anew,
+        |_, p| alike(p.stmts, &mut p.start.clone(), p.diags),
+    ),
+};
 
 /// Makes them absolute.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

@@ -6,6 +6,8 @@
 //! `expand-cycles`.
 
 use crate::holes::expand_cycles::{is_one_way, level, sayable};
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
 use crate::support::write::{at, only, traverse};
 use crate::{Target, each_body};
@@ -15,6 +17,18 @@ use ncc_ir::program::cycle::{Approach, Cycle, Pattern};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "approach",
+    about: "writes the first leg to a hole out where the target would go another way",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(CYCLE),
+        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// Writes out first legs that the target would make in another order.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

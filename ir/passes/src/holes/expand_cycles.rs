@@ -19,6 +19,8 @@
 use crate::arcs::polar_words;
 use crate::holes::expand_patterns;
 use crate::holes::spindle_holes::with_spindle;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
 use crate::support::write::{
     Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of,
@@ -34,6 +36,18 @@ use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Coord, Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::{InForce, Tracker};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "expand-cycles",
+    about: "turns canned cycles into their moves",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(CYCLE),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.cycles, &l.target, p.diags),
+    ),
+};
 
 /// Most pecks of one hole; more is a slip of the pen.
 const MOST_PECKS: i64 = 100_000;

@@ -3,6 +3,8 @@
 
 use crate::holes::absolute_holes;
 use crate::holes::pattern_forms;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::PATTERN;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, as_absolute, exact, is_absolute, rebuild, rounded, unit_of};
 use crate::{Target, each_body};
@@ -12,6 +14,30 @@ use ncc_ir::expr::num::{Nanos, ONE, Unit};
 use ncc_ir::program::cycle::{Along, First, Pattern, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// A pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "expand-patterns",
+    about: "says patterns of holes in the target's form, or as positions",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(PATTERN),
+        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
+
+/// A pass.
+pub(crate) const REFORM: Pass = Pass {
+    name: "reform-patterns",
+    about: "says what is left of patterns in the target's form",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(PATTERN),
+        |l, p| reform(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// Most holes of one pattern; more is a slip of the pen.
 pub(crate) const MOST_HOLES: u32 = 100_000;

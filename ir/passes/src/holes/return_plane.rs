@@ -8,6 +8,8 @@
 
 use crate::holes::expand_cycles::{self, level, sayable};
 use crate::holes::expand_patterns;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
 use crate::support::write::{at, rebuild};
 use crate::{Target, each_body};
@@ -18,6 +20,18 @@ use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 use ncc_ir::track::{InForce, Tracker};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "return-plane",
+    about: "says where cycles leave the tool by planes or by levels",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(CYCLE),
+        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// Puts one in the other's place, as the target has it.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

@@ -3,6 +3,8 @@
 //! The parameter's value is taken for granted, and told. Where it is not known the cycle stays as it
 //! is, for another pass to refuse. It is stated in the unit of length in force.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
 use crate::support::write::rounded;
 use crate::{Target, each_body};
@@ -12,6 +14,18 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "state-clearance",
+    about: "states what one control leaves to a parameter of a cycle",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(CYCLE),
+        |l, p| over(p.stmts, p.start.clone(), &l.target, p.diags),
+    ),
+};
 
 /// States them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

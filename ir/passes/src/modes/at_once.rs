@@ -6,6 +6,8 @@
 //! It changes nothing. What depends on either is refused where the source says it.
 
 use crate::Target;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::AT_ONCE;
 use crate::support::walk::Walk;
 use ncc_ir::canon::{Axis, Distance, Fact, ReturnLevel};
 use ncc_ir::caps::Caps;
@@ -13,6 +15,18 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::kinds::{conduct, miscellaneous, modes, variables};
 use ncc_ir::program::{Data, DataMode, Op, Point, Stmt};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "at-once",
+    about: "has what the target does later done where it is said",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(AT_ONCE),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.at_once, &l.target, p.diags),
+    ),
+};
 
 /// What is remembered from piece to piece of a body.
 #[derive(Clone, Debug, Default)]

@@ -15,6 +15,7 @@
 //!
 //! Not here: how long they take, which is execution's.
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::known_facts::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
@@ -28,6 +29,30 @@ use ncc_ir::geometry;
 use ncc_ir::program::kinds::{drilling, flow};
 use ncc_ir::program::{Arc, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "feed-time",
+    about: "says by their time moves whose feed the target counts otherwise",
+    alone: Some(run),
+    step: Some(Step {
+        moment: Moment::Arrival,
+        needed: |l, p| {
+            let concerned = || l.entries.is_some() || l.times.concerns(p.stmts, &l.walk);
+            l.times_differ && p.lines.is_none() && concerned()
+        },
+        run: |l, p| {
+            let entries = l.entries.clone();
+            let known = entries.as_deref();
+            over(p.stmts, &mut l.walk.clone(), &mut l.times, &l.target, known, p.diags);
+        },
+        otherwise: |l, p| {
+            if l.times_differ && p.lines.is_none() {
+                l.times.note(p.stmts);
+            }
+        },
+    }),
+};
 
 /// What the pass remembers from piece to piece.
 #[derive(Clone, Debug, Default)]

@@ -8,6 +8,8 @@
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
 
+use crate::legalise::Legaliser;
+use crate::pass::{Moment, Pass, Step};
 use crate::support::known_facts::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rebuild, rounded};
@@ -21,6 +23,50 @@ use ncc_ir::program::cycle::CycleKind;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// Whether feeds are followed, because the target may forget one.
+fn follows(legaliser: &Legaliser) -> bool {
+    legaliser.target.caps.feed_ends_with_mode || legaliser.feed_again
+}
+
+/// A pass.
+pub(crate) const AGAIN: Pass = Pass {
+    name: "feed-again",
+    about: "says a feed again where the target forgets it with a mode",
+    alone: None,
+    step: Some(Step {
+        moment: Moment::Arrival,
+        needed: |l, p| {
+            let again = l.feed_again;
+            let changes =
+                |op: &Op| matches!(op, Op::SetFeedMode(_)) || again && matches!(op, Op::UseLengthUnits(_));
+            let changes = || l.entries.is_some() || p.stmts.iter().any(|stmt| changes(&stmt.op));
+            follows(l) && (changes() || l.feed.is_busy())
+        },
+        run: |l, p| {
+            let entries = l.entries.clone();
+            let known = entries.as_deref();
+            again(p.stmts, &mut l.walk.clone(), &mut l.feed, &l.target, known, p.diags);
+        },
+        otherwise: |l, p| {
+            if follows(l) {
+                p.stmts.iter().for_each(|stmt| l.feed.note(&stmt.op));
+            }
+        },
+    }),
+};
+
+/// A pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "feed-unit",
+    about: "writes feeds in the unit of length in force",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |l, p| l.is_measured(p) && !l.target.caps.feed_apart,
+        |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
+    ),
+};
 
 /// Whether feeds are said again behind a change of units: it is not known what the target makes of them, or it makes
 /// something else of them than the source.

@@ -3,6 +3,8 @@
 //! An axis that is not known stays without a word; the target says what that means. Arcs get their
 //! centre from zero. Modes that only decide how words are read are left out.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::EVERY;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rebuild, unit_of};
 use crate::{Target, each_body};
@@ -13,6 +15,18 @@ use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "flatten-facts",
+    about: "gives every move all its axes, from program zero",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(EVERY),
+        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+    ),
+};
 
 /// Names every axis.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

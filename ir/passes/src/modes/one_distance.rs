@@ -3,6 +3,7 @@
 //! For targets whose distance mode holds for a whole block. Only blocks that mix are touched; an
 //! incremental word of an axis whose place is not known is refused.
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute};
 use crate::{Target, each_body};
@@ -10,6 +11,18 @@ use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "one-distance",
+    about: "measures the words of a block in one way",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |l, p| l.is_measured(p) && !l.target.caps.word_distance,
+        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+    ),
+};
 
 /// Measures them from program zero.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

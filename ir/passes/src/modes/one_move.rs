@@ -7,6 +7,8 @@
 //! It does not follow a program where that branches, repeats or calls: what waits there stays in a block
 //! of its own, before it.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::MOVE;
 use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
 use crate::{Target, each_body};
@@ -15,6 +17,14 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::kinds::{flow, frames, machine, miscellaneous, moves, tooling, variables};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "one-move",
+    about: "puts an exact stop of one move, and its feed by time, into the block of the move",
+    alone: Some(run),
+    step: Step::at(Moment::Wording, |_, p| p.needs(MOVE), |l, p| over(p.stmts, &mut l.one)),
+};
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]

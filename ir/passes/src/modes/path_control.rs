@@ -5,6 +5,8 @@
 //! A mode that the target is always in is left out, and told; another is not, so that its writer
 //! refuses it. Advice that it has no word for is left out and told, once for each kind.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::PATH;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_ir::canon::{AdviceKind, PathMode};
@@ -15,6 +17,18 @@ use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, PathControl, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "path-control",
+    about: "says how corners are taken, and advice to the control, in the target's words",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(PATH),
+        |l, p| over(p.stmts, &mut l.path, &l.target, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Debug, Default)]

@@ -7,6 +7,8 @@
 //!
 //! In and out in one block is a rigid tapping cycle where the target has that instead. Not here: tapping cycles, which `expand-cycles` writes out as such moves.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::{CYCLE, THREAD};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, at, rebuild};
 use crate::threads::taps::{self, Said};
@@ -23,6 +25,33 @@ use ncc_ir::program::kinds::{
 use ncc_ir::program::{Move, Op, Pitch, Program, Stmt, Synchronised};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// A pass.
+pub(crate) const AS_CYCLES: Pass = Pass {
+    name: "threads-as-cycles",
+    about: "says threads that the target has as cycles so",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(THREAD) && p.stmts.iter().any(|stmt| is_cycle(stmt, &l.target)),
+        |l, p| {
+            as_cycles(p.stmts, &mut p.start.clone(), &l.target);
+            p.needs |= l.lacks & CYCLE;
+        },
+    ),
+};
+
+/// A pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "threads",
+    about: "says threads in the target's form",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.threads, &l.target, p.diags),
+    ),
+};
 
 /// The way out that belongs to a thread which is written with its way back.
 #[derive(Clone, Debug)]

@@ -9,6 +9,8 @@
 //! target's cycle makes others. In and out in one block is `threads`'.
 
 use crate::Target;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::{CYCLE, THREAD};
 use crate::support::walk::Walk;
 use crate::support::write::at;
 use ncc_ir::canon::{Axis, Fact, Plane, ReturnLevel, Spindle, Turn};
@@ -17,6 +19,21 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::{Approach, Cycle, CycleKind, Tap};
 use ncc_ir::program::{Move, Op, Pitch, Point, Stmt, Synchronised};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "tapped-holes",
+    about: "puts the two halves of a tapped hole together",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(THREAD) && p.stmts.iter().any(|stmt| is_half(stmt, &l.target)),
+        |l, p| {
+            over(p.stmts, &mut p.start.clone(), &l.target);
+            p.needs |= l.lacks & CYCLE;
+        },
+    ),
+};
 
 /// A thread among statements.
 #[derive(Debug)]

@@ -22,7 +22,21 @@ use ncc_ir::program::kinds::{
 use ncc_ir::program::{Op, Pitch, Program, Stmt};
 use ncc_ir::track::Tracker;
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "taps",
+    about: "says pitches of threads in the target's form",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(CYCLE),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.taps, &l.target, p.diags),
+    ),
+};
 
 /// Digits of a pitch in millimetres that follows from feed and speed, as fine as pitches are compared.
 const PITCH_DIGITS: u8 = 6;

@@ -6,6 +6,7 @@
 //!
 //! Not here: a control of which it is open ([`ncc_exec`] runs both).
 
+use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use crate::tools::length_moves;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
@@ -13,6 +14,18 @@ use ncc_ir::canon::Plane;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::kinds::{drilling, moves};
 use ncc_ir::program::{Op, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "length-axis",
+    about: "refuses lengths that the target would count along another axis",
+    alone: None,
+    step: Step::at(
+        Moment::Arrival,
+        |l, _| l.length_axis.is_used(),
+        |l, p| l.length_axis.check(p.stmts, &l.walk, p.diags),
+    ),
+};
 
 /// Whether the two controls differ: by the plane in force, and by that of the call.
 #[derive(Clone, Copy, Debug, Default)]

@@ -11,10 +11,24 @@
 //!
 //! Not here: the change itself (the writer), and edges of tools (`tool_edge`, which comes before).
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::TABLE;
 use crate::support::walk::Walk;
 use crate::support::write::rebuild;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "length-by-hand",
+    about: "leaves out lengths where the operator sets the zero of each tool",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |l, p| p.needs(TABLE) && l.target.caps.change_by_hand,
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.by_hand, p.diags),
+    ),
+};
 
 /// What is known of the tool in the spindle.
 #[derive(Clone, Debug, Default)]

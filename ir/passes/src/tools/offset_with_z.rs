@@ -4,6 +4,8 @@
 //! same. It stands in a block with Z because some controls move the axis by the offset at once if
 //! it stands alone (16-C; 30i-C, parameter 5006#6).
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::LENGTH;
 use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
 use crate::{Target, each_body};
@@ -13,6 +15,18 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "offset-with-z",
+    about: "moves a tool-length offset into the block that takes it up",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(LENGTH),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.length, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]

@@ -5,10 +5,19 @@
 //! source's control, if its profile says it.
 
 use crate::Target;
+use crate::pass::{Moment, Pass, Step};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "spindle-angle",
+    about: "states the angle at which the spindle stops where the target needs it",
+    alone: Some(run),
+    step: Step::at(Moment::Wording, |_, _| true, |l, p| over(p.stmts, &mut l.angle, &l.target, p.diags)),
+};
 
 /// What has been told.
 #[derive(Clone, Copy, Debug, Default)]

@@ -6,6 +6,8 @@
 //! directions of its axes, to a billionth of a degree, which the target's digits round. What the kinematics of the two machines have to agree about is told
 //! once.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::TOOL_AXIS;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
@@ -18,6 +20,18 @@ use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, variables};
 use ncc_ir::program::{FrameSlot, Op, Program, Slot, Stmt, Tilt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "tool-axis",
+    about: "says control of the tool's tip and tilted planes in the target's form",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(TOOL_AXIS),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.axis, &l.target, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,10 +3,27 @@
 //!
 //! Nothing is put in: with which tool a spindle may turn how fast is not for a translation to say.
 
+use crate::pass::{Moment, Pass, Step};
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::kinds::{flow, machine, moves};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "tool-change",
+    about: "starts the spindle again behind a tool change that stops it on the target alone",
+    alone: None,
+    step: Step::at(
+        Moment::Arrival,
+        |l, _| l.target.caps.change_stops_spindle,
+        |l, p| {
+            let up = l.target.caps.behaviours.surely(Behaviour::ZAtChange);
+            l.change.over(p.stmts, up, p.diags);
+        },
+    ),
+};
 
 /// What the statements so far leave.
 #[derive(Clone, Debug, Default)]

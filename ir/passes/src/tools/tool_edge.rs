@@ -7,6 +7,8 @@
 //! nothing until Z is commanded, and stands right behind the change where nothing commands Z between. An edge of a tool
 //! that the program has not called is left out where another follows before Z is commanded.
 
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::{EDGE, TABLE};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
@@ -16,6 +18,18 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "tool-edge",
+    about: "names tool lengths by edges of the tool or by entries of a table",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(EDGE | TABLE),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.edge, &l.target, p.diags),
+    ),
+};
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]

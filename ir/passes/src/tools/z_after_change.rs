@@ -11,6 +11,7 @@
 //! Not here: cuts from machine zero, and cycles that return to it, which the comparison refuses too.
 
 use crate::frames::frame_increments::changes_place;
+use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use crate::support::write::at;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
@@ -19,6 +20,18 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::arguments::{words_of, words_of_mut};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "z-after-change",
+    about: "says where Z stands behind a tool change that takes it away on one control",
+    alone: None,
+    step: Step::at(
+        Moment::Arrival,
+        |l, p| l.z_left.concerns(p.stmts),
+        |l, p| l.z_left.over(p.stmts, &l.walk),
+    ),
+};
 
 /// What is remembered from piece to piece.
 #[derive(Clone, Copy, Debug, Default)]

@@ -16,6 +16,8 @@ mod words;
 
 use crate::arcs::arc_form;
 use crate::frames::frame_forms::{self, shifted};
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::FRAME;
 use crate::support::walk::Walk;
 use crate::support::write::{EXACT, Rebuild, exact, rebuild, unit_of};
 use crate::{Target, each_body};
@@ -30,6 +32,18 @@ use ncc_ir::program::kinds::{
 };
 use ncc_ir::program::{Coord, Data, DataMode, FrameSlot, Op, Program, Reference, Slot, Stmt, Synchronised};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "expand-frames",
+    about: "works chains of frames into the coordinates",
+    alone: Some(run),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(FRAME),
+        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.frames, &l.target, p.diags),
+    ),
+};
 
 /// Less than this is no share of an axis.
 const NOTHING: f64 = 1e-12;

@@ -1,0 +1,99 @@
+//! What no pass can mend, refused at its place.
+
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::{Arc, Data, Op, Stmt};
+use ncc_ir::track::Tracker;
+
+use super::{Legaliser, messages, tool_data};
+use crate::arcs::arc_radii;
+use crate::frames::work_offset;
+use crate::pass::{Moment, Pass, Step};
+use crate::support::needs::{ARC, CALL, CONTROL, MACHINE, MESSAGE};
+use crate::support::walk::Walk;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "refuse",
+    about: "refuses what no pass can mend",
+    alone: None,
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(ARC | MESSAGE | CALL | CONTROL | MACHINE),
+        |l, p| l.refuse(p.stmts, &mut p.start.clone(), p.diags),
+    ),
+};
+
+impl Legaliser {
+    /// Refuses what no pass can mend.
+    pub(crate) fn refuse(&self, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+        let caps = &self.target.caps;
+        for stmt in &mut *stmts {
+            walk.enter(stmt.skip);
+            if !caps.offset_turns {
+                work_offset::leave_straight(&mut stmt.op);
+            }
+            if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &self.source_arcs) {
+                match arc_radii::over(arc, walk, source, &self.target) {
+                    arc_radii::Judged::Kept => {}
+                    arc_radii::Judged::ByCentre => {
+                        diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
+                    }
+                    arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+                }
+            }
+            let mut cannot = |what: &str| {
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            };
+            match &stmt.op {
+                Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
+                Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
+                Op::Goto(_) if !caps.repeats => cannot("a jump"),
+                Op::Label(_) if !caps.repeats && !caps.repeat_blocks => cannot("a jump"),
+                Op::Call(_) if !caps.calls => cannot("a call"),
+                Op::Return if !caps.calls => cannot("a return"),
+                Op::UseMachineCoordinates { .. } if !caps.machine_coordinates => {
+                    cannot("a move in machine coordinates");
+                }
+                Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|l| l != *length) => {
+                    cannot(if *length {
+                        "a move in machine coordinates that is measured with the tool's length"
+                    } else {
+                        "a move in machine coordinates without the tool's length"
+                    });
+                }
+                Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
+                Op::SetData(data) => match &**data {
+                    Data::Offset { turn: Some(_), .. } if !caps.offset_turns => {
+                        cannot("rotation of a work offset");
+                    }
+                    Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
+                    Data::Tool { .. } | Data::Measured { .. } => {
+                        if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
+                            cannot(what);
+                        }
+                    }
+                    Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
+                    Data::ToolInSpindle(_) if caps.tool_number => {}
+                    Data::Position(_) => cannot("storing where the axes stand"),
+                    Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
+                    Data::Offset { .. } => cannot("this value in the control's tables"),
+                },
+                _ => {}
+            }
+            walk.step(stmt);
+        }
+        if !caps.messages {
+            messages::drop_messages(stmts, caps, diags);
+        }
+    }
+}
+
+/// Whether an arc has a word of the third axis that moves it.
+fn is_helix(arc: &Arc, here: &Tracker) -> bool {
+    let axis = match here.plane(arc.plane) {
+        Some(plane) => plane.axes().2,
+        None => return true,
+    };
+    let now = here.position[axis as usize];
+    arc.to.get(axis).is_some_and(|word| now.is_none() || here.resolve(word, now) != now)
+}
