@@ -127,6 +127,10 @@ impl Lower {
             self.rely_on_frames(to.get(Axis::Z).is_some(), block, out);
         }
         self.push(code.span, Op::UseMachineCoordinates { length }, out);
+        if to.get(Axis::Z).is_some_and(|word| word.distance == Fact::Known(Distance::Absolute)) {
+            // Z is at a place of the machine, whatever the length.
+            self.state.level_open = false;
+        }
         let to = Move { to, said };
         self.push(block, if feeds { Op::StraightFeed(to) } else { Op::StraightTraverse(to) }, out);
     }

@@ -236,7 +236,7 @@ impl Legaliser {
             offset_here::over(stmts, self.walk.clone(), &self.target.caps);
         }
         if self.z_left.concerns(stmts) {
-            self.z_left.over(stmts, &self.walk);
+            self.z_left.over(stmts, &self.walk, diags);
         }
         match lines {
             Some(lines) => self.increments.note_lines(lines),
