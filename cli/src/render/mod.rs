@@ -12,6 +12,7 @@ pub mod source;
 mod spelled;
 pub mod summary;
 pub mod terminal;
+mod unsupported;
 pub mod words;
 
 use std::io;

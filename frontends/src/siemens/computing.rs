@@ -114,6 +114,15 @@ impl Lower {
             return None;
         };
         let name = src.text(name).to_ascii_uppercase();
+        let elsewhere = self.settings.dialect.program.variables_elsewhere.iter();
+        if !self.variables.contains_key(&*name)
+            && place.index.is_empty()
+            && elsewhere.clone().any(|row| row.name == name && !row.left_out)
+        {
+            // One of a definition file: all programs see it. It is taken for REAL.
+            let target = Target::Var(Var::Common(name.as_str().into()));
+            return Some(Kept { target, kind: Kind::Real, name: name.into() });
+        }
         let Some(variable) = self.variables.get(&*name).cloned() else {
             let refuse = self.settings.dialect.name_row(&name).and_then(|row| row.refuse.as_deref());
             let what = refuse.unwrap_or("variable that the program does not define");
@@ -195,6 +204,9 @@ impl Lower {
 
     /// An assignment.
     pub(super) fn assign(&mut self, place: &Place, value: &Value, span: Span, src: Source, out: &mut Batch) {
+        if self.is_left_out(place, src, out) {
+            return;
+        }
         out.whole = true;
         if let Some(name) = self.text_variable(place, src) {
             return self.set_text(&name, value, span, src, out);
@@ -217,6 +229,21 @@ impl Lower {
         if let Some(value) = self.converted(value, kept.kind, span, out) {
             self.put(kept, value, span, out);
         }
+    }
+
+    /// Whether an assignment is left out, as the user states of a variable that no program defines; reported once.
+    fn is_left_out(&mut self, place: &Place, src: Source, out: &mut Batch) -> bool {
+        let Address::Name(name) = place.address else { return false };
+        let name = src.text(name).to_ascii_uppercase();
+        let elsewhere = &self.settings.dialect.program.variables_elsewhere;
+        let left_out = elsewhere.iter().find(|row| row.name == name).is_some_and(|row| row.left_out);
+        if !left_out || self.variables.contains_key(&*name) {
+            return false;
+        }
+        if self.first_time(&name) {
+            out.report(Fault::CodeLeftOut { code: format!("assignment to {name}").into() }, place.span);
+        }
+        true
     }
 
     fn put(&mut self, kept: Kept, value: Expr, span: Span, out: &mut Batch) {
