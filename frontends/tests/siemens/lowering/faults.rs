@@ -81,7 +81,7 @@ fn words_that_are_known_and_not_translated() {
         "CYCLE832(0.01,112001)",
     );
     refused("CYCLE832(0.01,1,0.5)", "CYCLE832", "tolerance of the orientation", "CYCLE832(0.01,1,0.5)");
-    refused("M=QU(7)", "M=QU(7)", "auxiliary function that is not waited for", "M=QU(7)");
+    refused("S=QU(7)", "S=QU(7)", "auxiliary function that is not waited for", "S=QU(7)");
     refused("H5", "H5", "auxiliary function", "H5");
     refused("FA[X]=100", "FA", "feed of an axis", "FA[X]=100");
     refused("SPOSA=90", "SPOSA", "spindle positioning", "SPOSA=90");
