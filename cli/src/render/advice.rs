@@ -2,7 +2,7 @@
 
 use ncc_dialects::{
     ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
-    STORED_POSITION, STRAIGHT_LINE,
+    RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
@@ -13,7 +13,7 @@ use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
 use super::numbers::{millimetres, signed};
-use super::unsupported;
+use super::unsupported::{self, without_radius};
 use super::words::{Context, mode, plain, plain_upto};
 use crate::m_codes::may_be_stated;
 use crate::review::words::decimal;
@@ -90,18 +90,22 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
-        Fault::NotSupported { code, name } => unsupported::help(code, name),
+        Fault::NotSupported { code, name } => unsupported::help(code, name, at.from),
         Fault::CodesExclude { .. } => {
             own("put them into blocks of their own, in the order in which they shall act")
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
         Fault::WordMissing { code, word } if &**word == "D" && matches!(&**code, "G41" | "G42") => {
-            vec![
-                format!(
-                    "write the D number of the tool's radius, for example `{code} D1`: none is active here"
-                ),
-                "if its H is the radius, as on a Fanuc 0, write D in the place of H".into(),
-            ]
+            let mut all = vec![format!(
+                "write the D number of the tool's radius, for example `{code} D1`: none is active here"
+            )];
+            match at.from.option.iter().any(|row| row.name == RADIUS_UNSAID) {
+                true => all.push(without_radius()),
+                false => {
+                    all.push("if its H is the radius, as on a Fanuc 0, write D in the place of H".into());
+                }
+            }
+            all
         }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
         Fault::WordTwice { .. } => own("keep one of the two"),

@@ -1,7 +1,9 @@
 //! What to type where a code is not supported.
 
+use ncc_dialects::{Dialect, NO_RADIUS, RADIUS_UNSAID};
+
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
-pub(super) fn help(code: &str, name: &str) -> Vec<String> {
+pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
     let own = |text: &str| vec![text.to_owned()];
     match name {
         _ if name.starts_with("return in the main program") => vec![
@@ -24,9 +26,13 @@ pub(super) fn help(code: &str, name: &str) -> Vec<String> {
                 "if only programs of the control read it, leave its assignments out: `--value {code}=drop`"
             ),
         ],
-        "D of a block before, of which entry is not known here" => vec![format!(
-            "write the D number of the tool's radius in this block: for example `{code} D1` for entry 1"
-        )],
+        "D of a block before, of which entry is not known here" => {
+            let write = format!(
+                "write the D number of the tool's radius in this block: for example `{code} D1` for entry 1"
+            );
+            let goes_without = from.option.iter().any(|row| row.name == RADIUS_UNSAID);
+            std::iter::once(write).chain(goes_without.then(without_radius)).collect()
+        }
         "data input for an entry whose number only the running program knows" => {
             own("write the number of the entry in its place: for example `P1`")
         }
@@ -34,6 +40,11 @@ pub(super) fn help(code: &str, name: &str) -> Vec<String> {
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),
     }
+}
+
+/// The option for a control that goes without compensation where no radius is named.
+pub(super) fn without_radius() -> String {
+    format!("if the control goes without compensation here: `--from-option {RADIUS_UNSAID}={NO_RADIUS}`")
 }
 
 /// Cycles of which the control computes the path.

@@ -97,6 +97,12 @@ pub const STORED_POSITION: &str = "stored_position";
 /// Option of a dictionary: where the second and further reference points are: `zero`, the machine's zero.
 pub const FURTHER_POINT: &str = "further_point";
 
+/// Option of a dictionary: what cutter radius compensation does where no entry of a radius has been programmed.
+pub const RADIUS_UNSAID: &str = "radius_without_d";
+
+/// Value of [`RADIUS_UNSAID`]: the moves go without compensation.
+pub const NO_RADIUS: &str = "none";
+
 /// Value of these options: the machine's zero.
 pub const AT_ZERO: &str = "zero";
 
