@@ -36,7 +36,10 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
         "data input for an entry whose number only the running program knows" => {
             own("write the number of the entry in its place: for example `P1`")
         }
-        "pocket milling" | "circular pocket" => own(POCKET),
+        "VAR, or a first value, in a subprogram without its main program" => {
+            own("translate the program that calls this one: `-I FOLDER` finds both")
+        }
+        "pocket milling" => own(POCKET),
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),
     }
