@@ -383,7 +383,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             vec![format!("{to} has none: post the program again for the axes of the machine")]
         }
         Fault::CannotSay { what } if what.starts_with("edge ") && what.ends_with(" of a tool") => {
-            vec![format!("{to} has one length for each tool: give this edge a tool number of its own")]
+            vec![format!("{to} has a number for edge 1 alone: give this edge a tool of its own")]
         }
         Fault::CannotSay { what } if **what == *"mist coolant" => {
             own("`--m-code M07=M08` for flood coolant in its place, `--m-code M07=drop` for none")
