@@ -1,6 +1,6 @@
 //! What to type where a code is not supported.
 
-use ncc_dialects::{Dialect, NO_RADIUS, RADIUS_UNSAID};
+use ncc_dialects::{Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID};
 
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
 pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
@@ -11,8 +11,15 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
             "if another program calls this one: delete the M30, and give it a number of its own".into(),
         ],
         "machine coordinates without an axis word" => {
-            vec![format!("delete `{code}`, or add the axis that moves: no axis is in its block")]
+            let delete = format!("delete `{code}`, or add the axis that moves: no axis is in its block");
+            let option = from.option.iter().any(|row| row.name == MACHINE_WITHOUT_AXIS);
+            let nothing =
+                format!("if no axis moves on the control: `--from-option {MACHINE_WITHOUT_AXIS}={NOTHING}`");
+            std::iter::once(delete).chain(option.then_some(nothing)).collect()
         }
+        "variable of the control" => vec![format!(
+            "state what it holds, if that is the same wherever the program reads it: `--value '{code}=NUMBER'`"
+        )],
         _ if name.ends_with(" while a cycle is in force") => {
             own("write `G80` before this block: a call or a jump may lead here with a cycle active")
         }

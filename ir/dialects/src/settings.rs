@@ -103,6 +103,12 @@ pub const RADIUS_UNSAID: &str = "radius_without_d";
 /// Value of [`RADIUS_UNSAID`]: the moves go without compensation.
 pub const NO_RADIUS: &str = "none";
 
+/// Option of a dictionary: what machine coordinates do in a block without an axis word.
+pub const MACHINE_WITHOUT_AXIS: &str = "g53_without_axis";
+
+/// Value of [`MACHINE_WITHOUT_AXIS`]: no axis moves.
+pub const NOTHING: &str = "nothing";
+
 /// Value of these options: the machine's zero.
 pub const AT_ZERO: &str = "zero";
 
