@@ -136,7 +136,7 @@ impl Lower {
             return None;
         }
         let target = if let Some(var) = variable.reference {
-            let Some(var) = self.of_caller(var, &variable.sizes, place, src, out) else { return None };
+            let var = self.of_caller(var, &variable.sizes, place, src, out)?;
             let name = var.name().into();
             return Some(Kept { target: Target::Var(var), kind: variable.kind, name });
         } else if variable.sizes.is_empty() {

@@ -12,7 +12,6 @@
 //! Not here: what execution makes of a program, and everything about files.
 
 mod again;
-mod arrays;
 mod build;
 mod calls;
 mod computed_cycles;

@@ -17,19 +17,18 @@ use std::collections::BTreeSet;
 
 use ncc_ir::canon::{self, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::{Expr, Many, Node, Target, Var};
+use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_passes::flow::given_back;
 
-use super::arrays::{all_indices, element_of};
 use super::calls::Handing;
-use super::computing::stored;
+use super::computing::{array, stored};
 use super::facts::Motion;
 use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::lower::Lower;
-use super::tree::{Expr as Tree, Parameter, Value};
+use super::tree::{Address, Expr as Tree, Parameter, Place, Value};
 use crate::Batch;
 use crate::word::Source;
 
@@ -51,6 +50,22 @@ struct Call {
     given: Vec<Option<Argument>>,
     /// Whether it is made after each move.
     modal: bool,
+}
+
+/// Where an element is kept of an array that is the caller's own.
+pub(super) fn element_of(reference: &Var, at: &[u32]) -> Var {
+    let mut name = reference.name().to_string();
+    at.iter().for_each(|at| name.push_str(&format!(".{at}")));
+    Var::Common(name.into())
+}
+
+/// The indices of all elements of an array, the last one fastest.
+pub(super) fn all_indices(sizes: &[u32]) -> Vec<Vec<u32>> {
+    let more = |all: Vec<Vec<u32>>, size: &u32| {
+        let with = |at: Vec<u32>| (0..*size).map(move |next| [&at[..], &[next]].concat());
+        all.into_iter().flat_map(with).collect()
+    };
+    sizes.iter().fold(vec![Vec::new()], more)
 }
 
 /// What a call hands over for one parameter.
@@ -182,6 +197,57 @@ impl Lower {
         let modal = matches!(given, Handing::AfterMove(_));
         self.handed.calls.push(Call { name: name.into(), at, given: all, modal });
         Some(arguments)
+    }
+
+    /// A variable of the caller, or the element of an array of its own; `None` if it is refused (reported).
+    pub(super) fn of_caller(
+        &mut self,
+        var: Var,
+        sizes: &[u32],
+        place: &Place,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Var> {
+        if sizes.is_empty() {
+            return Some(var);
+        }
+        let mut found = Vec::with_capacity(sizes.len());
+        for (at, size) in self.indices(place, src, out)?.iter().zip(sizes) {
+            let Some(at) = at.literal() else {
+                let what = "computed index of an array that is the caller's own";
+                self.not_supported(&src.text(place.span), what, place.span, out);
+                return None;
+            };
+            match at.whole().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
+                Some(at) => found.push(at),
+                None => {
+                    return self.refuse(Fault::OutOfRange { word: src.text(place.span) }, place.span, out);
+                }
+            }
+        }
+        Some(element_of(&var, &found))
+    }
+
+    /// The elements of an array that an argument names as a whole.
+    pub(super) fn whole_array(&self, value: &Tree, src: Source) -> Option<(Box<[u32]>, Vec<Typed>)> {
+        let Tree::Place(place) = value else { return None };
+        let Address::Name(name) = place.address else { return None };
+        let name = src.text(name).to_ascii_uppercase();
+        let variable = self.variables.get(&*name)?;
+        if variable.sizes.is_empty() || !place.index.is_empty() {
+            return None;
+        }
+        let element = |at: Vec<u32>| {
+            let node = match &variable.reference {
+                Some(own) => Node::Var(element_of(own, &at)),
+                None => {
+                    let at = at.into_iter().map(|at| Expr::int(i64::from(at))).collect();
+                    Node::Element(Element { of: array(&name, &variable.sizes), at })
+                }
+            };
+            Typed::new(node, variable.kind)
+        };
+        Some((variable.sizes.clone(), all_indices(&variable.sizes).into_iter().map(element).collect()))
     }
 
     /// Notes what holds where further text begins. Of what was `before` it, what the state does not say is not known.
