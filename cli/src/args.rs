@@ -191,9 +191,10 @@ pub struct Translate {
     #[arg(long, value_name = "FILE", help_heading = "What to translate")]
     pub args: Option<PathBuf>,
     /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
-    /// output sets it [may be repeated]
+    /// output sets it. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
+    /// such a one out [may be repeated]
     #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::given::value, help_heading = "What to translate")]
-    pub value: Vec<(String, Num)>,
+    pub value: Vec<(String, Option<Num>)>,
 
     /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
     #[arg(long, value_name = "NAME", value_parser = pass, help_heading = "What to translate")]

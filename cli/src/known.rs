@@ -13,10 +13,12 @@ use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_dialects::{
-    Dialect, DialectError, DialectFault, Place, Text, builtin, builtin_ids, builtin_text, builtins, load,
+    Dialect, DialectError, DialectFault, ElsewhereRow, Place, Text, builtin, builtin_ids, builtin_text,
+    builtins, load,
 };
 use ncc_driver::problem::{Exit, Problem};
 use ncc_ir::canon::Units;
+use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
 use crate::m_codes::MCode;
@@ -43,6 +45,8 @@ pub struct Known {
     m_codes: Vec<MCode>,
     /// Programs whose calls are left out.
     calls_left_out: Vec<String>,
+    /// Variables of definition files.
+    variables_elsewhere: Vec<ElsewhereRow>,
     /// Project files; `None` if none counts.
     projects: Option<Arc<Projects>>,
     /// Dictionaries with these put in, each with the address of the one that it was made of.
@@ -143,6 +147,20 @@ impl Known {
     /// Programs whose calls are left out.
     pub fn calls_left_out(&self) -> &[String] {
         &self.calls_left_out
+    }
+
+    /// Says which variables no program defines.
+    pub(crate) fn state_variables(&mut self, values: &[(String, Option<Num>)]) {
+        let row = |(name, holds): &(String, Option<Num>)| ElsewhereRow {
+            name: name.to_ascii_uppercase(),
+            left_out: holds.is_none(),
+        };
+        self.variables_elsewhere = values.iter().map(row).collect();
+    }
+
+    /// Variables that no program defines.
+    pub(crate) fn variables_elsewhere(&self) -> &[ElsewhereRow] {
+        &self.variables_elsewhere
     }
 
     /// A dictionary with something put in, made once for each and side; it lives as long as the process.

@@ -83,7 +83,8 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     let numbers: Vec<(MCode, u16)> =
         known.m_codes().iter().filter_map(|code| Some((*code, own(code)?))).collect();
     let calls = if side == Side::From { known.calls_left_out() } else { &[] };
-    if numbers.is_empty() && calls.is_empty()
+    let variables = if side == Side::From { known.variables_elsewhere() } else { &[] };
+    if numbers.is_empty() && calls.is_empty() && variables.is_empty()
         || side == Side::To && (settings.dialect.can.flat || settings.dialect.can.everything)
     {
         return Ok(());
@@ -99,6 +100,8 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     }
     settings.dialect = known.derived(source, side, |dialect| {
         dialect.program.calls_left_out = calls.to_vec();
+        // The command line goes before the machine's profile.
+        dialect.program.variables_elsewhere.splice(0..0, variables.iter().cloned());
         for (code, number) in &numbers {
             let means = match code.written {
                 // Read as that code of coolant.

@@ -99,11 +99,13 @@ impl Order {
         }
         let read = |path| files::text(path).and_then(|(name, text)| Given::of_file(&name, &text));
         let mut given = args.args.as_deref().map(read).transpose()?.unwrap_or_default();
-        let mut values = args.value.clone();
+        let mut stated = args.value.clone();
         for (name, holds) in machines.from.iter().flat_map(|profile| profile.values()) {
-            let stated = given::value(&format!("{name}={holds}")).ok();
-            values.extend(stated.filter(|(name, _)| !args.value.iter().any(|(own, _)| own == name)));
+            let own = given::value(&format!("{name}={holds}")).ok();
+            stated.extend(own.filter(|(name, _)| !args.value.iter().any(|(own, _)| own == name)));
         }
+        let values: Vec<(String, Num)> =
+            stated.into_iter().filter_map(|(name, holds)| Some((name, holds?))).collect();
         values.iter().for_each(|(name, value)| given.put(name, *value));
         Ok(Order { from, machines, to, given, values, named, known: known.clone(), settled })
     }

@@ -68,6 +68,9 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
     known.state_units(cli.units.map(Units::from));
     known.state_m_codes(&cli.m_code);
     known.leave_calls_out(&cli.call);
+    if let Verb::Translate(args) = &cli.verb {
+        known.state_variables(&args.value);
+    }
     if !cli.no_config {
         known.use_projects();
     }

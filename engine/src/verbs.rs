@@ -203,8 +203,10 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     for (name, value) in &asked.value {
         let wrong = |why| Problem::usage(format!("the value of {name}: {why}"), "\"_td\": \"0.25\"");
         let (name, value) = given::value(&format!("{name}={value}")).map_err(wrong)?;
-        given.put(&name, value);
-        values.push((name, value));
+        if let Some(value) = value {
+            given.put(&name, value);
+            values.push((name, value));
+        }
     }
     let pass = |name: &String| {
         let none = || Problem::usage(format!("there is no pass `{name}`"), "`ncc passes` lists them");

@@ -4,7 +4,7 @@
 //! written are rows of the dictionary too. A derived dictionary is made once for each use of a
 //! profile and lives as long as the process.
 
-use ncc_dialects::{Dialect, Meaning, PowerOnFact, Quantity, Settings};
+use ncc_dialects::{Dialect, ElsewhereRow, Meaning, PowerOnFact, Quantity, Settings};
 
 use crate::fact::Fact;
 use crate::profile::Profile;
@@ -55,6 +55,9 @@ impl Profile {
         for row in &self.schema.m_code {
             machine_function(row.get_ref(), &mut dialect);
         }
+        let elsewhere =
+            self.values().map(|(name, _)| ElsewhereRow { name: name.to_ascii_uppercase(), left_out: false });
+        dialect.program.variables_elsewhere = elsewhere.collect();
         let emit = &self.schema.emit;
         if let Some(blanks) = emit.blanks.value {
             dialect.block.blanks = blanks;

@@ -95,7 +95,8 @@ impl Writer {
     /// Writes statements of the main procedure.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         if !std::mem::replace(&mut self.begun, true) {
-            self.at = Tracker { position: self.start, ..Tracker::new(*assumed) };
+            // Where Z is after a tool change, the source knows: it is named before this, or left as it is.
+            self.at = Tracker { position: self.start, z_lost_at_change: true, ..Tracker::new(*assumed) };
         }
         for stmt in stmts {
             if let Some(trace) = &mut self.trace {

@@ -247,9 +247,14 @@ impl Writer {
                 Some(kept) => {
                     let to = given_back(value).filter(|_| self.variables.types.of(value) == parameter.kind);
                     let to = to.ok_or_else(|| {
-                        cannot_compute(
-                            "a parameter that is the caller's own variable, and is given none of its type",
-                        )
+                        cannot_compute(match value {
+                            Expr::Node(node) if matches!(**node, Node::Element(_)) => {
+                                "an array of the caller's as a parameter"
+                            }
+                            _ => {
+                                "a parameter that is the caller's own variable, and is given none of its type"
+                            }
+                        })
                     })?;
                     self.variables.back.push((to, Expr::Node(Box::new(Node::Var(kept)))));
                     self.words.expression(value, span, sink)?

@@ -81,13 +81,17 @@ fn plain(name: &str) -> String {
     name.trim_start_matches('#').trim_start_matches('<').trim_end_matches('>').to_ascii_lowercase()
 }
 
-/// Reads `--value`: the name of a variable and its value at the start, `#500=12.5`, `_td=0.25`, `R5=3`.
+/// Reads `--value`: the name of a variable and its value at the start, `#500=12.5`, `_td=0.25`, `R5=3`; `None` where its
+/// assignments are left out, `EVENT=drop`.
 ///
 /// # Errors
 /// It is not of this form.
-pub fn value(text: &str) -> Result<(String, Num), String> {
+pub fn value(text: &str) -> Result<(String, Option<Num>), String> {
     let form = || "write it as NAME=NUMBER, such as _td=0.25 or 500=12".to_owned();
     let (name, number) = text.split_once('=').ok_or_else(form)?;
+    if number == "drop" && !plain(name).is_empty() {
+        return Ok((plain(name), None));
+    }
     let (whole, behind) = number.split_once('.').unwrap_or((number, ""));
     let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
     let unsigned = whole.strip_prefix('-').unwrap_or(whole);
@@ -96,7 +100,7 @@ pub fn value(text: &str) -> Result<(String, Num), String> {
     let mantissa = mantissa.ok_or_else(form)?;
     // Nine digits at most.
     let scale = behind.len() as u8;
-    Ok((plain(name), Num { mantissa, scale, point: scale > 0, unit: Unit::One }))
+    Ok((plain(name), Some(Num { mantissa, scale, point: scale > 0, unit: Unit::One })))
 }
 
 /// A decimal with at most nine digits after the point, in nanos.
@@ -287,10 +291,13 @@ mod tests {
         {
             let (own, number) = self::value(text).unwrap();
             assert_eq!(own, name);
-            given.put(&own, number);
+            given.put(&own, number.unwrap());
             assert_eq!(given.only(name), Some(value), "{text}");
         }
-        for wrong in ["500", "=1", "500=", "500=x", "500=1e3", "500=1.2.3", "500=--1", "500=1.1234567890"] {
+        assert_eq!(self::value("EVENT=drop"), Ok(("event".to_owned(), None)));
+        for wrong in
+            ["500", "=1", "=drop", "500=", "500=x", "500=1e3", "500=1.2.3", "500=--1", "500=1.1234567890"]
+        {
             assert!(self::value(wrong).is_err(), "{wrong}");
         }
     }

@@ -1,8 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, FURTHER_POINT,
-    MACRO_DEPTH, STORED_POSITION, STRAIGHT_LINE,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
+    RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
@@ -13,6 +13,7 @@ use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
 use super::numbers::{millimetres, signed};
+use super::unsupported::{self, without_radius};
 use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
 
@@ -88,32 +89,22 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
-        Fault::NotSupported { name, .. } if name.starts_with("return in the main program") => vec![
-            "to run it once: delete this block, and end the program with M30".into(),
-            "if another program calls this one: delete the M30, and give it a number of its own".into(),
-        ],
-        Fault::NotSupported { code, name } if &**name == "machine coordinates without an axis word" => {
-            vec![format!("delete `{code}`, or add the axis that moves: no axis is in its block")]
-        }
-        Fault::NotSupported { name, .. } if name.ends_with(" while a cycle is in force") => {
-            own("write `G80` before this block: a call or a jump may lead here with a cycle active")
-        }
-        Fault::NotSupported { name, .. } if name.starts_with("computed feed that may count") => own(
-            "`--from-option feed_unit=inch` or `feed_unit=mm`: the basic system of the machine, which F counts where lengths \
-             are those of G70 or G71",
-        ),
-        Fault::NotSupported { .. } => own("write this place another way, or see to it by hand"),
+        Fault::NotSupported { code, name } => unsupported::help(code, name, at.from),
         Fault::CodesExclude { .. } => {
             own("put them into blocks of their own, in the order in which they shall act")
         }
         Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
         Fault::WordMissing { code, word } if &**word == "D" && matches!(&**code, "G41" | "G42") => {
-            vec![
-                format!(
-                    "write the D number of the tool's radius, for example `{code} D1`: none is active here"
-                ),
-                "if its H is the radius, as on a Fanuc 0, write D in the place of H".into(),
-            ]
+            let mut all = vec![format!(
+                "write the D number of the tool's radius, for example `{code} D1`: none is active here"
+            )];
+            match at.from.option.iter().any(|row| row.name == RADIUS_UNSAID) {
+                true => all.push(without_radius()),
+                false => {
+                    all.push("if its H is the radius, as on a Fanuc 0, write D in the place of H".into());
+                }
+            }
+            all
         }
         Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
         Fault::WordTwice { .. } => own("keep one of the two"),
@@ -381,6 +372,17 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
                     .into(),
             ]
+        }
+        Fault::CannotSay { what }
+            if what.starts_with("a canned cycle that stays active over a tool change") =>
+        {
+            own("write `G80` before the tool change, and the whole cycle again after it")
+        }
+        Fault::CannotSay { what } if **what == *"control of the tool's tip" => {
+            vec![format!("{to} has none: post the program again for the axes of the machine")]
+        }
+        Fault::CannotSay { what } if what.starts_with("edge ") && what.ends_with(" of a tool") => {
+            vec![format!("{to} has a number for edge 1 alone: give this edge a tool of its own")]
         }
         Fault::CannotSay { what } if **what == *"mist coolant" => {
             own("`--m-code M07=M08` for flood coolant in its place, `--m-code M07=drop` for none")

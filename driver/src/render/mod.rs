@@ -16,6 +16,7 @@ pub mod source;
 pub mod spelled;
 pub mod summary;
 pub mod terminal;
+mod unsupported;
 pub mod words;
 
 use std::io;

@@ -94,7 +94,7 @@ impl<'j> Translation<'j> {
         if job.between_controls() {
             legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }
-        legaliser.set_source_behaviours(job.source_behaviours());
+        legaliser.set_source_behaviours(job.source_behaviours(), job.from.dialect.can.change_by_hand);
         legaliser.stand_at(&job.start);
         let maps = job.maps();
         legaliser.set_edge_entries(maps.edge_entries.clone());

@@ -45,11 +45,12 @@ const MOST_ELEMENTS: u32 = 100_000;
 pub(super) struct Variable {
     pub(super) kind: Kind,
     /// Of an array.
-    sizes: Box<[u32]>,
+    pub(super) sizes: Box<[u32]>,
     /// The text of a text variable.
     pub(super) text: TextOf,
-    /// Of a parameter that is the caller's variable itself, where it is kept.
-    reference: Option<Var>,
+    /// Of a parameter that is the caller's variable itself, where it is kept; of an array, what the names of its elements
+    /// begin with.
+    pub(super) reference: Option<Var>,
 }
 
 /// Variables of the program that is being read, by their names in capitals.
@@ -71,7 +72,7 @@ struct Several<'t> {
     all: bool,
 }
 
-fn array(name: &str, sizes: &[u32]) -> Many {
+pub(super) fn array(name: &str, sizes: &[u32]) -> Many {
     Many::Array { var: Var::Local(name.into()), sizes: sizes.into() }
 }
 
@@ -114,6 +115,15 @@ impl Lower {
             return None;
         };
         let name = src.text(name).to_ascii_uppercase();
+        let elsewhere = self.settings.dialect.program.variables_elsewhere.iter();
+        if !self.variables.contains_key(&*name)
+            && place.index.is_empty()
+            && elsewhere.clone().any(|row| row.name == name && !row.left_out)
+        {
+            // One of a definition file: all programs see it. It is taken for REAL.
+            let target = Target::Var(Var::Common(name.as_str().into()));
+            return Some(Kept { target, kind: Kind::Real, name: name.into() });
+        }
         let Some(variable) = self.variables.get(&*name).cloned() else {
             let refuse = self.settings.dialect.name_row(&name).and_then(|row| row.refuse.as_deref());
             let what = refuse.unwrap_or("variable that the program does not define");
@@ -126,6 +136,7 @@ impl Lower {
             return None;
         }
         let target = if let Some(var) = variable.reference {
+            let var = self.of_caller(var, &variable.sizes, place, src, out)?;
             let name = var.name().into();
             return Some(Kept { target: Target::Var(var), kind: variable.kind, name });
         } else if variable.sizes.is_empty() {
@@ -168,7 +179,7 @@ impl Lower {
         Some(Kept { target: Target::Var(var), kind: Kind::Real, name })
     }
 
-    fn indices(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Vec<Expr>> {
+    pub(super) fn indices(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Vec<Expr>> {
         let mut at = Vec::with_capacity(place.index.len());
         for index in &place.index {
             let Some(index) = index else {
@@ -195,6 +206,9 @@ impl Lower {
 
     /// An assignment.
     pub(super) fn assign(&mut self, place: &Place, value: &Value, span: Span, src: Source, out: &mut Batch) {
+        if self.is_left_out(place, src, out) {
+            return;
+        }
         out.whole = true;
         if let Some(name) = self.text_variable(place, src) {
             return self.set_text(&name, value, span, src, out);
@@ -217,6 +231,21 @@ impl Lower {
         if let Some(value) = self.converted(value, kept.kind, span, out) {
             self.put(kept, value, span, out);
         }
+    }
+
+    /// Whether an assignment is left out, as the user states of a variable that no program defines; reported once.
+    fn is_left_out(&mut self, place: &Place, src: Source, out: &mut Batch) -> bool {
+        let Address::Name(name) = place.address else { return false };
+        let name = src.text(name).to_ascii_uppercase();
+        let elsewhere = &self.settings.dialect.program.variables_elsewhere;
+        let left_out = elsewhere.iter().find(|row| row.name == name).is_some_and(|row| row.left_out);
+        if !left_out || self.variables.contains_key(&*name) {
+            return false;
+        }
+        if self.first_time(&name) {
+            out.report(Fault::CodeLeftOut { code: format!("assignment to {name}").into() }, place.span);
+        }
+        true
     }
 
     fn put(&mut self, kept: Kept, value: Expr, span: Span, out: &mut Batch) {
@@ -440,21 +469,22 @@ impl Lower {
         Some((name, sizes.into()))
     }
 
-    /// A variable without dimensions that is given its value from elsewhere.
-    pub(super) fn new_scalar(
+    /// A variable that is given its value from elsewhere, and the sizes of an array.
+    pub(super) fn new_parameter(
         &mut self,
         place: &Place,
         kind: Kind,
         by_reference: bool,
         src: Source,
         out: &mut Batch,
-    ) -> Option<Var> {
+    ) -> Option<(Var, Box<[u32]>)> {
         let (name, sizes) = self.new_variable(place, src, out)?;
         let program = self.sub.as_ref().map_or("", |procedure| &procedure.name);
         let reference = by_reference.then(|| Var::Common(format!("{program}.{name}").into()));
         let var = reference.clone().unwrap_or_else(|| Var::Local(name.as_str().into()));
-        self.variables.insert(name.into(), Variable { kind, sizes, text: TextOf::default(), reference });
-        Some(var)
+        let text = TextOf::default();
+        self.variables.insert(name.into(), Variable { kind, sizes: sizes.clone(), text, reference });
+        Some((var, sizes))
     }
 
     fn define_one(

@@ -34,7 +34,7 @@ impl Lower {
         let found = rows
             .iter()
             .find_map(|row| Some((row, entry_of(&row.name, row.count, &name, place, self.worth, src)?)));
-        let Some((row, (entry, axis))) = found else { return self.no_meaning(&name, span, out) };
+        let Some((row, (entry, axis))) = found else { return self.stated(place, src, out) };
         let entry = entry.map_or(String::new(), |entry| format!(".{entry}"));
         let along =
             axis.map_or(String::new(), |axis| format!(".{}", axis.letter().to_ascii_lowercase() as char));
@@ -52,8 +52,17 @@ impl Lower {
         Some(Typed::new(Node::Var(Var::System(system)), kind))
     }
 
-    fn no_meaning(&mut self, name: &str, span: Span, out: &mut Batch) -> Option<Typed> {
-        self.not_supported(name, "variable of the control", span, out);
+    /// A variable of the control of which the user states what it holds wherever the program reads it.
+    fn stated(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Typed> {
+        let text = src.text(place.span);
+        let name: String = text.chars().filter(|sign| !sign.is_whitespace()).collect();
+        let name = name.to_ascii_uppercase();
+        let elsewhere = &self.settings.dialect.program.variables_elsewhere;
+        if elsewhere.iter().any(|row| row.name == name && !row.left_out) {
+            out.whole = true;
+            return Some(Typed::new(Node::Var(Var::Common(name.into())), Kind::Real));
+        }
+        self.not_supported(&text, "variable of the control", place.span, out);
         None
     }
 

@@ -7,7 +7,9 @@
 //! programs see, of that subprogram alone: the call gives it the value of the caller's, which gets its value back behind
 //! the call. That is the same as long as the subprogram can reach the caller's variable in no other way.
 //!
-//! Refused by name: arrays and texts; for `VAR` a value that is no variable or is of another type, one that is left out,
+//! An array as such a parameter is one of these for each of its elements.
+//!
+//! Refused by name: texts, other arrays, computed indices of arrays that are the caller's own; for `VAR` a value that is no variable or is of another type, one that is left out,
 //! one variable twice, an R parameter that the subprogram uses by its own name, a call that is made several times, and
 //! subprograms that call themselves.
 
@@ -15,18 +17,18 @@ use std::collections::BTreeSet;
 
 use ncc_ir::canon::{self, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::{Expr, Node, Target, Var};
+use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_passes::flow::given_back;
 
 use super::calls::Handing;
-use super::computing::stored;
+use super::computing::{array, stored};
 use super::facts::Motion;
 use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::lower::Lower;
-use super::tree::{Expr as Tree, Parameter, Value};
+use super::tree::{Address, Expr as Tree, Parameter, Place, Value};
 use crate::Batch;
 use crate::word::Source;
 
@@ -45,9 +47,34 @@ struct Call {
     name: Text,
     at: Span,
     /// What is handed over; `None` where nothing is.
-    given: Vec<Option<Typed>>,
+    given: Vec<Option<Argument>>,
     /// Whether it is made after each move.
     modal: bool,
+}
+
+/// Where an element is kept of an array that is the caller's own.
+pub(super) fn element_of(reference: &Var, at: &[u32]) -> Var {
+    let mut name = reference.name().to_string();
+    at.iter().for_each(|at| name.push_str(&format!(".{at}")));
+    Var::Common(name.into())
+}
+
+/// The indices of all elements of an array, the last one fastest.
+pub(super) fn all_indices(sizes: &[u32]) -> Vec<Vec<u32>> {
+    let more = |all: Vec<Vec<u32>>, size: &u32| {
+        let with = |at: Vec<u32>| (0..*size).map(move |next| [&at[..], &[next]].concat());
+        all.into_iter().flat_map(with).collect()
+    };
+    sizes.iter().fold(vec![Vec::new()], more)
+}
+
+/// What a call hands over for one parameter.
+#[derive(Clone, Debug)]
+enum Argument {
+    /// A value.
+    One(Typed),
+    /// An array as a whole: its sizes, and its elements.
+    Array(Box<[u32]>, Vec<Typed>),
 }
 
 /// A parameter: its type, and its value where a call has none.
@@ -55,8 +82,10 @@ struct Call {
 struct Taken {
     kind: Kind,
     otherwise: Expr,
-    /// Where one is kept that is the caller's variable itself.
+    /// Where one is kept that is the caller's variable itself; of an array, what the names of its elements begin with.
     reference: Option<Var>,
+    /// Of an array.
+    sizes: Box<[u32]>,
 }
 
 /// What a call hands over.
@@ -64,7 +93,7 @@ struct Ready {
     at: Span,
     arguments: Vec<Expr>,
     /// The caller's variables that it gives, and where they are kept meanwhile.
-    back: Vec<(Var, Var)>,
+    back: Vec<(Target, Var)>,
 }
 
 impl Lower {
@@ -80,11 +109,13 @@ impl Lower {
             let Some(declared) = &parameter.name else { continue };
             let at = declared.place.span;
             let Some(kind) = self.kind_of(parameter.kind.name, at, src, out) else { continue };
-            if kind == Kind::Text || !declared.place.index.is_empty() {
-                self.not_supported(&src.text(at), "array or text as a parameter", at, out);
+            let alone = self.sub.is_none();
+            let by_value = !declared.place.index.is_empty() && !parameter.by_reference;
+            if kind == Kind::Text || by_value {
+                let name = if by_value { "array as a parameter without VAR" } else { "text as a parameter" };
+                self.not_supported(&src.text(at), name, at, out);
                 continue;
             }
-            let alone = self.sub.is_none();
             let otherwise = match &declared.initial {
                 _ if alone && (parameter.by_reference || declared.initial.is_some()) => {
                     let name = "VAR, or a first value, in a subprogram without its main program";
@@ -105,20 +136,26 @@ impl Lower {
                     None
                 }
             };
-            let var = self.new_scalar(&declared.place, kind, parameter.by_reference, src, out);
-            let (Some(var), Some(otherwise)) = (var, otherwise) else { continue };
+            let var = self.new_parameter(&declared.place, kind, parameter.by_reference, src, out);
+            let (Some((var, sizes)), Some(otherwise)) = (var, otherwise) else { continue };
             let reference = parameter.by_reference.then(|| var.clone());
-            vars.push(var);
-            taken.push(Taken { kind, otherwise, reference });
+            match sizes.is_empty() {
+                true => vars.push(var),
+                false => vars.extend(all_indices(&sizes).iter().map(|at| element_of(&var, at))),
+            }
+            taken.push(Taken { kind, otherwise, reference, sizes });
         }
+        let kinds = |taken: &[Taken]| {
+            taken.iter().flat_map(|taken| vec![stored(taken.kind); all_indices(&taken.sizes).len()]).collect()
+        };
         match &mut self.sub {
             Some(procedure) => {
-                procedure.kinds = taken.iter().map(|taken| stored(taken.kind)).collect();
+                procedure.kinds = kinds(&taken);
                 procedure.parameters = vars;
                 self.handed.parameters.push((procedure.name.clone(), taken));
             }
             None => {
-                let kinds = taken.iter().map(|taken| stored(taken.kind)).collect();
+                let kinds = kinds(&taken);
                 let name = src.text(name).to_ascii_uppercase().into();
                 let heading = Procedure { name, parameters: vars, kinds, ..Procedure::default() };
                 out.heading = Some(Box::new(heading));
@@ -136,23 +173,81 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<Vec<Expr>> {
         let all = match given {
-            Handing::AfterMove(given) => given.to_vec(),
+            Handing::AfterMove(given) => given.iter().map(|given| given.clone().map(Argument::One)).collect(),
             Handing::Written(given) => {
                 let mut all = Vec::with_capacity(given.len());
                 for argument in given {
                     all.push(match argument {
                         None => None,
-                        Some(argument) => Some(self.formula(argument, src, out)?),
+                        Some(argument) => Some(match self.whole_array(argument, src) {
+                            Some((sizes, elements)) => Argument::Array(sizes, elements),
+                            None => Argument::One(self.formula(argument, src, out)?),
+                        }),
                     });
                 }
                 all
             }
         };
         let nothing = || Expr::Node(Box::new(Node::Vacant));
-        let arguments = all.iter().map(|a| a.as_ref().map_or_else(nothing, |a| a.expr.clone())).collect();
+        let shown = |argument: &Option<Argument>| match argument {
+            Some(Argument::One(typed)) => typed.expr.clone(),
+            Some(Argument::Array(..)) | None => nothing(),
+        };
+        let arguments = all.iter().map(shown).collect();
         let modal = matches!(given, Handing::AfterMove(_));
         self.handed.calls.push(Call { name: name.into(), at, given: all, modal });
         Some(arguments)
+    }
+
+    /// A variable of the caller, or the element of an array of its own; `None` if it is refused (reported).
+    pub(super) fn of_caller(
+        &mut self,
+        var: Var,
+        sizes: &[u32],
+        place: &Place,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Var> {
+        if sizes.is_empty() {
+            return Some(var);
+        }
+        let mut found = Vec::with_capacity(sizes.len());
+        for (at, size) in self.indices(place, src, out)?.iter().zip(sizes) {
+            let Some(at) = at.literal() else {
+                let what = "computed index of an array that is the caller's own";
+                self.not_supported(&src.text(place.span), what, place.span, out);
+                return None;
+            };
+            match at.whole().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
+                Some(at) => found.push(at),
+                None => {
+                    return self.refuse(Fault::OutOfRange { word: src.text(place.span) }, place.span, out);
+                }
+            }
+        }
+        Some(element_of(&var, &found))
+    }
+
+    /// The elements of an array that an argument names as a whole.
+    pub(super) fn whole_array(&self, value: &Tree, src: Source) -> Option<(Box<[u32]>, Vec<Typed>)> {
+        let Tree::Place(place) = value else { return None };
+        let Address::Name(name) = place.address else { return None };
+        let name = src.text(name).to_ascii_uppercase();
+        let variable = self.variables.get(&*name)?;
+        if variable.sizes.is_empty() || !place.index.is_empty() {
+            return None;
+        }
+        let element = |at: Vec<u32>| {
+            let node = match &variable.reference {
+                Some(own) => Node::Var(element_of(own, &at)),
+                None => {
+                    let at = at.into_iter().map(|at| Expr::int(i64::from(at))).collect();
+                    Node::Element(Element { of: array(&name, &variable.sizes), at })
+                }
+            };
+            Typed::new(node, variable.kind)
+        };
+        Some((variable.sizes.clone(), all_indices(&variable.sizes).into_iter().map(element).collect()))
     }
 
     /// Notes what holds where further text begins. Of what was `before` it, what the state does not say is not known.
@@ -221,42 +316,58 @@ impl Lower {
             }
             let mut given = call.given.into_iter();
             let mut arguments = Vec::with_capacity(takes.len());
-            let mut back: Vec<(Var, Var)> = Vec::new();
+            let mut back: Vec<(Target, Var)> = Vec::new();
             for parameter in takes {
                 let value = given.next().flatten();
-                arguments.push(match (value, &parameter.reference) {
-                    (_, Some(_)) if call.modal => {
-                        let name = "caller's own variable in a call after each move".into();
-                        out.report(Fault::NotSupported { code: "VAR".into(), name }, call.at);
-                        Expr::int(0)
-                    }
-                    (value, Some(reference)) => {
-                        let var =
-                            value.as_ref().filter(|value| value.kind == parameter.kind).and_then(variable);
-                        match var {
-                            Some(var) if back.iter().any(|(other, _)| *other == var) => {
-                                let name = "one variable, given to two parameters";
-                                out.report(
-                                    Fault::NotSupported { code: "VAR".into(), name: name.into() },
-                                    call.at,
-                                );
-                            }
-                            Some(var) => back.push((var, reference.clone())),
-                            None => {
-                                let name = "parameter that is given no variable of its type";
-                                out.report(
-                                    Fault::NotSupported { code: "VAR".into(), name: name.into() },
-                                    call.at,
-                                );
-                            }
+                let refuse = |name: &str, out: &mut Batch| {
+                    out.report(Fault::NotSupported { code: "VAR".into(), name: name.into() }, call.at);
+                };
+                let Some(reference) = &parameter.reference else {
+                    arguments.push(match value {
+                        None => parameter.otherwise.clone(),
+                        Some(Argument::One(value)) => {
+                            self.converted(value, parameter.kind, call.at, out).unwrap_or(Expr::int(0))
                         }
-                        value.map_or(Expr::int(0), |value| value.expr)
+                        Some(Argument::Array(..)) => {
+                            let name = "array, given to a parameter that is none".into();
+                            out.report(Fault::NotSupported { code: call.name.clone(), name }, call.at);
+                            Expr::int(0)
+                        }
+                    });
+                    continue;
+                };
+                if call.modal {
+                    refuse("caller's own variable in a call after each move", out);
+                }
+                let (sizes, values) = match value {
+                    Some(Argument::One(value)) => (Box::default(), vec![value]),
+                    Some(Argument::Array(sizes, values)) => (sizes, values),
+                    None => (Box::default(), Vec::new()),
+                };
+                let places: Vec<Var> = match parameter.sizes.is_empty() {
+                    true => vec![reference.clone()],
+                    false => {
+                        all_indices(&parameter.sizes).iter().map(|at| element_of(reference, at)).collect()
                     }
-                    (None, None) => parameter.otherwise.clone(),
-                    (Some(value), None) => {
-                        self.converted(value, parameter.kind, call.at, out).unwrap_or(Expr::int(0))
+                };
+                let targets: Option<Vec<Target>> = values
+                    .iter()
+                    .map(|value| Some(value).filter(|value| value.kind == parameter.kind).and_then(variable))
+                    .collect();
+                let targets = targets.filter(|all| sizes == parameter.sizes && all.len() == places.len());
+                match targets {
+                    Some(all) if all.iter().any(|var| back.iter().any(|(other, _)| other == var)) => {
+                        refuse("one variable, given to two parameters", out);
                     }
-                });
+                    Some(all) => back.extend(all.into_iter().zip(places.iter().cloned())),
+                    None if parameter.sizes.is_empty() => {
+                        refuse("parameter that is given no variable of its type", out);
+                    }
+                    None => refuse("parameter that is given no array of its type and sizes", out),
+                }
+                let mut values = values.into_iter();
+                arguments
+                    .extend(places.iter().map(|_| values.next().map_or(Expr::int(0), |value| value.expr)));
             }
             if let Some(name) = refused(&call.name, &back, out) {
                 out.report(Fault::NotSupported { code: "VAR".into(), name: name.into() }, call.at);
@@ -269,17 +380,23 @@ impl Lower {
     }
 }
 
-/// The variable that an argument is.
-fn variable(value: &Typed) -> Option<Var> {
+/// The variable that an argument is, or the element of an array by its own number.
+fn variable(value: &Typed) -> Option<Target> {
     let Expr::Node(node) = &value.expr else { return None };
     match &**node {
-        Node::Var(var @ (Var::Local(_) | Var::Common(_))) => Some(var.clone()),
+        Node::Var(var @ (Var::Local(_) | Var::Common(_))) => Some(Target::Var(var.clone())),
+        Node::Element(element)
+            if matches!(element.of, Many::Array { .. })
+                && element.at.iter().all(|at| at.literal().is_some()) =>
+        {
+            Some(Target::Element(Box::new(element.clone())))
+        }
         _ => None,
     }
 }
 
 /// Why a call cannot give its caller's own variables; `None` if it can.
-fn refused(name: &Text, back: &[(Var, Var)], out: &Batch) -> Option<&'static str> {
+fn refused(name: &Text, back: &[(Target, Var)], out: &Batch) -> Option<&'static str> {
     if back.is_empty() {
         return None;
     }
@@ -303,7 +420,8 @@ fn refused(name: &Text, back: &[(Var, Var)], out: &Batch) -> Option<&'static str
     let mut found = false;
     for procedure in out.procedures.iter().filter(|p| p.name == *name || within.contains(&p.name)) {
         let mut one = |name: &str| {
-            found |= back.iter().any(|(var, _)| matches!(var, Var::Common(own) if may_be_one(own, name)));
+            let is_it = |own: &Target| matches!(own, Target::Var(Var::Common(own)) if may_be_one(own, name));
+            found |= back.iter().any(|(own, _)| is_it(own));
         };
         each(&procedure.body, &mut |stmt| match &stmt.op {
             Op::Assign(Target::Var(var), _) => one(&var.name()),
@@ -350,7 +468,7 @@ fn give(body: &mut Vec<Stmt>, ready: &[Ready], diags: &mut Vec<Diagnostic>) {
                 for (var, kept) in back {
                     let value = Expr::Node(Box::new(Node::Var(kept.clone())));
                     let was = &mut body[at - 1];
-                    let mut stmt = Stmt::new(was.span, Op::Assign(Target::Var(var.clone()), value));
+                    let mut stmt = Stmt::new(was.span, Op::Assign(var.clone(), value));
                     (stmt.joined, stmt.skip, stmt.comment) = (true, was.skip, was.comment.take());
                     body.insert(at, stmt);
                     at += 1;

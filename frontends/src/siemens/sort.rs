@@ -423,6 +423,14 @@ impl Lower {
             }
             Value::Qualified(Qualifier::Absolute, expr) => (Some(Distance::Absolute), expr),
             Value::Qualified(Qualifier::Incremental, expr) => (Some(Distance::Incremental), expr),
+            // The same function, without a wait for it.
+            Value::Qualified(Qualifier::Quick, expr) if src.bytes(span).first() == Some(&b'M') => {
+                if self.first_time("QU") {
+                    let (parameter, value) = ("QU of an M code".into(), "with a wait for it".into());
+                    out.report(Fault::AssumedParameter { parameter, value }, span);
+                }
+                (None, expr)
+            }
             Value::Qualified(qualifier, _) => {
                 let name = match qualifier {
                     Qualifier::Quick => "auxiliary function that is not waited for",

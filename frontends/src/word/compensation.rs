@@ -6,7 +6,7 @@
 //! the length in force. Codes of their own have the tool's diameter in that word. Not here: what controls refuse under
 //! compensation; that is execution's.
 
-use ncc_dialects::{BesideCompensation, Meaning, Quantity};
+use ncc_dialects::{BesideCompensation, Meaning, NO_RADIUS, Quantity, RADIUS_UNSAID};
 use ncc_ir::canon::Side;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
@@ -19,6 +19,16 @@ use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
 
+/// Entries of radii in the whole text, for a control that goes without compensation where none is named.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RadiusNamed {
+    /// Whether one was named so far.
+    named: bool,
+    /// Whether it was relied on that none is, in blocks that others call or come back to.
+    none_named: bool,
+    reported: bool,
+}
+
 impl Lower {
     /// Switches compensation on, and notes the entry that a word names.
     pub(super) fn compensation(&mut self, codes: &[Code], words: &mut Words, src: Source, out: &mut Batch) {
@@ -30,6 +40,9 @@ impl Lower {
         let letter = self.roles.radius_entry;
         let Some((code, side, stated)) = start else { return self.radius_alone(codes, words, src, out) };
         self.set_mode(code.meaning, out);
+        if let Some(word) = words.get(letter) {
+            self.names_radius(&word, src, out);
+        }
         if stated {
             return self.by_diameter(code, side, words, src, out);
         }
@@ -49,6 +62,7 @@ impl Lower {
             },
             None if letter == 0 => CutterRadius::InForce,
             None if code.row.own_tool => CutterRadius::Tool,
+            None if self.goes_without(code, out) => return,
             None => match &self.state.radius_entry {
                 Know::Said(entry) | Know::Taken(entry) => CutterRadius::Entry(entry.clone()),
                 Know::Lost => {
@@ -69,6 +83,37 @@ impl Lower {
             },
         };
         self.push(code.span, Op::StartCutterRadiusCompensation { side, radius }, out);
+    }
+
+    /// Whether a code of compensation without its entry compensates nothing, as the user states of the control. Where
+    /// something may have been before, no entry is named in the whole text.
+    fn goes_without(&mut self, code: &Code, out: &mut Batch) -> bool {
+        let may_be_named = match self.state.radius_entry {
+            Know::Said(_) | Know::Taken(_) => return false,
+            Know::Unsaid => false,
+            Know::Lost | Know::Open | Know::Callers => true,
+        };
+        if may_be_named && self.radius.named || self.settings.get(RADIUS_UNSAID) != NO_RADIUS {
+            return false;
+        }
+        if may_be_named {
+            self.radius.none_named = true;
+        }
+        if self.assume && !std::mem::replace(&mut self.radius.reported, true) {
+            let letter = char::from(self.roles.radius_entry);
+            let fault = Fault::CodeLeftOut { code: format!("{} without {letter}", code.row.code).into() };
+            out.report(fault, code.span);
+        }
+        true
+    }
+
+    /// Notes the entry of a radius. It is refused where the text before it was read as one without.
+    fn names_radius(&mut self, word: &Word, src: Source, out: &mut Batch) {
+        self.radius.named = true;
+        if self.radius.none_named {
+            let name = "entry of a radius, behind compensation that was taken for one without".into();
+            self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+        }
     }
 
     /// Refuses a code that the control does not take while compensation is on, as far as the text says that it is.
@@ -126,6 +171,7 @@ impl Lower {
             let name = "another radius where cutter radius compensation may be on".into();
             return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
         }
+        self.names_radius(&word, src, out);
         let _ = words.take(letter);
         if let Some(entry) = self.entry(&word, words, src, out) {
             self.state.radius_entry = kept(&entry);

@@ -20,6 +20,7 @@ use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::Block;
+use super::compensation::RadiusNamed;
 use super::computing::Computes;
 use super::doubts::ToolsNamed;
 use super::facts::{InForce, Know, State};
@@ -77,6 +78,7 @@ pub(super) struct Lower {
     pub(super) tip: Met,
     pub(super) tilt: Met,
     pub(super) tools: ToolsNamed,
+    pub(super) radius: RadiusNamed,
     /// Letters of rotary axes that the text has named so far, a bit each.
     pub(super) rotary_named: u32,
 }
@@ -250,6 +252,7 @@ impl Lower {
             tip: Met::default(),
             tilt: Met::default(),
             tools: ToolsNamed::default(),
+            radius: RadiusNamed::default(),
             rotary_named: 0,
         };
         lower.refresh();

@@ -3,7 +3,7 @@
 //! Refused by name: both while a cycle is in force, arcs and increments in machine coordinates, and
 //! points that the machine may have elsewhere than its option says.
 
-use ncc_dialects::{AT_ZERO, FURTHER_POINT, Meaning, STORED_POSITION};
+use ncc_dialects::{AT_ZERO, FURTHER_POINT, MACHINE_WITHOUT_AXIS, Meaning, NOTHING, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
@@ -88,6 +88,10 @@ impl Lower {
             // An axis word stands there, and was refused.
             return;
         }
+        if to.is_empty() && self.settings.get(MACHINE_WITHOUT_AXIS) == NOTHING {
+            let left_out = format!("{} without an axis", code.row.code).into();
+            return out.report(Fault::CodeLeftOut { code: left_out }, code.span);
+        }
         let mut refuse = |name: &str| {
             let code_text = code.row.code.as_str().into();
             self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
@@ -127,6 +131,10 @@ impl Lower {
             self.rely_on_frames(to.get(Axis::Z).is_some(), block, out);
         }
         self.push(code.span, Op::UseMachineCoordinates { length }, out);
+        if to.get(Axis::Z).is_some_and(|word| word.distance == Fact::Known(Distance::Absolute)) {
+            // Z is at a place of the machine, whatever the length.
+            self.state.level_open = false;
+        }
         let to = Move { to, said };
         self.push(block, if feeds { Op::StraightFeed(to) } else { Op::StraightTraverse(to) }, out);
     }

@@ -133,6 +133,15 @@ pub enum Family {
     Sinumerik,
 }
 
+/// A variable that no program defines: one of the control's definition files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ElsewhereRow {
+    /// Its name, in capitals.
+    pub name: String,
+    /// Its assignments have no effect on the cut, and are left out.
+    pub left_out: bool,
+}
+
 /// The frame of a program's text.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -191,6 +200,9 @@ pub struct ProgramRules {
     /// Programs whose calls are left out, as the user states: no key of a dictionary.
     #[serde(skip)]
     pub calls_left_out: Vec<String>,
+    /// Variables of definition files, in capitals, as the user states them: no key of a dictionary.
+    #[serde(skip)]
+    pub variables_elsewhere: Vec<ElsewhereRow>,
     /// Who says so.
     pub source: String,
 }

@@ -97,6 +97,18 @@ pub const STORED_POSITION: &str = "stored_position";
 /// Option of a dictionary: where the second and further reference points are: `zero`, the machine's zero.
 pub const FURTHER_POINT: &str = "further_point";
 
+/// Option of a dictionary: what cutter radius compensation does where no entry of a radius has been programmed.
+pub const RADIUS_UNSAID: &str = "radius_without_d";
+
+/// Value of [`RADIUS_UNSAID`]: the moves go without compensation.
+pub const NO_RADIUS: &str = "none";
+
+/// Option of a dictionary: what machine coordinates do in a block without an axis word.
+pub const MACHINE_WITHOUT_AXIS: &str = "g53_without_axis";
+
+/// Value of [`MACHINE_WITHOUT_AXIS`]: no axis moves.
+pub const NOTHING: &str = "nothing";
+
 /// Value of these options: the machine's zero.
 pub const AT_ZERO: &str = "zero";
 

@@ -97,7 +97,7 @@ impl Arguments<'_> {
         (from..before.min(self.given.len())).all(|place| match self.given[place] {
             Argument::Empty => true,
             Argument::Number(number, _) => number == 0.0,
-            Argument::Text => false,
+            Argument::Text | Argument::Array(_) => false,
         })
     }
 }

@@ -9,7 +9,7 @@ use super::formula::same;
 use super::frame::Frame;
 use super::shape;
 use super::text::{self, Argument, Block, Item, Reader, Unit};
-use super::variables::{self, Kind, Known, Place, Worth};
+use super::variables::{self, Given, Kind, Known, Place, Worth};
 use super::{Control, Motion, Next, Words};
 
 /// Settable frames.
@@ -351,9 +351,10 @@ impl<'a> Control<'a> {
         for argument in arguments {
             given.push(match argument {
                 Argument::Empty => None,
-                Argument::Number(number, None) => Some((Worth::Number(*number, Kind::Real), None)),
+                Argument::Number(number, None) => Some(Given::One(Worth::Number(*number, Kind::Real), None)),
+                Argument::Array(name) => self.variables.array(name),
                 Argument::Number(_, Some(place)) => match self.variables.get(place) {
-                    Ok(value) => Some((value, Some(place.clone()))),
+                    Ok(value) => Some(Given::One(value, Some(place.clone()))),
                     Err(why) => return self.m.halt(why),
                 },
                 Argument::Text => return self.m.halt("a text for a subprogram"),

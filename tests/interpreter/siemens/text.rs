@@ -73,6 +73,8 @@ pub(super) enum Argument {
     Empty,
     /// With its place, if it is a variable alone.
     Number(f64, Option<Place>),
+    /// An array as a whole, by its name.
+    Array(String),
     Text,
 }
 
@@ -428,6 +430,8 @@ impl<'t> Reader<'t> {
             // Which way round an axis goes leads to the same angle.
             Some("AC" | "DC" | "ACP" | "ACN") => Mark::Absolute,
             Some("IC") => Mark::Incremental,
+            // An auxiliary function that is not waited for.
+            Some("QU") => Mark::None,
             _ => {
                 self.at = start;
                 return Ok(Value { number: self.amount()?, mark: Mark::None });
@@ -473,6 +477,7 @@ impl<'t> Reader<'t> {
                     let named = self.name().is_some();
                     if named { Argument::Text } else { return Err("a name of one sign".into()) }
                 }
+                _ if let Some(name) = self.array_alone() => Argument::Array(name),
                 _ => match self.expression()? {
                     Worth::Number(number, _) => Argument::Number(number, self.only_place(start)),
                     Worth::Text(text) if text.is_empty() => Argument::Empty,

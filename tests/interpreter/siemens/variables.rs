@@ -48,6 +48,15 @@ pub(super) enum Place {
     Of(String, usize),
 }
 
+/// What a call gives.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Given {
+    /// A value, with its place if it is a variable alone.
+    One(Worth, Option<Place>),
+    /// An array.
+    Array { name: String, kind: Kind, sizes: Vec<usize>, values: Vec<Worth> },
+}
+
 /// A variable that a program has defined.
 #[derive(Clone, Debug)]
 struct Variable {
@@ -125,9 +134,8 @@ impl Variables {
     }
 
     /// And is over; what it had of its caller's is there again.
-    pub(super) fn leave(&mut self, references: &[(String, Place)]) -> Result<(), String> {
-        let values: Result<Vec<Worth>, String> =
-            references.iter().map(|(name, _)| self.get(&Place::Of(name.clone(), 0))).collect();
+    pub(super) fn leave(&mut self, references: &[(Place, Place)]) -> Result<(), String> {
+        let values: Result<Vec<Worth>, String> = references.iter().map(|(own, _)| self.get(own)).collect();
         let values = values?;
         self.own.pop();
         for ((_, place), value) in references.iter().zip(values) {
@@ -197,6 +205,12 @@ impl Variables {
         Ok(Place::Of(name.to_owned(), before))
     }
 
+    /// An array as a whole.
+    pub(super) fn array(&self, name: &str) -> Option<Given> {
+        let Variable { kind, sizes, values } = self.innermost().get(name)?.clone();
+        Some(Given::Array { name: name.to_owned(), kind: kind?, sizes, values })
+    }
+
     /// How many places an array has from one on; nothing of what is no array.
     fn places_from(&self, place: &Place) -> Option<usize> {
         let Place::Of(name, at) = place else { return None };
@@ -254,9 +268,9 @@ pub(super) fn definitions(text: &[char], variables: &mut Variables) -> Result<()
 /// begins; the values of those with VAR are the caller's own (Job planning, 1.19), by their places among the arguments.
 pub(super) fn parameters(
     text: &[char],
-    given: &[Option<(Worth, Option<Place>)>],
+    given: &[Option<Given>],
     variables: &mut Variables,
-) -> Result<Vec<(String, Place)>, String> {
+) -> Result<Vec<(Place, Place)>, String> {
     let none = Variables::default();
     let mut reader = Reader::new(text, &none);
     reader.blanks();
@@ -279,21 +293,45 @@ pub(super) fn parameters(
             reader.blanks();
             let name = reader.name().ok_or("a parameter without a name")?;
             reader.blanks();
-            if reader.peek(0) == '[' {
-                return Err("an array as a parameter".into());
+            let sizes: Vec<usize> = reader.indices()?.into_iter().map(|size| size as usize).collect();
+            let argument = given.get(taken).cloned().flatten();
+            if !sizes.is_empty() {
+                // The caller's own, element by element.
+                let Some(Given::Array { name: from, kind: same, sizes: given, values }) = argument else {
+                    return Err("an array, and none is given".into());
+                };
+                if !by_reference || same != kind || given != sizes {
+                    return Err("an array by value, or of another type or size".into());
+                }
+                variables.define(name.clone(), Some(kind), sizes)?;
+                let own = |at| (Place::Of(name.clone(), at), Place::Of(from.clone(), at));
+                references.extend((0..values.len()).map(own));
+                let values: Vec<Option<Worth>> = values.into_iter().map(Some).collect();
+                variables.set(&Place::Of(name, 0), &values)?;
+                taken += 1;
+                if reader.take(')') {
+                    break;
+                }
+                if !reader.take(',') {
+                    return Err("parameters without an end".into());
+                }
+                continue;
             }
             let otherwise = if reader.take('=') { Some(reader.expression()?) } else { None };
             variables.define(name.clone(), Some(kind), Vec::new())?;
-            let argument = given.get(taken).cloned().flatten();
             if by_reference {
                 match argument.clone() {
-                    Some((Worth::Number(_, same), Some(place))) if same == kind => {
-                        references.push((name.clone(), place));
+                    Some(Given::One(Worth::Number(_, same), Some(place))) if same == kind => {
+                        references.push((Place::Of(name.clone(), 0), place));
                     }
                     _ => return Err("VAR, and no variable of that type is given".into()),
                 }
             }
-            let value = argument.map(|(value, _)| value).or(otherwise);
+            let value = match argument {
+                Some(Given::One(value, _)) => Some(value),
+                Some(Given::Array { .. }) => return Err("an array for one variable".into()),
+                None => otherwise,
+            };
             variables.set(&Place::Of(name, 0), &[value])?;
             taken += 1;
             if reader.take(')') {
@@ -329,6 +367,20 @@ impl Reader<'_> {
             }
         }
         Ok(at)
+    }
+
+    /// The name of an array that is an argument as a whole; nothing is read where there is none.
+    pub(super) fn array_alone(&mut self) -> Option<String> {
+        let start = self.at;
+        let name = self.name().filter(|name| {
+            self.variables.innermost().get(name).is_some_and(|variable| !variable.sizes.is_empty())
+        });
+        self.blanks();
+        let alone = matches!(self.peek(0), ',' | ')');
+        if name.is_none() || !alone {
+            self.at = start;
+        }
+        name.filter(|_| alone)
     }
 
     /// The place of a variable that stands from there to here alone, between commas.

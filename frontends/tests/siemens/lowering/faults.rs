@@ -32,7 +32,7 @@ fn what_is_computed_and_has_no_meaning() {
     refused("R1=AXNAME(1)", "AXNAME", "function of the language", "AXNAME(1)");
     refused("R1=SIN(1,2)", "SIN(1,2)", "function of another number of arguments", "SIN(1,2)");
     refused("R1=X", "X", "axis or address as a value", "X");
-    refused("R1=$MA_JOG[X]", "$MA_JOG", "variable of the control", "$MA_JOG[X]");
+    refused("R1=$MA_JOG[X]", "$MA_JOG[X]", "variable of the control", "$MA_JOG[X]");
     refused("R1=5 X=R1", "R1=5 X=R1", "word that reads a variable which its own block sets", "R1=5 X=R1");
     refused(
         "X=R[2] R[R1]=5",
@@ -81,7 +81,7 @@ fn words_that_are_known_and_not_translated() {
         "CYCLE832(0.01,112001)",
     );
     refused("CYCLE832(0.01,1,0.5)", "CYCLE832", "tolerance of the orientation", "CYCLE832(0.01,1,0.5)");
-    refused("M=QU(7)", "M=QU(7)", "auxiliary function that is not waited for", "M=QU(7)");
+    refused("S=QU(7)", "S=QU(7)", "auxiliary function that is not waited for", "S=QU(7)");
     refused("H5", "H5", "auxiliary function", "H5");
     refused("FA[X]=100", "FA", "feed of an axis", "FA[X]=100");
     refused("SPOSA=90", "SPOSA", "spindle positioning", "SPOSA=90");

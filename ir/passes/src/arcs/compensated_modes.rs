@@ -43,6 +43,8 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct State {
     /// Whether compensation is on, or may be.
     pub(crate) on: bool,
+    /// The switch for skipped blocks that alone decides about that: the level of the blocks that start it.
+    level_on: Option<u8>,
     /// What the target refuses there, and the source does not.
     pub(crate) refused: Refused,
     /// The active path mode, return level and work offset, where they are known.
@@ -57,7 +59,7 @@ pub(crate) struct State {
 impl State {
     /// Where control comes from elsewhere, and this holds.
     pub(crate) fn enter(&mut self, at: &Tracker, path: Option<&PathControl>) {
-        self.on = at.compensated;
+        (self.on, self.level_on) = (at.compensated, None);
         self.path = path.cloned();
         (self.level, self.work) = (at.modes.return_level, at.modes.work_offset);
     }
@@ -128,12 +130,13 @@ pub(crate) fn over(
                 if state.acts_behind {
                     (stmt.joined, state.acts_behind) = (false, false);
                 }
+                state.level_on = stmt.skip.filter(|own| !state.on || state.level_on == Some(*own));
                 state.on = true;
                 return made.push(stmt);
             }
             Op::StopCutterRadiusCompensation => {
-                // In a block that may be skipped it may stay on.
-                state.on &= stmt.skip.is_some();
+                // In a block that may be skipped it may stay on, but where the same switch has skipped its start.
+                state.on &= stmt.skip.is_some() && state.level_on != stmt.skip;
                 state.stopped = true;
                 return made.push(stmt);
             }

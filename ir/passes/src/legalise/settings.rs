@@ -76,9 +76,11 @@ impl Legaliser {
     }
 
     /// Sets the side effects of codes on the source's control. The passes compare them with the target's.
-    pub fn set_source_behaviours(&mut self, source: Behaviours) {
+    /// `by_hand`: its operator changes tools, and sets Z anew for each.
+    pub fn set_source_behaviours(&mut self, source: Behaviours, by_hand: bool) {
         let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
-        self.walk.at.z_lost_at_change = up(&source) || up(&self.target.caps.behaviours);
+        let caps = &self.target.caps;
+        self.walk.at.z_lost_at_change = up(&source) || up(&caps.behaviours) || by_hand || caps.change_by_hand;
         self.target.caps.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
         self.target.source = source;
         self.feed_again = feed_unit::says_again(&self.target);

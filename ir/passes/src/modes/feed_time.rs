@@ -59,6 +59,10 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct State {
     /// What the feed counts in the source, where the output has another feed.
     by_time: Option<FeedMode>,
+    /// Whether the source has said that mode again since, so that F alone is missing.
+    mode_said: bool,
+    /// F of the source, which its unit and its mode need not take away where they are said again.
+    feed: Option<Num>,
     /// The tool's tip is controlled.
     tip: bool,
     /// Whether it was told that moves are written by time.
@@ -103,7 +107,7 @@ impl State {
 
     /// A subprogram begins.
     pub(crate) fn enter(&mut self) {
-        (self.enters, self.by_time) = (true, None);
+        (self.enters, self.by_time, self.mode_said) = (true, None, false);
     }
 
     /// Follows statements that do not concern it.
@@ -141,6 +145,15 @@ pub(crate) fn over(
             state.tip = on;
         }
         walk.step(&stmt);
+        let again = match &stmt.op {
+            Op::SetFeedMode(mode) => before.modes.feed_mode == Some(*mode),
+            Op::UseLengthUnits(units) => before.modes.units == Some(*units),
+            _ => false,
+        };
+        if again {
+            // Said again, they leave F as it is.
+            walk.at.feed = walk.at.feed.or(before.feed);
+        }
         match &stmt.op {
             Op::StraightFeed(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
                 match line(&m.to, &before, target) {
@@ -169,8 +182,13 @@ pub(crate) fn over(
                     diags.push(Diagnostic::new(fault, stmt.span));
                 }
             }
-            Op::SetFeedRate(_) if state.by_time.is_some() => return made.leave_out(stmt),
-            Op::SetFeedMode(_) => state.by_time = None,
+            Op::SetFeedRate(_) if state.by_time.is_some() => {
+                state.feed = walk.at.feed;
+                return made.leave_out(stmt);
+            }
+            // The same mode again: F counts as before, and the target has that of the time.
+            Op::SetFeedMode(mode) if state.by_time == Some(*mode) => state.mode_said = true,
+            Op::SetFeedMode(_) => (state.by_time, state.mode_said) = (None, false),
             Op::StraightFeed(_)
             | Op::ArcFeed(_)
             | Op::ArcForm(_)
@@ -196,12 +214,14 @@ impl State {
         if let Some(stated) = stated {
             (stmt.joined, stmt.number) = (stated.joined, stated.number.or(stmt.number));
         }
-        if self.by_time.is_none() {
+        if self.by_time.is_none() || self.mode_said {
             self.by_time = before.modes.feed_mode;
+            self.mode_said = false;
             if target.caps.feed_by_time {
                 said.push(Op::SetFeedMode(FeedMode::InverseTime));
             }
         }
+        self.feed = before.feed.or(self.feed);
         said.push(Op::SetFeedRate(time.into()));
         put_before(stmt, said, made);
     }
@@ -210,10 +230,12 @@ impl State {
     fn back(&mut self, stmt: &mut Stmt, before: &Tracker, target: &Target, made: &mut Rebuild) {
         let Some(mode) = self.by_time.take() else { return };
         let mut said = Vec::new();
-        if target.caps.feed_by_time {
+        if target.caps.feed_by_time && !self.mode_said {
             said.push(Op::SetFeedMode(mode));
         }
-        if let Some(feed) = before.feed.filter(|_| !matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain)) {
+        self.mode_said = false;
+        let feed = before.feed.or(self.feed);
+        if let Some(feed) = feed.filter(|_| !matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain)) {
             said.push(Op::SetFeedRate(feed.into()));
         }
         put_before(stmt, said, made);

@@ -20,6 +20,7 @@
 mod again;
 mod arc_feed;
 mod beside;
+mod cycle_at_change;
 mod insert;
 mod joins;
 mod kinds;
@@ -43,6 +44,7 @@ use ncc_ir::source::Span;
 
 use arc_feed::{compensated, states};
 use beside::{OPTIONAL_STOP, STOP_BESIDE, stands_alone};
+use cycle_at_change::Cycle;
 use insert::{insert, insertion};
 use joins::{KeepsLength, LeftAtPlace, Length, either, only_sense};
 use kinds::{at_end, commands_z, cuts, is_code, is_zero, starts_spindle, switches};
@@ -114,6 +116,8 @@ pub struct SideEffects {
     stopped_in_words: bool,
     /// The statement that began the block at hand was left out.
     opens: bool,
+    /// The canned cycle, at a tool change.
+    cycle: Cycle,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -162,6 +166,7 @@ impl SideEffects {
             lost_stop: None,
             stopped_in_words: false,
             opens: false,
+            cycle: Cycle::default(),
         }
     }
 
@@ -187,6 +192,7 @@ impl SideEffects {
                 && (self.again.iter().any(Option::is_some)
                     || self.lost_stop.is_some()
                     || self.length_next.is_some()
+                    || self.cycle.is_busy()
                     || self.states_arc_feed(stmts)
                     || stmts.iter().any(|stmt| is_code(&stmt.op)))
     }
@@ -209,6 +215,7 @@ impl SideEffects {
                 self.length_next = None;
             }
             self.tools.before(&stmt, &mut made);
+            self.needs_cycle(&stmt.op, diags);
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, (stmt.span, false));
                 if let Some(at) = control.bodies().find_map(|body| compensated(body)) {
@@ -314,6 +321,7 @@ impl SideEffects {
             Op::OptionalProgramStop => self.switch(STOP, true, &mut stmt, made, diags),
             Op::ChangeTool => {
                 self.tools.change([&self.source, &self.target], &mut stmt, made, diags);
+                self.cancel_cycle(&mut stmt, made);
                 self.switch(CHANGE, false, &mut stmt, made, diags);
                 self.go_home(&mut stmt, made, diags);
             }
@@ -373,11 +381,14 @@ impl SideEffects {
                     self.again[at] = Some((behaviour, ops.clone()));
                 } else if !optional {
                     *state = stopped.clone();
+                    self.again[at].take_if(|_| stopped == Switch::Off);
                 }
                 continue;
             }
             if source_stops && !optional {
                 *state = stopped.clone();
+                // What an optional stop before it has switched off stays off after it.
+                self.again[at].take_if(|_| stopped == Switch::Off);
                 continue;
             }
             // The source surely lets it go on, or usually; a spindle that turns over a change is refused elsewhere.
@@ -542,6 +553,7 @@ impl SideEffects {
     fn note(&mut self, stmt: &Stmt) {
         let sure = stmt.skip.is_none();
         self.tools.note(stmt);
+        self.cycle.note(stmt);
         self.stopped_in_words &= !starts_spindle(&stmt.op);
         let [spindle, coolant] = &mut self.again;
         match &stmt.op {

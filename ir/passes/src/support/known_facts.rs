@@ -484,9 +484,16 @@ impl Flow<'_> {
 
     fn body(&mut self, body: &mut [Stmt], mut state: Option<Held>) -> Option<Held> {
         let mut begins = true;
+        // Blocks in a row with one level are skipped together: the level, and what holds before them.
+        let mut skipped: Option<(u8, Option<Held>)> = None;
         for stmt in body {
-            let before = state.clone();
             let flow = matches!(stmt.op, flow!());
+            if let Some((_, before)) = skipped.take_if(|(level, _)| flow || stmt.skip != Some(*level)) {
+                meet(&mut state, before.as_ref());
+            }
+            if let (None, Some(level)) = (&skipped, stmt.skip) {
+                skipped = Some((level, state.clone()));
+            }
             self.called = !begins && self.called;
             if let (true, false, true) = (begins, flow, self.settles) {
                 let known = state.as_ref().unwrap_or(&self.text);
@@ -505,9 +512,12 @@ impl Flow<'_> {
             }
             begins = flow;
             state = self.stmt(stmt, state);
-            if stmt.skip.is_some() {
+            if let Some((_, before)) = skipped.take_if(|_| flow) {
                 meet(&mut state, before.as_ref());
             }
+        }
+        if let Some((_, before)) = skipped {
+            meet(&mut state, before.as_ref());
         }
         state
     }

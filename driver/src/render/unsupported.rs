@@ -1,0 +1,62 @@
+//! What to type where a code is not supported.
+
+use ncc_dialects::{Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID};
+
+/// The ways out of a block of which `name` says what is not supported; `code` is its text.
+pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
+    let own = |text: &str| vec![text.to_owned()];
+    match name {
+        _ if name.starts_with("return in the main program") => vec![
+            "to run it once: delete this block, and end the program with M30".into(),
+            "if another program calls this one: delete the M30, and give it a number of its own".into(),
+        ],
+        "machine coordinates without an axis word" => {
+            let delete = format!("delete `{code}`, or add the axis that moves: no axis is in its block");
+            let option = from.option.iter().any(|row| row.name == MACHINE_WITHOUT_AXIS);
+            let nothing =
+                format!("if no axis moves on the control: `--from-option {MACHINE_WITHOUT_AXIS}={NOTHING}`");
+            std::iter::once(delete).chain(option.then_some(nothing)).collect()
+        }
+        "variable of the control" => vec![format!(
+            "state what it holds, if that is the same wherever the program reads it: `--value '{code}=NUMBER'`"
+        )],
+        _ if name.ends_with(" while a cycle is in force") => {
+            own("write `G80` before this block: a call or a jump may lead here with a cycle active")
+        }
+        _ if name.starts_with("computed feed that may count") => own(
+            "`--from-option feed_unit=inch` or `feed_unit=mm`: the basic system of the machine, which F counts where lengths \
+             are those of G70 or G71",
+        ),
+        "variable that the program does not define" => vec![
+            format!("state what it holds at the start, if a definition file has it: `--value {code}=NUMBER`"),
+            format!(
+                "if only programs of the control read it, leave its assignments out: `--value {code}=drop`"
+            ),
+        ],
+        "D of a block before, of which entry is not known here" => {
+            let write = format!(
+                "write the D number of the tool's radius in this block: for example `{code} D1` for entry 1"
+            );
+            let goes_without = from.option.iter().any(|row| row.name == RADIUS_UNSAID);
+            std::iter::once(write).chain(goes_without.then(without_radius)).collect()
+        }
+        "data input for an entry whose number only the running program knows" => {
+            own("write the number of the entry in its place: for example `P1`")
+        }
+        "VAR, or a first value, in a subprogram without its main program" => {
+            own("translate the program that calls this one: `-I FOLDER` finds both")
+        }
+        "pocket milling" => own(POCKET),
+        _ if name.starts_with("circular pocket") => own(POCKET),
+        _ => own("write this place another way, or see to it by hand"),
+    }
+}
+
+/// The option for a control that goes without compensation where no radius is named.
+pub(super) fn without_radius() -> String {
+    format!("if the control goes without compensation here: `--from-option {RADIUS_UNSAID}={NO_RADIUS}`")
+}
+
+/// Cycles of which the control computes the path.
+const POCKET: &str =
+    "the control computes this path by itself: post the pocket as moves, with `G01`, `G02` and `G03`";
