@@ -1,18 +1,10 @@
 //! Charts over time, one below the other with one axis of time.
 
-use plotters::chart::{ChartBuilder, ChartContext};
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::element::Rectangle;
-use plotters::style::{Color, RGBColor};
-use plotters::{backend::SVGBackend, style::WHITE};
-
-use crate::axis::Axis;
-use crate::ink::{self, BLACK, CURVE, GREY, GRID, Ink, PAIR};
+use crate::frame::{Axis, Frame};
+use crate::ink::{self, BLACK, CURVE, GREY, Ink, PAIR};
 use crate::record::Record;
 use crate::series::Series;
-use crate::sheet::{
-    Anchor, Area, Layer, UNIT, Undrawn, about_wide, cut, sheet, style, units, write, write_bold, write_up,
-};
+use crate::sheet::{Anchor, Face, Sheet, Style, UNIT, about_wide, cut, units};
 use crate::ticks::{clock, clock_marks, duration, in_seconds, marks, number, power_marks};
 
 /// What a chart shows over time.
@@ -54,8 +46,6 @@ const SIZE: f64 = 12.0;
 /// From so many points on, curves are hairs.
 const CLOSE: usize = 2500;
 
-type Frame<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>;
-
 /// One frame of the page.
 struct Panel<'r> {
     title: String,
@@ -74,10 +64,7 @@ enum Show<'r> {
 
 /// Charts of one program, or of two over each other, as SVG. A caption says what they are of: the
 /// machine, the model, what is taken for granted.
-///
-/// # Errors
-/// As plotters says.
-pub fn charts(records: &[&Record], which: &[Chart], caption: &str) -> Result<String, Undrawn> {
+pub fn charts(records: &[&Record], which: &[Chart], caption: &str) -> String {
     let panels = panels(records, which);
     let all: f64 = panels.iter().map(|panel| panel.height + GAP).sum();
     let keys = if records.len() > 1 { 20.0 } else { 0.0 };
@@ -87,32 +74,36 @@ pub fn charts(records: &[&Record], which: &[Chart], caption: &str) -> Result<Str
     let begin = if begin.is_finite() { begin } else { 0.0 };
     // A program that takes no time still has an axis.
     let span = (begin, if end > begin { end } else { begin + 1.0 });
-    sheet((WIDTH as i32, height.ceil() as i32), |area, layer| {
-        heading(area, layer, records, caption)?;
-        let mut top = TOP + keys;
-        for (i, panel) in panels.iter().enumerate() {
-            draw(area, layer, panel, top, span, i + 1 == panels.len())?;
-            top += panel.height + GAP;
-        }
-        Ok(())
-    })
+    let mut sheet = Sheet::new(WIDTH as i32, height.ceil() as i32);
+    heading(&mut sheet, records, caption);
+    let mut top = TOP + keys;
+    for (i, panel) in panels.iter().enumerate() {
+        draw(&mut sheet, panel, top, span, i + 1 == panels.len());
+        top += panel.height + GAP;
+    }
+    sheet.finish()
 }
 
-fn heading(area: &Area<'_>, layer: &mut Layer, records: &[&Record], caption: &str) -> Result<(), Undrawn> {
+/// Looks of a level text.
+fn style(size: f64, color: &'static str, anchor: Anchor) -> Style {
+    Style { size, color, anchor, face: Face::Plain }
+}
+
+fn heading(sheet: &mut Sheet, records: &[&Record], caption: &str) {
     let names: Vec<&str> = records.iter().map(|record| record.name.as_str()).collect();
     let title = cut(&names.join(" and "), 17.0, WIDTH - 40.0);
-    write_bold(area, &title, (20.0, 22.0), 17.0)?;
+    sheet.text(&title, (20.0, 22.0), Style { face: Face::Bold, ..style(17.0, BLACK, Anchor::Left) });
     let long = match records {
         [one] => format!("{} \u{b7} {caption}", duration(one.end - one.begin)),
         _ => caption.to_owned(),
     };
-    write(area, &cut(&long, SIZE, WIDTH - 40.0), (20.0, 44.0), style(SIZE, GREY, Anchor::Left))?;
-    let [a, b] = records else { return Ok(()) };
+    sheet.text(&cut(&long, SIZE, WIDTH - 40.0), (20.0, 44.0), style(SIZE, GREY, Anchor::Left));
+    let [a, b] = records else { return };
     let mut at = 20.0;
     for (record, ink) in [a, b].into_iter().zip(PAIR) {
         let text = format!("{}: {}", cut(&record.name, SIZE, 260.0), duration(record.end - record.begin));
-        layer.curve("key", ink, &[vec![units((at, 66.0)), units((at + 28.0, 66.0))]]);
-        write(area, &text, (at + 35.0, 66.0), style(SIZE, BLACK, Anchor::Left))?;
+        sheet.curve("key", ink, &[vec![units((at, 66.0)), units((at + 28.0, 66.0))]]);
+        sheet.text(&text, (at + 35.0, 66.0), style(SIZE, BLACK, Anchor::Left));
         at += 60.0 + about_wide(&text, SIZE);
     }
     let later = (b.end - b.begin) - (a.end - a.begin);
@@ -124,7 +115,7 @@ fn heading(area: &Area<'_>, layer: &mut Layer, records: &[&Record], caption: &st
         _ => "+",
     };
     let text = format!("difference {sign}{long}");
-    write(area, &text, (at, 66.0), style(SIZE, BLACK, Anchor::Left))
+    sheet.text(&text, (at, 66.0), style(SIZE, BLACK, Anchor::Left));
 }
 
 fn panels<'r>(records: &'r [&'r Record], which: &[Chart]) -> Vec<Panel<'r>> {
@@ -253,73 +244,51 @@ pub(crate) fn tool_name(tool: i64) -> String {
     if tool < 0 { "first".to_owned() } else { format!("T{tool}") }
 }
 
-fn draw(
-    area: &Area<'_>,
-    layer: &mut Layer,
-    panel: &Panel<'_>,
-    top: f64,
-    span: (f64, f64),
-    last: bool,
-) -> Result<(), Undrawn> {
+fn draw(sheet: &mut Sheet, panel: &Panel<'_>, top: f64, span: (f64, f64), last: bool) {
     let across = WIDTH - LEFT - RIGHT;
     let scale = Scale::of(panel);
     let (x_marks, x_step) = clock_marks(span.0, span.1, 10);
     let long = span.1;
-    let below = if last { 24.0 } else { 0.0 };
-    let part = area.clone().shrink(
-        units((0.0, top)),
-        (((WIDTH - RIGHT) * f64::from(UNIT)) as u32, ((panel.height + below) * f64::from(UNIT)) as u32),
-    );
-    let mut frame: Frame<'_> = ChartBuilder::on(&part)
-        .x_label_area_size((below * f64::from(UNIT)) as i32)
-        .y_label_area_size((LEFT * f64::from(UNIT)) as i32)
-        .build_cartesian_2d(
-            Axis { low: span.0, high: span.1, marks: x_marks },
-            Axis { low: scale.low, high: scale.high, marks: scale.marks.clone() },
-        )?;
-    let words = |value: &f64| scale.words(*value);
-    let times = |value: &f64| clock(*value, x_step, long);
-    let size = f64::from(UNIT) * SIZE * 1.24;
-    frame
-        .configure_mesh()
-        .bold_line_style(GRID.stroke_width(UNIT as u32 * 8 / 10))
-        .light_line_style(WHITE.mix(0.0))
-        .axis_style(GREY.stroke_width(UNIT as u32))
-        .set_all_tick_mark_size(4 * UNIT)
-        .label_style(("sans-serif", size, &BLACK))
-        .x_label_formatter(&times)
-        .y_label_formatter(&words)
-        .draw()?;
-    write_up(area, &panel.title, (18.0, top + panel.height / 2.0), SIZE)?;
+    let ((left, upper), (right, lower)) = (units((LEFT, top)), units((WIDTH - RIGHT, top + panel.height)));
+    let frame = Frame {
+        across: (left, right),
+        down: (upper, lower),
+        x: Axis { low: span.0, high: span.1, marks: x_marks },
+        y: Axis { low: scale.low, high: scale.high, marks: scale.marks.clone() },
+    };
+    let times = |value: f64| clock(value, x_step, long);
+    // All frames have one axis of time, below the last.
+    frame.draw(sheet, if last { Some(&times) } else { None }, &|value| scale.words(value));
+    let upwards = Style { face: Face::Upwards, ..style(SIZE, BLACK, Anchor::Middle) };
+    sheet.text(&panel.title, (18.0, top + panel.height / 2.0), upwards);
     if last {
         let unit = if in_seconds(long) { "Time (s)" } else { "Time (h:mm:ss)" };
         let at = (LEFT + across / 2.0, top + panel.height + 40.0);
-        write(area, unit, at, style(SIZE, BLACK, Anchor::Middle))?;
+        sheet.text(unit, at, style(SIZE, BLACK, Anchor::Middle));
     }
     match &panel.show {
         Show::Curves { curves, .. } => {
             for (i, (name, ink, series)) in curves.iter().enumerate() {
                 let line = series.polyline(span.1.min(series_end(series, span.1)));
-                let place = |&(time, value): &(f64, f64)| frame.backend_coord(&(time, scale.at(value)));
+                let place = |&(time, value): &(f64, f64)| frame.place((time, scale.at(value)));
                 let class = if name.is_empty() { format!("curve p{i}") } else { format!("curve {name}") };
                 // Where a curve goes up and down in every pixel, a hair shows more.
                 let width = if line.len() > CLOSE { ink.width * 0.5 } else { ink.width };
-                layer.curve(&class, Ink { width, ..*ink }, &[line.iter().map(place).collect()]);
+                sheet.curve(&class, Ink { width, ..*ink }, &[line.iter().map(place).collect()]);
                 if !name.is_empty() {
                     let y = top + 14.0 + 18.0 * i as f64;
                     let x = WIDTH - RIGHT + 10.0;
-                    layer.curve("key", *ink, &[vec![units((x, y)), units((x + 26.0, y))]]);
-                    write(area, name, (x + 32.0, y), style(SIZE, BLACK, Anchor::Left))?;
+                    sheet.curve("key", *ink, &[vec![units((x, y)), units((x + 26.0, y))]]);
+                    sheet.text(name, (x + 32.0, y), style(SIZE, BLACK, Anchor::Left));
                 }
             }
         }
-        Show::Tools(records) => tools(area, &mut frame, records, &scale, span)?,
+        Show::Tools(records) => tools(sheet, &frame, records, &scale, span),
         Show::Later(line) => {
-            let place = |&(time, value): &(f64, f64)| frame.backend_coord(&(time, value));
-            layer.curve("curve later", CURVE, &[line.iter().map(place).collect()]);
+            let place = |&(time, value): &(f64, f64)| frame.place((time, value));
+            sheet.curve("curve later", CURVE, &[line.iter().map(place).collect()]);
         }
     }
-    Ok(())
 }
 
 /// When a curve ends: its program's end, where that is before the other's.
@@ -327,18 +296,11 @@ fn series_end(series: &Series, end: f64) -> f64 {
     series.end().unwrap_or(end)
 }
 
-fn tools(
-    area: &Area<'_>,
-    frame: &mut Frame<'_>,
-    records: &[&Record],
-    scale: &Scale,
-    span: (f64, f64),
-) -> Result<(), Undrawn> {
+fn tools(sheet: &mut Sheet, frame: &Frame, records: &[&Record], scale: &Scale, span: (f64, f64)) {
     let pixel = (WIDTH - LEFT - RIGHT) / (span.1 - span.0);
     let count = records.len() as f64;
     for (n, record) in records.iter().enumerate() {
         let color = if records.len() == 1 { CURVE.color } else { PAIR[n].color };
-        let color = rgb(color);
         for stretch in &record.tools {
             let Some(row) = scale.tools.iter().position(|tool| *tool == stretch.tool) else { continue };
             if stretch.end <= stretch.start {
@@ -349,25 +311,17 @@ fn tools(
             // At least a pixel, or a short one would not be seen.
             let least = 1.0 / pixel;
             let right = stretch.end.max(stretch.start + least).min(span.1.max(stretch.start + least));
-            let corners = [(stretch.start, high), (right, high - slot)];
-            frame.draw_series([Rectangle::new(corners, color.filled())])?;
+            let (from, to) = (frame.place((stretch.start, high)), frame.place((right, high - slot)));
+            sheet.bar("tool", from, to, color);
             let text = duration(stretch.end - stretch.start);
             let wide = (stretch.end - stretch.start) * pixel;
             if records.len() == 1 && wide > about_wide(&text, 11.0) + 12.0 && scale.tools.len() <= 12 {
-                let at = frame.backend_coord(&((stretch.start + right) / 2.0, high - slot / 2.0));
+                let at = frame.place(((stretch.start + right) / 2.0, high - slot / 2.0));
                 let at = (f64::from(at.0) / f64::from(UNIT), f64::from(at.1) / f64::from(UNIT));
-                write(area, &text, at, style(11.0, RGBColor(255, 255, 255), Anchor::Middle))?;
+                sheet.text(&text, at, style(11.0, "#ffffff", Anchor::Middle));
             }
         }
     }
-    Ok(())
-}
-
-fn rgb(color: &str) -> RGBColor {
-    let part = |at: usize| {
-        color.get(at..at + 2).and_then(|hex| u8::from_str_radix(hex, 16).ok()).unwrap_or_default()
-    };
-    RGBColor(part(1), part(3), part(5))
 }
 
 /// The upright axis of a panel.

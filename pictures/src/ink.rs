@@ -2,8 +2,6 @@
 //! dark it is, so that a grey print and any reader's eyes are enough. Colours are those of Okabe and
 //! Ito's set for all kinds of colour vision.
 
-use plotters::style::RGBColor;
-
 use crate::way::Stroke;
 
 /// A line.
@@ -18,11 +16,11 @@ pub(crate) struct Ink {
 }
 
 /// Text and axes.
-pub(crate) const BLACK: RGBColor = RGBColor(0x22, 0x22, 0x22);
+pub(crate) const BLACK: &str = "#222222";
 /// Less important text.
-pub(crate) const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
+pub(crate) const GREY: &str = "#666666";
 /// Lines of a grid.
-pub(crate) const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
+pub(crate) const GRID: &str = "#dddddd";
 
 /// The line of a kind of leg.
 pub(crate) fn stroke(stroke: Stroke) -> Ink {

@@ -4,9 +4,9 @@
 //! From it come charts over time ([`charts()`]), views of the tool's way ([`view()`]) and a report that a
 //! browser shows ([`report()`]). Not here: reading programs, timing them, files.
 
-mod axis;
 mod charts;
 mod chord;
+mod frame;
 mod ink;
 mod listing;
 mod project;
@@ -25,6 +25,5 @@ pub use project::{View, project};
 pub use record::{Hole, Record, Stamps, Stretch, Sums};
 pub use report::{Page, report};
 pub use series::{Bin, Course, Series};
-pub use sheet::Undrawn;
 pub use view::view;
 pub use way::{Extent, Leg, MOST, Stroke, Way, distance, simplify};

@@ -3,16 +3,11 @@
 use std::collections::HashSet;
 use std::fmt::Write;
 
-use plotters::chart::ChartBuilder;
-use plotters::style::Color;
-
-use crate::axis::Axis;
+use crate::frame::{Axis, Frame};
 use crate::ink::{self, BLACK, GREY, GRID, Ink, PAIR};
 use crate::project::{View, project};
 use crate::record::Record;
-use crate::sheet::{
-    Anchor, Area, Layer, UNIT, Undrawn, about_wide, cut, sheet, style, units, write, write_bold, write_up,
-};
+use crate::sheet::{Anchor, Face, Sheet, Style, UNIT, about_wide, cut, units};
 use crate::ticks::{duration, marks, number};
 use crate::way::{Extent, Stroke, Way};
 
@@ -64,10 +59,7 @@ impl Paper {
 }
 
 /// The way of one program, or of two over each other, as SVG.
-///
-/// # Errors
-/// As plotters says.
-pub fn view(records: &[&Record], view: View, caption: &str) -> Result<String, Undrawn> {
+pub fn view(records: &[&Record], view: View, caption: &str) -> String {
     let mut extent = Extent::default();
     for record in records.iter().filter(|record| !record.way.extent.is_empty()) {
         extent.add(record.way.extent.low);
@@ -83,44 +75,43 @@ pub fn view(records: &[&Record], view: View, caption: &str) -> Result<String, Un
     let ((left, right), (lower, upper)) = (side(0), side(1));
     let paper = Paper::of([left, lower], [right, upper]);
     let page = (LEFT + paper.size.0 + RIGHT, TOP + paper.size.1 + BOTTOM);
-    sheet((page.0.ceil() as i32, page.1.ceil() as i32), |area, layer| {
-        heading(area, records, view, caption, page.0)?;
-        match view {
-            View::Plan => plan_frame(area, &paper)?,
-            View::Isometric => box_frame(area, layer, &paper, &extent)?,
-        }
-        for (n, record) in records.iter().enumerate() {
-            let one = (records.len() > 1).then(|| PAIR[n.min(1)]);
-            lines(layer, record, view, &paper, one);
-            symbols(layer, record, view, &paper, one);
-        }
-        legend(area, layer, records, LEFT + paper.size.0 + 18.0)
-    })
+    let mut sheet = Sheet::new(page.0.ceil() as i32, page.1.ceil() as i32);
+    heading(&mut sheet, records, view, caption, page.0);
+    match view {
+        View::Plan => plan_frame(&mut sheet, &paper),
+        View::Isometric => box_frame(&mut sheet, &paper, &extent),
+    }
+    for (n, record) in records.iter().enumerate() {
+        let one = (records.len() > 1).then(|| PAIR[n.min(1)]);
+        lines(&mut sheet, record, view, &paper, one);
+        symbols(&mut sheet, record, view, &paper, one);
+    }
+    legend(&mut sheet, records, LEFT + paper.size.0 + 18.0);
+    sheet.finish()
 }
 
-fn heading(
-    area: &Area<'_>,
-    records: &[&Record],
-    view: View,
-    caption: &str,
-    page: f64,
-) -> Result<(), Undrawn> {
+/// Looks of a level text.
+fn style(size: f64, color: &'static str, anchor: Anchor) -> Style {
+    Style { size, color, anchor, face: Face::Plain }
+}
+
+fn heading(sheet: &mut Sheet, records: &[&Record], view: View, caption: &str, page: f64) {
     let names: Vec<&str> = records.iter().map(|record| record.name.as_str()).collect();
     let what = match view {
         View::Plan => "plan",
         View::Isometric => "isometric",
     };
     let title = cut(&format!("{}, {what}", names.join(" and ")), 17.0, page - 40.0);
-    write_bold(area, &title, (20.0, 22.0), 17.0)?;
+    sheet.text(&title, (20.0, 22.0), Style { face: Face::Bold, ..style(17.0, BLACK, Anchor::Left) });
     let text = match records {
         [one] => format!("{} \u{b7} {caption}", duration(one.end - one.begin)),
         _ => caption.to_owned(),
     };
-    write(area, &cut(&text, SIZE, page - 40.0), (20.0, 44.0), style(SIZE, GREY, Anchor::Left))
+    sheet.text(&cut(&text, SIZE, page - 40.0), (20.0, 44.0), style(SIZE, GREY, Anchor::Left));
 }
 
 /// X and Y with a grid of one step.
-fn plan_frame(area: &Area<'_>, paper: &Paper) -> Result<(), Undrawn> {
+fn plan_frame(sheet: &mut Sheet, paper: &Paper) {
     let high = paper.high();
     let (wide, tall) = (high[0] - paper.low[0], high[1] - paper.low[1]);
     let most = (paper.size.0.max(paper.size.1) / 62.0) as usize;
@@ -130,33 +121,22 @@ fn plan_frame(area: &Area<'_>, paper: &Paper) -> Result<(), Undrawn> {
         let last = (high[i] / step).floor() as i64;
         Axis { low: paper.low[i], high: high[i], marks: (first..=last).map(|n| n as f64 * step).collect() }
     };
-    let below = 24.0;
-    let size = [LEFT + paper.size.0, paper.size.1 + below].map(|side| (side * f64::from(UNIT)) as u32);
-    let part = area.clone().shrink(units((0.0, TOP)), (size[0], size[1]));
-    let mut frame = ChartBuilder::on(&part)
-        .x_label_area_size((below * f64::from(UNIT)) as i32)
-        .y_label_area_size((LEFT * f64::from(UNIT)) as i32)
-        .build_cartesian_2d(along(0), along(1))?;
-    let words = |value: &f64| number(*value, step);
-    frame
-        .configure_mesh()
-        .bold_line_style(GRID.stroke_width(UNIT as u32 * 8 / 10))
-        .axis_style(GREY.stroke_width(UNIT as u32))
-        .set_all_tick_mark_size(4 * UNIT)
-        .label_style(("sans-serif", f64::from(UNIT) * SIZE * 1.24, &BLACK))
-        .x_label_formatter(&words)
-        .y_label_formatter(&words)
-        .draw()?;
-    write_up(area, "Y (mm)", (18.0, TOP + paper.size.1 / 2.0), SIZE)?;
+    let ((left, upper), (right, lower)) =
+        (units((LEFT, TOP)), units((LEFT + paper.size.0, TOP + paper.size.1)));
+    let frame = Frame { across: (left, right), down: (upper, lower), x: along(0), y: along(1) };
+    let words = |value: f64| number(value, step);
+    frame.draw(sheet, Some(&words), &words);
+    let upwards = Style { face: Face::Upwards, ..style(SIZE, BLACK, Anchor::Middle) };
+    sheet.text("Y (mm)", (18.0, TOP + paper.size.1 / 2.0), upwards);
     let at = (LEFT + paper.size.0 / 2.0, TOP + paper.size.1 + 40.0);
-    write(area, "X (mm)", at, style(SIZE, BLACK, Anchor::Middle))
+    sheet.text("X (mm)", at, style(SIZE, BLACK, Anchor::Middle));
 }
 
 /// The box around the way: a grid on its floor, and marks along three of its edges.
-fn box_frame(area: &Area<'_>, layer: &mut Layer, paper: &Paper, extent: &Extent) -> Result<(), Undrawn> {
+fn box_frame(sheet: &mut Sheet, paper: &Paper, extent: &Extent) {
     let (low, high) = (extent.low, extent.high);
     let iso = |p: [f64; 3]| paper.at(project(View::Isometric, p));
-    let grid = Ink { color: "#dddddd", width: 0.8, dash: &[] };
+    let grid = Ink { color: GRID, width: 0.8, dash: &[] };
     let edge = Ink { color: "#888888", width: 1.0, dash: &[] };
     // A mark of an edge needs room for its number.
     let along = |i: usize| {
@@ -180,7 +160,7 @@ fn box_frame(area: &Area<'_>, layer: &mut Layer, paper: &Paper, extent: &Extent)
     let floor = low[2];
     let mut pieces: Vec<_> = xs.iter().map(|x| line([*x, low[1], floor], [*x, high[1], floor])).collect();
     pieces.extend(ys.iter().map(|y| line([low[0], *y, floor], [high[0], *y, floor])));
-    layer.curve("grid", grid, &pieces);
+    sheet.curve("grid", grid, &pieces);
     let (a, b, c, d) = (
         [low[0], low[1], floor],
         [high[0], low[1], floor],
@@ -188,19 +168,19 @@ fn box_frame(area: &Area<'_>, layer: &mut Layer, paper: &Paper, extent: &Extent)
         [low[0], high[1], floor],
     );
     let top = [low[0], low[1], high[2]];
-    layer.curve("edge", edge, &[line(a, b), line(b, c), line(c, d), line(d, a), line(a, top)]);
-    let text = |words: String, at: (f64, f64), anchor| write(area, &words, at, style(11.0, BLACK, anchor));
+    sheet.curve("edge", edge, &[line(a, b), line(b, c), line(c, d), line(d, a), line(a, top)]);
+    let mut text = |words: &str, at: (f64, f64), anchor| sheet.text(words, at, style(11.0, BLACK, anchor));
     for x in &xs {
         let at = iso([*x, low[1], floor]);
-        text(number(*x, x_step), (at.0 - 5.0, at.1 + 9.0), Anchor::Right)?;
+        text(&number(*x, x_step), (at.0 - 5.0, at.1 + 9.0), Anchor::Right);
     }
     for y in &ys {
         let at = iso([high[0], *y, floor]);
-        text(number(*y, y_step), (at.0 + 5.0, at.1 + 9.0), Anchor::Left)?;
+        text(&number(*y, y_step), (at.0 + 5.0, at.1 + 9.0), Anchor::Left);
     }
     for z in &zs {
         let at = iso([low[0], low[1], *z]);
-        text(number(*z, z_step), (at.0 - 7.0, at.1 - 2.0), Anchor::Right)?;
+        text(&number(*z, z_step), (at.0 - 7.0, at.1 - 2.0), Anchor::Right);
     }
     let middle = |i: usize, of: [f64; 3]| {
         let mut at = of;
@@ -208,13 +188,13 @@ fn box_frame(area: &Area<'_>, layer: &mut Layer, paper: &Paper, extent: &Extent)
         iso(at)
     };
     let (x, y, z) = (middle(0, a), middle(1, b), middle(2, a));
-    text("X (mm)".to_owned(), (x.0 - 34.0, x.1 + 34.0), Anchor::Right)?;
-    text("Y (mm)".to_owned(), (y.0 + 34.0, y.1 + 34.0), Anchor::Left)?;
-    text("Z (mm)".to_owned(), (z.0 - 44.0, z.1), Anchor::Right)
+    text("X (mm)", (x.0 - 34.0, x.1 + 34.0), Anchor::Right);
+    text("Y (mm)", (y.0 + 34.0, y.1 + 34.0), Anchor::Left);
+    text("Z (mm)", (z.0 - 44.0, z.1), Anchor::Right);
 }
 
 /// The legs, kind by kind.
-fn lines(layer: &mut Layer, record: &Record, view: View, paper: &Paper, one: Option<Ink>) {
+fn lines(sheet: &mut Sheet, record: &Record, view: View, paper: &Paper, one: Option<Ink>) {
     for stroke in Stroke::DRAWN {
         let line = ink::stroke(stroke);
         let line = match one {
@@ -226,7 +206,7 @@ fn lines(layer: &mut Layer, record: &Record, view: View, paper: &Paper, one: Opt
             None if record.way.legs.len() > CLOSE => Ink { width: line.width * 0.4, ..line },
             None => line,
         };
-        layer.curve(stroke.name(), line, &pieces(&record.way, stroke, |p| paper.at(project(view, p))));
+        sheet.curve(stroke.name(), line, &pieces(&record.way, stroke, |p| paper.at(project(view, p))));
     }
 }
 
@@ -254,7 +234,7 @@ fn pieces(way: &Way, stroke: Stroke, place: impl Fn([f64; 3]) -> (f64, f64)) -> 
 }
 
 /// Holes, start and end.
-fn symbols(layer: &mut Layer, record: &Record, view: View, paper: &Paper, one: Option<Ink>) {
+fn symbols(sheet: &mut Sheet, record: &Record, view: View, paper: &Paper, one: Option<Ink>) {
     let color = |own: &'static str| one.map_or(own, |ink| ink.color);
     let many = record.holes.len() > 400;
     let hole = Ink { color: color("#a03c00"), width: if many { 0.7 } else { 1.2 }, dash: &[] };
@@ -264,13 +244,13 @@ fn symbols(layer: &mut Layer, record: &Record, view: View, paper: &Paper, one: O
         circle(&mut d, paper.at(project(view, hole.at)), radius);
     }
     if !d.is_empty() {
-        layer.path("holes", hole, "none", &d);
+        sheet.path("holes", hole, "none", &d);
     }
     if let Some(start) = record.way.start {
         let ink = Ink { color: color("#000000"), width: 1.6, dash: &[] };
-        layer.path("start", ink, "none", &diamond(paper.at(project(view, start)), 8.0));
+        sheet.path("start", ink, "none", &diamond(paper.at(project(view, start)), 8.0));
         if let Some(end) = record.way.here() {
-            layer.path("end", ink, color("#000000"), &square(paper.at(project(view, end)), 3.5));
+            sheet.path("end", ink, color("#000000"), &square(paper.at(project(view, end)), 3.5));
         }
     }
 }
@@ -291,10 +271,10 @@ fn square(at: (f64, f64), radius: f64) -> String {
 }
 
 /// What the lines and symbols mean: those that occur.
-fn legend(area: &Area<'_>, layer: &mut Layer, records: &[&Record], left: f64) -> Result<(), Undrawn> {
+fn legend(sheet: &mut Sheet, records: &[&Record], left: f64) {
     let mut top = TOP + 12.0;
-    let text = |words: &str, top: f64| {
-        write(area, &cut(words, SIZE, RIGHT - 62.0), (left + 38.0, top), style(SIZE, BLACK, Anchor::Left))
+    let text = |sheet: &mut Sheet, words: &str, top: f64| {
+        sheet.text(&cut(words, SIZE, RIGHT - 62.0), (left + 38.0, top), style(SIZE, BLACK, Anchor::Left));
     };
     let sample = |top: f64| vec![units((left, top)), units((left + 30.0, top))];
     let occurs =
@@ -304,47 +284,46 @@ fn legend(area: &Area<'_>, layer: &mut Layer, records: &[&Record], left: f64) ->
         [_, _] => {
             for (record, ink) in records.iter().zip(PAIR) {
                 let width = ink.width.min(3.0);
-                layer.curve("key", Ink { width, ..ink }, &[sample(top)]);
-                text(&record.name, top)?;
+                sheet.curve("key", Ink { width, ..ink }, &[sample(top)]);
+                text(sheet, &record.name, top);
                 top += 20.0;
             }
-            layer.curve(
+            sheet.curve(
                 "key",
                 Ink { width: 1.2, dash: ink::stroke(Stroke::Rapid).dash, ..black },
                 &[sample(top)],
             );
-            text("rapid", top)?;
+            text(sheet, "rapid", top);
             top += 20.0;
         }
         _ => {
             for stroke in Stroke::DRAWN.into_iter().filter(|stroke| occurs(*stroke)) {
-                layer.curve("key", ink::stroke(stroke), &[sample(top)]);
+                sheet.curve("key", ink::stroke(stroke), &[sample(top)]);
                 if stroke == Stroke::Hole {
                     let mut d = String::new();
                     circle(&mut d, (left + 15.0, top), 4.5);
-                    layer.path("key", ink::stroke(stroke), "none", &d);
+                    sheet.path("key", ink::stroke(stroke), "none", &d);
                 }
-                text(stroke.name(), top)?;
+                text(sheet, stroke.name(), top);
                 top += 20.0;
             }
         }
     }
     if records.iter().any(|record| record.way.start.is_some()) {
-        layer.path("key", black, "none", &diamond((left + 15.0, top), 8.0));
-        text("start", top)?;
+        sheet.path("key", black, "none", &diamond((left + 15.0, top), 8.0));
+        text(sheet, "start", top);
         top += 20.0;
-        layer.path("key", black, "#000000", &square((left + 15.0, top), 3.5));
-        text("end", top)?;
+        sheet.path("key", black, "#000000", &square((left + 15.0, top), 3.5));
+        text(sheet, "end", top);
         top += 20.0;
     } else {
-        text("no moves", top)?;
+        text(sheet, "no moves", top);
         top += 20.0;
     }
     let off = records.iter().map(|record| record.way.off).fold(0.0, f64::max);
     if off > 0.0 {
         let words = format!("true to {} mm", number(off, off));
         debug_assert!(about_wide(&words, SIZE) < RIGHT);
-        write(area, &words, (left, top), style(11.0, GREY, Anchor::Left))?;
+        sheet.text(&words, (left, top), style(11.0, GREY, Anchor::Left));
     }
-    Ok(())
 }

@@ -9,7 +9,7 @@ use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_pictures::{Listing, Page, Record, Undrawn, charts, report, view};
+use ncc_pictures::{Listing, Page, Record, charts, report, view};
 use ncc_timeline::Timed;
 
 use self::args::Plot;
@@ -45,7 +45,7 @@ impl Sink for Recorder {
 /// Runs the verb.
 ///
 /// # Errors
-/// Wrong usage, a file that cannot be read or written, or a picture that cannot be drawn. What is
+/// Wrong usage, a file that cannot be read or written, or a program without a way to draw. What is
 /// wrong with a program is told on `err`.
 pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
@@ -105,11 +105,7 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Resul
             help: vec!["without --view there are charts over time".to_owned()],
         });
     }
-    let picture = draw(args, form, &pages, &caption).map_err(|undrawn| Problem {
-        exit: Exit::Refused,
-        message: undrawn.to_string(),
-        help: Vec::new(),
-    })?;
+    let picture = draw(args, form, &pages, &caption);
     let mut output = Output::new();
     output.push(picture.as_bytes()).map_err(|e| Problem::file("write", "the picture", &e))?;
     destination.release(&mut output)?;
@@ -151,10 +147,10 @@ fn check(args: &Plot) -> Result<Form, Problem> {
     }
 }
 
-fn draw(args: &Plot, form: Form, pages: &[Page], caption: &str) -> Result<String, Undrawn> {
+fn draw(args: &Plot, form: Form, pages: &[Page], caption: &str) -> String {
     let records: Vec<&Record> = pages.iter().map(|page| &page.record).collect();
     match (form, args.view) {
-        (Form::Html, _) => Ok(report(pages, env!("CARGO_PKG_VERSION"))),
+        (Form::Html, _) => report(pages, env!("CARGO_PKG_VERSION")),
         (Form::Svg, Some(name)) => view(&records, name.view(), caption),
         (Form::Svg, None) => charts(&records, &args.charts(), caption),
     }

@@ -4,3 +4,4 @@ mod drawn;
 mod laws;
 mod made;
 mod pages;
+mod svg;
