@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use ncc_ir::expr::num::Nanos;
-use ncc_timeline::{Model, ToolChangeOn};
+use ncc_time::{Model, ToolChangeOn};
 
 use crate::args::{Eol, Start, decimal, pair, start};
 use crate::given::Given;

@@ -15,11 +15,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ir/dialects", &["ncc-exec", "ncc-ir"]),
     ("frontends", &["ncc-dialects", "ncc-ir", "ncc-passes"]),
     ("backends", &["ncc-dialects", "ncc-exec", "ncc-ir", "ncc-passes"]),
-    ("timeline", &["ncc-exec", "ncc-ir"]),
-    ("machines", &["ncc-dialects", "ncc-exec", "ncc-ir", "ncc-timeline"]),
-    ("pictures", &["ncc-exec", "ncc-ir", "ncc-timeline"]),
-    ("check", &["ncc-exec", "ncc-ir"]),
-    ("review", &["ncc-exec", "ncc-ir"]),
+    ("machines", &["ncc-dialects", "ncc-exec", "ncc-ir", "ncc-time"]),
+    ("analysis/check", &["ncc-exec", "ncc-ir"]),
+    ("analysis/diff", &["ncc-exec", "ncc-ir"]),
+    ("analysis/plot", &["ncc-exec", "ncc-ir", "ncc-time"]),
+    ("analysis/time", &["ncc-exec", "ncc-ir"]),
 ];
 
 /// Most files and folders in a folder of source files.

@@ -1,7 +1,7 @@
 //! `ncc plot`: what a program does over time and the way of its tool, as pictures.
 //!
 //! A program goes through the pipeline of `ncc time` into a record, which keeps what can be seen of
-//! it; from that a picture is drawn. Not here: drawing (ncc-pictures), timing (`time`).
+//! it; from that a picture is drawn. Not here: drawing (ncc-plot), timing (`time`).
 
 pub mod args;
 
@@ -9,8 +9,8 @@ use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_pictures::{Listing, Page, Record, charts, report, view};
-use ncc_timeline::Timed;
+use ncc_plot::{Listing, Page, Record, charts, report, view};
+use ncc_time::Timed;
 
 use self::args::Plot;
 use crate::files::{Destination, Source};

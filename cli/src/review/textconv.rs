@@ -10,9 +10,9 @@ use std::path::Path;
 
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_diff::record::{Batch, Style};
 use ncc_ir::canon::Spindle;
 use ncc_ir::program::Text;
-use ncc_review::record::{Batch, Style};
 
 use super::feed::{Settings, records};
 use super::side::{Asked, open_one};
@@ -129,7 +129,7 @@ fn listed(side: &mut super::side::Side, output: &mut Output, err: &mut dyn Write
 /// What is switched and set before an event.
 fn state(out: &mut dyn Write, last: Option<&Style>, now: &Style) -> io::Result<()> {
     let (is, was) = (&now.state, last.map(|last| &last.state));
-    let speed = |s: &ncc_review::record::Still| match s.spindle {
+    let speed = |s: &ncc_diff::record::Still| match s.spindle {
         Spindle::Stopped => (s.spindle, 0),
         Spindle::Clockwise | Spindle::Counterclockwise => (s.spindle, s.speed),
     };

@@ -1,6 +1,6 @@
 //! Laws of what is left out: nothing that a picture would show.
 
-use ncc_pictures::{Course, Leg, MOST, Series, Stroke, Way, distance, simplify};
+use ncc_plot::{Course, Leg, MOST, Series, Stroke, Way, distance, simplify};
 use proptest::prelude::*;
 
 use crate::made::Made;

@@ -6,7 +6,7 @@
 use ncc_exec::Kind;
 use ncc_ir::canon::{AXES, Turn};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_timeline::{Act, path};
+use ncc_time::{Act, path};
 
 /// Chords of a whole circle. They leave it by less than a sixth of a pixel where its radius is 500.
 const CHORDS: f64 = 128.0;

@@ -1,4 +1,4 @@
-//! ncc-review: what two programs do, held side by side.
+//! ncc-diff: what two programs do, held side by side.
 //!
 //! Events of execution become [`record`]s of 64 bytes; two streams of them are brought together again
 //! after insertions, and under a shift of a whole tail ([`resync`], [`align`]); what is not the same is

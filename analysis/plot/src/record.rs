@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use ncc_exec::{Attribute, Kind, Movement};
 use ncc_ir::canon::{AXES, Spindle};
 use ncc_ir::expr::num::ONE;
-use ncc_timeline::{Place, Timed, path};
+use ncc_time::{Place, Timed, path};
 
 use crate::chord::{Turned, chords, place};
 use crate::series::{Course, Series};

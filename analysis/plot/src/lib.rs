@@ -1,4 +1,4 @@
-//! ncc-pictures: what a program does, to look at.
+//! ncc-plot: what a program does, to look at.
 //!
 //! Functions with their times go into a [`Record`], which keeps what a picture can show and no more.
 //! From it come charts over time ([`charts()`]), views of the tool's way ([`view()`]) and a report that a

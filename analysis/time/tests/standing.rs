@@ -4,7 +4,7 @@ mod shop;
 
 use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::{Axis, Spindle};
-use ncc_timeline::{Fact, Machine, Model, ToolChangeOn};
+use ncc_time::{Fact, Machine, Model, ToolChangeOn};
 use shop::{Way, machine, nanos, run, same, seconds};
 
 const TRAPEZOIDAL: Model = Model::Trapezoidal;

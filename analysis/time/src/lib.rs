@@ -1,4 +1,4 @@
-//! ncc-timeline: when everything happens.
+//! ncc-time: when everything happens.
 //!
 //! Execution says what a machine does; here every function gets its start and its duration, by a
 //! model of the machine that the caller chooses. Functions come in one by one and leave in the same

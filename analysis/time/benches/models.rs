@@ -9,7 +9,7 @@ use ncc_exec::{Event, Kind, State};
 use ncc_ir::canon::{AXES, Plane, Turn};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
-use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place};
+use ncc_time::{Act, AxisFacts, Clock, Machine, Model, Place};
 
 /// Moves of a path, which is driven again and again.
 const MOVES: usize = 1024;

@@ -3,7 +3,7 @@
 mod shop;
 
 use ncc_ir::canon::PathMode;
-use ncc_timeline::{Machine, Model};
+use ncc_time::{Machine, Model};
 use shop::{Way, machine, run, same, seconds};
 
 const TRAPEZOIDAL: Model = Model::Trapezoidal;

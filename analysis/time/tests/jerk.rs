@@ -2,7 +2,7 @@
 
 mod shop;
 
-use ncc_timeline::{Machine, Model};
+use ncc_time::{Machine, Model};
 use shop::{Way, machine, run, same, seconds};
 
 const JERK: Model = Model::JerkLimited;

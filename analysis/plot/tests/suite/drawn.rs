@@ -1,6 +1,6 @@
 //! What charts and views show, found in the SVG.
 
-use ncc_pictures::{Chart, Record, Stroke, View, charts, later, project, view};
+use ncc_plot::{Chart, Record, Stroke, View, charts, later, project, view};
 
 use crate::made::{Made, part};
 use crate::svg::{Element, elements, pieces};

@@ -4,8 +4,8 @@ use ncc_exec::{Attribute, Event, Kind, State};
 use ncc_ir::canon::{AXES, Plane, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
-use ncc_pictures::Record;
-use ncc_timeline::{Act, Place, Profile, Timed};
+use ncc_plot::Record;
+use ncc_time::{Act, Place, Profile, Timed};
 
 /// A program that is being made.
 pub(crate) struct Made {

@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use ncc_pictures::{Listing, Page, Record, report};
+use ncc_plot::{Listing, Page, Record, report};
 
 use crate::made::part;
 

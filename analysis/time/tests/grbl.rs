@@ -16,7 +16,7 @@
 
 mod shop;
 
-use ncc_timeline::{Machine, Model};
+use ncc_time::{Machine, Model};
 use proptest::prelude::*;
 use shop::{Way, close, machine, run};
 

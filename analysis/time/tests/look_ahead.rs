@@ -4,7 +4,7 @@ mod shop;
 
 use ncc_exec::Kind;
 use ncc_ir::expr::num::ONE;
-use ncc_timeline::{Act, Machine, Model};
+use ncc_time::{Act, Machine, Model};
 use proptest::prelude::*;
 use shop::{Way, close, machine, nanos, run, seconds};
 

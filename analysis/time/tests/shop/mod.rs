@@ -5,7 +5,7 @@ use ncc_exec::{Attribute, Event, Kind, State};
 use ncc_ir::canon::{AXES, Plane, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
-use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place, Timed, WHOLE_PATH};
+use ncc_time::{Act, AxisFacts, Clock, Machine, Model, Place, Timed, WHOLE_PATH};
 
 /// Nanos of a number.
 pub(crate) fn nanos(x: f64) -> Nanos {

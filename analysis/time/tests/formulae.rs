@@ -3,7 +3,7 @@
 mod shop;
 
 use ncc_ir::canon::{Axis, Plane, Turn};
-use ncc_timeline::{Fact, Machine, Model};
+use ncc_time::{Fact, Machine, Model};
 use shop::{Way, machine, run, same, seconds};
 use std::f64::consts::{PI, TAU};
 
