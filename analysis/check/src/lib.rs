@@ -1,10 +1,16 @@
-//! ncc-check: rules over what a part program does, and what the text says of it.
+//! ncc-check: rules for an executed part program and for its text.
 //!
-//! A [`Checker`] executes the statements of a program one by one and looks at the functions that they
-//! make; each rule is a plain function in `rules/`. What it finds is data with places in the source
-//! ([`Finding`]). A state that cannot be known, because a block was not read or a table is not stated, is
-//! never guessed: the rules that need it are silent until the program has said it again, and what was
-//! not checked is told ([`Unchecked`]).
+//! A [`Checker`] executes the statements one by one and shows each event to the rules, plain functions
+//! in `rules/`. A [`Finding`] is data with a span in the source.
+//!
+//! ```text
+//! M5
+//! G1 X20. F100.      finding NC0805: feed move with the spindle stopped
+//! ```
+//!
+//! The checker never guesses a state. A block that was not read, or a table that nobody states, makes
+//! the state unknown: rules that need it are silent until the program sets it again. [`Unchecked`]
+//! lists what no rule could check.
 //!
 //! Not here: reading programs and profiles, any dialect's name, words for people, printing.
 

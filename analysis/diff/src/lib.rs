@@ -1,8 +1,13 @@
-//! ncc-diff: what two programs do, held side by side.
+//! ncc-diff: differences of two executed programs, as data.
 //!
-//! Events of execution become [`record`]s of 64 bytes; two streams of them are brought together again
-//! after insertions, and under a shift of a whole tail ([`resync`], [`align`]); what is not the same is
-//! told as typed [`change`]s. Streams are consumed as they come: while they agree, nothing is kept.
+//! Each event becomes a [`record`] of 64 bytes. After an insertion or a deletion, [`resync`] and
+//! [`align`] bring the two streams of records together again; a shift of a whole tail is one
+//! [`change`]. Streams are consumed as they come: nothing is kept while they agree.
+//!
+//! ```text
+//! a: G1 X10.  G1 X20.
+//! b: G1 X10.  G1 X15.  G1 X20.      one change: the move to X15 is in b alone
+//! ```
 //!
 //! Not here: executing programs, files, words for people, any dialect's name.
 

@@ -1,8 +1,15 @@
-//! ncc-plot: what a program does, to look at.
+//! ncc-plot: pictures of an executed program.
 //!
-//! Functions with their times go into a [`Record`], which keeps what a picture can show and no more.
-//! From it come charts over time ([`charts()`]), views of the tool's way ([`view()`]) and a report that a
-//! browser shows ([`report()`]). Not here: reading programs, timing them, files.
+//! A [`Record`] takes the timed events one by one and keeps only what a picture can show. From it come
+//! charts over time ([`charts()`]) and views of the tool path ([`view()`]) as SVG, and a page with a
+//! script for a browser ([`report()`]).
+//!
+//! ```text
+//! charts(&[&record], &[Chart::Feed], "no machine")
+//! <svg width="1000" …>…<path class="curve p0" … d="M920 2060l0 -1400 …"/>…</svg>
+//! ```
+//!
+//! Not here: reading programs, timing them, files.
 
 mod charts;
 mod chord;

@@ -1,10 +1,15 @@
-//! ncc-time: when everything happens.
+//! ncc-time: start and duration of every event.
 //!
-//! Execution says what a machine does; here every function gets its start and its duration, by a
-//! model of the machine that the caller chooses. Functions come in one by one and leave in the same
-//! order, as soon as nothing that follows can change their time.
+//! A [`Clock`] takes the events of an executed program ([`Act`]) one by one, computes their times with
+//! the [`Model`] that the caller chooses, and gives them back in the same order ([`Timed`]). An event
+//! leaves the clock as soon as no later event can change its time.
 //!
-//! Not here: reading programs, machine profiles as files, tables and pictures. No dialect's name.
+//! ```text
+//! G0 X100.           starts at  0.000 s, takes  0.200 s    ideal model, rapid rate 30000 mm/min
+//! G1 X0. F600.       starts at  0.200 s, takes 10.000 s
+//! ```
+//!
+//! Not here: reading programs, machine profiles as files, tables and pictures, any dialect's name.
 
 mod act;
 mod ahead;
