@@ -7,6 +7,7 @@
 
 mod begins;
 pub mod canon;
+mod common;
 mod corners;
 pub mod ir;
 pub mod pieces;
@@ -148,7 +149,7 @@ pub fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
 
 /// A literal for people: `0.1 mm`.
 pub fn spell(num: Num) -> String {
-    word::number::spell(num)
+    common::number::spell(num)
 }
 
 /// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after

@@ -27,7 +27,7 @@ const MOST: usize = 25;
 
 /// Folders that have more, and how many: none may grow, and one that is short enough is taken out of here.
 const LONGER: &[(&str, usize)] =
-    &[("frontends/src/word", 54), ("cli/src", 46), ("frontends/src/siemens", 39), ("backends/src/word", 34)];
+    &[("frontends/src/word", 52), ("cli/src", 46), ("frontends/src/siemens", 39), ("backends/src/word", 28)];
 
 /// Crates of ours under a heading of a manifest.
 fn ours(manifest: &str, heading: &str) -> BTreeSet<String> {

@@ -4,9 +4,9 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Alarm, Op, Stmt};
 
-use super::formula::cannot_compute;
-use super::modes::cannot;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::fault::{cannot, cannot_compute};
 
 impl Writer {
     /// A message must be that of a program stop.

@@ -8,10 +8,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
+use super::Writer;
 use super::formula::rounding;
-use super::modes::cannot;
-use super::{Sink, Writer};
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 impl Writer {
     /// Such a call as the control says it.

@@ -7,8 +7,9 @@ use ncc_ir::computed::code_of::CodeOf;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
-use super::formula::cannot_compute;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::fault::cannot_compute;
 
 /// What the code that such a statement stands for means.
 fn meaning(op: &Op) -> Option<Meaning> {

@@ -18,11 +18,12 @@ use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::formula::{arcs, cannot_compute, literal, number_of};
+use super::formula::{arcs, literal, number_of};
 use super::modal_call::AtMoves;
-use super::modes::cannot;
-use super::{HIGHEST_NUMBER, Sink, Writer};
+use super::{HIGHEST_NUMBER, Writer};
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::{cannot, cannot_compute};
 
 /// Most calls by one word.
 const MOST_TIMES: u32 = 9999;

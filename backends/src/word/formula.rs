@@ -15,15 +15,12 @@ use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, V
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
-use super::codes::Letter;
+use super::Writer;
 use super::comparisons::{decides, exactly, flipped, holds_or_not, nearly, within};
-use super::number::Worth;
-use super::{Sink, Writer};
-
-/// The fault of what the control cannot compute.
-pub(crate) fn cannot_compute(what: impl Into<Box<str>>) -> Fault {
-    Fault::Computes { what: what.into() }
-}
+use crate::common::Sink;
+use crate::common::codes::Letter;
+use crate::common::fault::cannot_compute;
+use crate::common::number::Worth;
 
 /// How tightly an operator binds: its group's place among those of the dictionary, of which the tightest is the
 /// first; a value binds more tightly than any.

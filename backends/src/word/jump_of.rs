@@ -9,8 +9,9 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::{Control, NO_SUCH_BLOCK, Op, Stmt};
 
-use super::formula::cannot_compute;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::fault::cannot_compute;
 
 /// Such a jump.
 pub(super) struct JumpOf<'s> {

@@ -7,19 +7,15 @@
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
 mod alarm;
-pub(crate) mod block;
 mod by_hand;
 mod call_of;
 mod code_of;
-pub(crate) mod codes;
-pub(crate) mod comment;
 mod comparisons;
 mod computing;
 mod corner;
 mod cycles;
 mod data;
 pub(crate) mod entry_of;
-mod force;
 pub(crate) mod formula;
 mod frame;
 mod frames;
@@ -28,7 +24,6 @@ mod jump_of;
 mod modal_call;
 pub(crate) mod modes;
 pub(crate) mod motion;
-pub(crate) mod number;
 mod o_words;
 mod output;
 mod plain;
@@ -49,30 +44,20 @@ use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
+use cycles::Held;
+use start::Preamble;
+
+use crate::common::Sink;
+use crate::common::block::{Block, Need};
+use crate::common::codes::Codes;
+use crate::common::comment::Comments;
+use crate::common::fault::cannot_compute;
+use crate::common::force::InForce;
 use crate::origin::Trace;
 use crate::{Form, Layout, Numbering, ToolChange};
-use block::{Block, Need};
-use codes::Codes;
-use comment::Comments;
-use cycles::Held;
-use force::InForce;
-use formula::cannot_compute;
-use start::Preamble;
 
 /// Highest block number (FANUC 16-C: N1 to N99999); numbering begins again after it.
 const HIGHEST_NUMBER: u32 = 99_999;
-
-/// Where a piece of the program goes.
-pub(crate) struct Sink<'a> {
-    pub(crate) out: &'a mut Vec<u8>,
-    pub(crate) diags: &'a mut Vec<Diagnostic>,
-}
-
-impl Sink<'_> {
-    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
-        self.diags.push(Diagnostic::new(fault, span));
-    }
-}
 
 /// Choices of the dictionary's options that decide how a word reads back.
 #[derive(Clone, Copy, Debug)]
@@ -141,11 +126,11 @@ pub struct Writer {
     /// The sense in which the spindle turned on the way into the thread at hand.
     pub(crate) turned_in: Option<Turn>,
     /// The next straight move is in machine coordinates, by this code.
-    machine: Option<codes::Code>,
+    machine: Option<crate::common::codes::Code>,
     /// The next straight move at feed is a probing one, by this code.
-    probe: Option<codes::ProbeCode>,
+    probe: Option<crate::common::codes::ProbeCode>,
     /// The next rapid straight move is one by a detour, by this code.
-    detour: Option<codes::Code>,
+    detour: Option<crate::common::codes::Code>,
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     told_corner: bool,
@@ -173,7 +158,7 @@ pub struct Writer {
     page: [u8; plain::PAGE],
     filled: usize,
     /// Codes whose meaning is not confirmed, as far as reported.
-    pub(crate) told_unsure: Vec<codes::Code>,
+    pub(crate) told_unsure: Vec<crate::common::codes::Code>,
     /// Whether it was reported that entry 0 of the length table is taken for none.
     told_no_length: bool,
     /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
@@ -288,7 +273,8 @@ impl Writer {
     /// A tool change stands in no block with a move, nor with a length that needs one.
     pub fn changes_apart(&mut self) {
         let edges = self.dialect.address.iter().any(|row| row.role == Role::ToolEdge);
-        let from = if edges { block::Rank::CycleEnd } else { block::Rank::Offset };
+        let from =
+            if edges { crate::common::block::Rank::CycleEnd } else { crate::common::block::Rank::Offset };
         self.block.apart = Some(from).filter(|_| !self.dialect.block.change_first);
     }
 
@@ -546,7 +532,7 @@ impl Writer {
         if let Some(span) = self.offset_waits.take()
             && !self.block.has(Axis::Z.letter())
         {
-            sink.report(modes::cannot("a length offset in a block without Z"), span);
+            sink.report(crate::common::fault::cannot("a length offset in a block without Z"), span);
         }
         self.surface_with_speed(sink);
         let label = if empty { None } else { self.labels.waiting.take() };
@@ -588,7 +574,10 @@ impl Writer {
         }
         let most = self.dialect.block.longest_bare;
         if most > 0 && bare > most as usize {
-            sink.report(modes::cannot(format!("a block of more than {most} characters")), self.block.at);
+            sink.report(
+                crate::common::fault::cannot(format!("a block of more than {most} characters")),
+                self.block.at,
+            );
         }
     }
 

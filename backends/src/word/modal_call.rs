@@ -7,8 +7,9 @@
 use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Call, Op, Stmt};
 
-use super::block::{Need, Part, Rank};
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
 
 /// Whether calls behind moves are being written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,11 +16,13 @@ use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Alarm, Call, Control, Op, Piece, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::block::Rank;
-use super::formula::{cannot_compute, number_of};
-use super::modes::cannot;
-use super::{Sink, Writer};
 use ncc_ir::track::Tracker;
+
+use super::Writer;
+use super::formula::number_of;
+use crate::common::Sink;
+use crate::common::block::Rank;
+use crate::common::fault::{cannot, cannot_compute};
 
 /// Most arguments of a call, which are the first of the variables that a call has (LinuxCNC, O Codes, call).
 const MOST_ARGUMENTS: u32 = 30;

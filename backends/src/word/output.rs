@@ -5,8 +5,9 @@ use ncc_dialects::Statement;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Output, Piece, Stmt};
 
-use super::modes::cannot;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::fault::cannot;
 
 impl Writer {
     /// Text for a device.

@@ -12,7 +12,7 @@ use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
 use super::facts::{InForce, State};
-use crate::word::facts::Know;
+use crate::common::known::Know;
 
 // Facts that a statement keeps as known.
 pub(super) const UNITS: u8 = 1;

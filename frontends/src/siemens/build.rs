@@ -8,7 +8,7 @@ use ncc_ir::source::Span;
 
 use super::token::{Refusal, Token};
 use super::tree::*;
-use crate::word::block::{Digits, Value as Number, Word};
+use crate::common::words::{Digits, Value as Number, Word};
 
 type Parsed<T> = Result<T, ParseError<u32, Token, Refusal>>;
 

@@ -25,9 +25,9 @@ use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Writte
 use super::unit::Kind;
 use crate::Batch;
 use crate::begins::report;
-use crate::word::Source;
-use crate::word::block::{Digits, Value as Number, Word};
-use crate::word::facts::Know;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Digits, Value as Number, Word};
 
 /// What a call hands over.
 #[derive(Clone, Copy, Debug)]

@@ -16,8 +16,8 @@ use ncc_ir::program::{Alarm, Control, Op, Stmt};
 use super::cycles::Arguments;
 use super::lower::Lower;
 use crate::Batch;
-use crate::word::Source;
-use crate::word::number::unit_of;
+use crate::common::Source;
+use crate::common::number::unit_of;
 
 impl Lower {
     /// A depth: absolute, or below the reference plane.

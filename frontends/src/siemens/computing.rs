@@ -27,9 +27,9 @@ use super::sort::Given;
 use super::texts::TextOf;
 use super::tree::{Address, Declaration, Declared, Expr as Tree, Place, TypeName, Value};
 use crate::Batch;
-use crate::word::Source;
-use crate::word::block::Digits;
-use crate::word::number::unit_of;
+use crate::common::Source;
+use crate::common::number::unit_of;
+use crate::common::words::Digits;
 
 /// The last R parameter; how many a machine has is a matter of its data.
 pub(super) const LAST_R: u32 = 999;

@@ -17,7 +17,7 @@ use super::formula::{Kind, Typed};
 use super::lower::Lower;
 use super::tree::{Address, Expr as Tree, Place, Value};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 impl Lower {
     /// The value of a variable of the control.

@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::sort::Words;
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 const CORNERS: [(NameRole, CornerShape); 3] = [
     (NameRole::RoundCorner, CornerShape::Round),

@@ -20,9 +20,9 @@ use super::lower::Lower;
 use super::sort::Given;
 use super::tree::{Called, Expr as Argument};
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
-use crate::word::number::spell;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::number::spell;
 
 /// Arguments of a call by the places of its parameters.
 pub(super) struct Arguments {

@@ -3,7 +3,7 @@
 //! alarm where no place has it.
 //!
 //! That the number is one of the table's on every way is looked at when the whole text has been read
-//! ([`crate::word::code_of`]); any other is refused by name: number 0 is another frame, and above the machine's there is
+//! ([`crate::common::saved`]); any other is refused by name: number 0 is another frame, and above the machine's there is
 //! none.
 
 use ncc_ir::canon::Axis;
@@ -16,7 +16,7 @@ use super::control::{axis_of, entry_of};
 use super::lower::Lower;
 use super::tree::{Address, Expr as Tree, Place, Value};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// What such a place is called in messages.
 const PLACE: &str = "$P_UIFR[…]";

@@ -19,8 +19,8 @@ use super::lower::Lower;
 use super::polar::Pole;
 use crate::Batch;
 use crate::begins::{self, Unsaid, report};
-use crate::word::facts::Know;
-use crate::word::number::unit_of;
+use crate::common::known::Know;
+use crate::common::number::unit_of;
 
 /// What axis words do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

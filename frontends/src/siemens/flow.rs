@@ -26,8 +26,8 @@ use super::lower::{Head, Lower};
 use super::tree::{self, Expr as Tree, Jump, Place, Target};
 use super::unit;
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
+use crate::common::Source;
+use crate::common::known::Know;
 
 /// What the text says of jumps, and the structures that are open.
 #[derive(Debug, Default)]

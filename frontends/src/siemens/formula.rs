@@ -17,7 +17,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary as Sign};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// Deepest nesting of an expression.
 const DEEPEST: u32 = 64;

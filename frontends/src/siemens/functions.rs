@@ -16,11 +16,11 @@ use super::lower::{Head, Lower};
 use super::sort::{Code, Words};
 use super::unit::Kind;
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
-use crate::word::functions::setting;
-use crate::word::number::unit_of;
-use crate::word::sort::{RANK_AFTER, RANK_WORDS, rank};
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+use crate::common::setting::setting;
+use crate::common::sort::{RANK_AFTER, RANK_WORDS, rank};
 
 /// The motion of a code or word.
 pub(super) fn motion_of(meaning: NameMeaning) -> Option<Motion> {

@@ -5,7 +5,7 @@ use super::parse;
 use super::tree::{Address, BlockNumber, Direction, Expr, Jump, Place, Statement, Target};
 use super::unit::{self, Line};
 use crate::Flow;
-use crate::word::Source;
+use crate::common::Source;
 
 /// Tells every unit, block and jump of a text.
 pub(crate) fn jumps(text: &[u8], found: &mut dyn FnMut(Flow)) {

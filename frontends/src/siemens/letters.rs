@@ -4,7 +4,7 @@
 
 use ncc_ir::source::Span;
 
-use crate::word::Source;
+use crate::common::Source;
 
 /// The first letter O that stands in a number, if everything around it up to the next blanks reads
 /// as words of one letter and a number.

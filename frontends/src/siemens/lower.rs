@@ -29,14 +29,14 @@ use super::speed::Surfaces;
 use super::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::unit::Kind;
 use crate::begins::Inherited;
-use crate::word::Source;
-use crate::word::block::{Value, Word};
-use crate::word::code_of::Saved;
-use crate::word::facts::Know;
-use crate::word::fast::{self, Fast, FeedWord};
-use crate::word::lower::decode;
-use crate::word::number::unit_of;
-use crate::word::tilt::Met;
+use crate::common::fast::{Fast, FeedWord};
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+use crate::common::saved::Saved;
+use crate::common::switched::Met;
+use crate::common::text::decode;
+use crate::common::words::{Value, Word};
+use crate::common::{Source, fast};
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.

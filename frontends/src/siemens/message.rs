@@ -15,7 +15,7 @@ use super::formula::Kind;
 use super::lower::Lower;
 use super::tree::{Binary, Called, Expr as Tree, Unary};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// Digits of a real number in a message.
 const DIGITS: u8 = 9;

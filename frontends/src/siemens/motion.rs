@@ -20,8 +20,8 @@ use super::facts::{InForce, Motion};
 use super::lower::Lower;
 use super::sort::{Code, Given, Words};
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
+use crate::common::Source;
+use crate::common::known::Know;
 
 const CENTRE: &[u8] = b"IJK";
 

@@ -28,7 +28,7 @@ use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::lower::Lower;
 use super::tree::{Expr as Tree, Parameter, Value};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// What is known of calls with arguments and of parameters.
 #[derive(Debug, Default)]

@@ -20,8 +20,8 @@ use super::lower::Lower;
 use super::sort::Given;
 use super::tree::Called;
 use crate::Batch;
-use crate::word::Source;
-use crate::word::number::unit_of;
+use crate::common::Source;
+use crate::common::number::unit_of;
 
 /// Most holes of a pattern, along one direction.
 const MOST_HOLES: i64 = 9999;

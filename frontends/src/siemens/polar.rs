@@ -15,7 +15,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::sort::{Code, Given, Words};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 const ROLES: [NameRole; 2] = [NameRole::PolarRadius, NameRole::PolarAngle];
 

@@ -21,9 +21,8 @@ use super::lower::Lower;
 use super::parse;
 use super::tree::{Block, Statement};
 use super::unit::{self, Header, Kind, Line};
-use crate::word::Source;
-use crate::word::block::{Value, Word};
-use crate::word::plain;
+use crate::common::words::{Value, Word};
+use crate::common::{Source, plain};
 use crate::{Batch, refused};
 
 /// Longest block of a dictionary that sets no limit, in bytes.

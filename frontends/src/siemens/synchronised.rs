@@ -15,7 +15,7 @@ use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// Letters of leads along X, Y and Z.
 const LEADS: [u8; 3] = *b"IJK";

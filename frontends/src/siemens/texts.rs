@@ -17,7 +17,7 @@ use super::formula::Kind;
 use super::lower::Lower;
 use super::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary, Value};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// What is known of the text of a text variable.
 #[derive(Clone, Debug, Default, PartialEq)]

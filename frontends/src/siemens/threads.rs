@@ -15,7 +15,7 @@ use super::cycles::Arguments;
 use super::facts::InForce;
 use super::lower::Lower;
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// Nominal sizes of the coarse metric series and their pitches in hundredths of a millimetre (ISO 261).
 const COARSE: [(i64, i64); 21] = [

@@ -19,9 +19,9 @@ use super::sort::Given;
 use super::spindles::number;
 use super::tree::Expr;
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
-use crate::word::lower::decode;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::text::decode;
 
 /// What the name of a record of kinematics stands for.
 const SWIVEL_RECORD: &str = "only swivel data record";

@@ -22,8 +22,8 @@ use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
 
 use super::tree::{Binary, Direction, Qualifier, TypeName, Unary};
-use crate::word::block::Digits;
-use crate::word::token::first_char;
+use crate::common::text::first_char;
+use crate::common::words::Digits;
 
 /// A token as the bytes alone show it.
 #[derive(Clone, Copy, Debug, Logos, PartialEq)]

@@ -8,7 +8,7 @@
 
 use ncc_ir::source::Span;
 
-use crate::word::block::{Digits, Word};
+use crate::common::words::{Digits, Word};
 
 /// A block: one line.
 #[derive(Clone, Debug, Default, PartialEq)]

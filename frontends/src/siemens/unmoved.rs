@@ -10,7 +10,7 @@ use ncc_ir::source::Span;
 use super::facts::{InForce, Motion};
 use super::lower::Lower;
 use crate::Batch;
-use crate::word::facts::Know;
+use crate::common::known::Know;
 
 impl Lower {
     /// Control leaves here, or may come here from elsewhere: what is in force must have been said.

@@ -4,7 +4,7 @@
 use super::token::{Token, Tokens};
 use super::unit::{self, Line};
 use crate::Word;
-use crate::word::words::tenths;
+use crate::common::words::tenths;
 
 /// Tells the words of a line, with or without its end.
 pub(crate) fn words(line: &[u8], found: &mut dyn FnMut(Word)) {

@@ -13,10 +13,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::Reader;
 use super::block::Block;
 use super::lower::Lower;
 use super::sort::{Code, Words};
-use super::{Reader, Source};
+use crate::common::Source;
 use crate::{Batch, refused};
 
 /// Most passes of a repetition.

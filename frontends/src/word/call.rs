@@ -7,12 +7,13 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Block, Value, Word};
+use super::block::Block;
 use super::frame::Called;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word};
 
 /// Most calls by one word.
 const MOST_TIMES: u32 = 9999;

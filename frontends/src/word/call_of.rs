@@ -10,12 +10,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 
-use super::Source;
-use super::block::{Value, Word};
 use super::computing::Computes;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word};
 
 /// What such a call is called until the text is read; its number is the argument. No program has this name.
 pub(super) const COMPUTED: &str = "#";

@@ -6,8 +6,6 @@
 //! That the number is one of the group's on every way to the code is looked at when the whole text has been read (`ways`);
 //! any other is refused by name, since any code might come of it.
 
-mod ways;
-
 use std::mem::discriminant;
 
 use ncc_dialects::{Statement as Says, SystemRow};
@@ -17,44 +15,17 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
 use ncc_ir::program::{Move, Op, Point, Text};
-use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Block, Value, Word};
-use super::facts::{InForce, Know};
-use super::functions::setting;
+use super::block::Block;
+use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, motion_of};
 use crate::Batch;
-
-/// What the text saves of the modes in force and puts back.
-#[derive(Debug, Default)]
-pub(crate) struct Saved {
-    /// Variables that are given the code in force of a group, each in its program, in the order of the text.
-    rows: Vec<(Text, Var, &'static SystemRow)>,
-    /// Variables that are given a whole number, in the same way.
-    numbers: Vec<(Text, Var, i64)>,
-    /// Where such codes are, and what tells the group.
-    back: Vec<(Span, Told)>,
-}
-
-/// What tells which group a code is of.
-#[derive(Debug)]
-enum Told {
-    /// A variable that has the code in force of it.
-    Saved(&'static SystemRow, Var),
-    /// The range of its number.
-    Range,
-    /// The same, of a place of a table, by what that is called.
-    Entry(&'static str),
-}
-
-impl Saved {
-    /// A place of a table has a computed number.
-    pub(crate) fn entry(&mut self, at: Span, name: &'static str) {
-        self.back.push((at, Told::Entry(name)));
-    }
-}
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::saved::{ANY, Told, ways};
+use crate::common::setting::setting;
+use crate::common::words::{Value, Word};
 
 impl Lower {
     /// A variable gets a value as the text has it.
@@ -245,6 +216,3 @@ fn is_alike(one: &Op, other: &Op) -> bool {
     let moves = |op: &Op| matches!(op, Op::StraightTraverse(_) | Op::StraightFeed(_));
     discriminant(one) == discriminant(other) || moves(one) && moves(other)
 }
-
-const ANY: &str = "code whose number may be anything: on a way to it, its variable has neither that of a code in force \
-                   nor one of a known range";

@@ -12,12 +12,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
 
-use super::Source;
-use super::block::{Value, Word};
-use super::facts::Know;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Value, Word};
 
 impl Lower {
     /// Switches compensation on, and notes the entry that a word names.

@@ -16,9 +16,7 @@ use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, 
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Block, Value, Word};
-use super::code_of::Saved;
+use super::block::Block;
 use super::facts::InForce;
 use super::formula::{Statement, To};
 use super::jump_of::JumpOf;
@@ -26,10 +24,13 @@ use super::local_call::{LocalCall, has_local_calls};
 use super::lower::Lower;
 use super::macro_call::parameters;
 use super::modal_call::{AtMoves, Reach};
-use super::number::{spell, unit_of};
 use super::return_to::{ReturnTo, has_returns_to};
 use super::sort::Words;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::number::{spell, unit_of};
+use crate::common::saved::Saved;
+use crate::common::words::{Value, Word};
 
 /// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
 const MOST_LOOPS: usize = 3;

@@ -13,11 +13,12 @@ use ncc_ir::expr::{Expr, Function, Node, Var};
 use ncc_ir::program::{Alarm, Data, DataMode, Op, Text, ToolValue};
 use ncc_ir::source::Span;
 
-use super::Source;
 use super::block::Block;
 use super::facts::InForce;
-use super::lower::{Lower, decode};
+use super::lower::Lower;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::text::decode;
 
 impl Lower {
     /// What setting a variable of the control's own does; nothing is refused by name.

@@ -8,12 +8,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::Op;
 
-use super::Source;
-use super::block::Word;
 use super::lower::Lower;
 use super::polar::Words as Polar;
 use super::sort::Words;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::Word;
 
 impl Lower {
     /// A word behind a comma.

@@ -13,12 +13,13 @@ use ncc_ir::program::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Sh
 use ncc_ir::program::{Coord, Move, Op, Pitch};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Value, Word};
-use super::facts::{Active, InForce, Know};
+use super::facts::{Active, InForce};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Value, Word};
 
 /// Most repetitions of a cycle's block.
 const MOST_REPEATS: u32 = 9999;

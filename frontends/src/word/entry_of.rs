@@ -3,7 +3,7 @@
 //! decisions about the one variable in the number, and an alarm where no place has it.
 //!
 //! A variable of the program's own that is meant by such a number stays one. That the number is one of the table's on
-//! every way is looked at when the whole text has been read (`code_of::ways`); any other is refused by name, since the
+//! every way is looked at when the whole text has been read ([`crate::common::saved::ways`]); any other is refused by name, since the
 //! control would take another of its variables.
 
 use ncc_dialects::SystemRow;
@@ -15,12 +15,13 @@ use ncc_ir::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use super::Source;
 use super::block::Block;
 use super::lower::Lower;
 use super::o_words::Setting;
 use super::parameters::parameter;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::saved::ANY_PLACE;
 
 /// A number that is a variable's, so many times, and something added.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,7 +127,7 @@ impl Lower {
         let of = first.of.clone().map(|var| Expr::Node(Box::new(Node::Var(var))))?;
         let worths = self.worths(&all);
         if worths.is_empty() {
-            return refuse(self, ANY, out);
+            return refuse(self, ANY_PLACE, out);
         }
         let mut ways = Vec::with_capacity(worths.len());
         for worth in worths {
@@ -171,7 +172,7 @@ impl Lower {
             () if all.iter().any(|number| number.of != first.of) => {
                 "places of the control's tables by two computed numbers in one block"
             }
-            () if worths.is_empty() => ANY,
+            () if worths.is_empty() => ANY_PLACE,
             () => "",
         };
         if !name.is_empty() {
@@ -303,7 +304,3 @@ impl Lower {
 
 /// What such a variable is called in messages.
 const PLACE: &str = "#[…]";
-
-/// Why it is refused.
-pub(super) const ANY: &str = "place of the control's tables whose number may be anything: on a way to it, its variable has \
-                              no whole number of a known range in which all are places of one table";

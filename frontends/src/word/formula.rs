@@ -13,8 +13,8 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Var};
 use ncc_ir::program::Output;
 
-use super::block::Digits;
 use super::parameters::Index;
+use crate::common::words::Digits;
 
 /// Deepest nesting of an expression.
 const DEEPEST: u32 = 64;

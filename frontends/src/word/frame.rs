@@ -10,12 +10,14 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Text};
 use ncc_ir::source::Span;
 
-use super::block::{Value, Word};
-use super::facts::{Know, State};
-use super::lower::decode;
+use super::Reader;
+use super::facts::State;
 use super::o_subs::is_title;
-use super::{Reader, Source};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::text::decode;
+use crate::common::words::{Value, Word};
 
 /// Characters that no text has, before reading is given up.
 const MOST_CONTROL_SIGNS: u32 = 16;

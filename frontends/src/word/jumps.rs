@@ -4,10 +4,9 @@
 use ncc_dialects::{Dialect, Meaning, Settings};
 use ncc_ir::source::Span;
 
-use super::block::Digits;
 use super::token::{FlowWord, Signs, Token, Tokens};
-use super::words::tenths;
 use crate::Flow;
+use crate::common::words::{Digits, tenths};
 
 /// Tells every program, block and jump of a text.
 pub(crate) fn jumps(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {

@@ -10,12 +10,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Value, Word};
 use super::computing::{Computes, label};
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word};
 
 /// Calls of blocks of the main program: the block, the code, and where it stands.
 pub(super) type LocalCall = (u32, &'static str, Span);

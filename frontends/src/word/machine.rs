@@ -10,10 +10,10 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 
-use super::Source;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
 
 impl Lower {
     /// A block with the code of such a move.

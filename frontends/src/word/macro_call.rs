@@ -11,13 +11,13 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Call, Op};
 
-use super::Source;
-use super::block::{Block, Value, Word};
+use super::block::Block;
 use super::computing::has_round;
 use super::lower::Lower;
 use super::sort::Code;
-use super::words::tenths;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word, tenths};
 
 /// Local variables of a program.
 const LOCALS: usize = 33;

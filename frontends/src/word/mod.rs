@@ -49,7 +49,6 @@ mod output;
 mod parameters;
 mod pattern;
 pub(crate) mod pieces;
-pub(crate) mod plain;
 mod polar;
 mod probe;
 mod return_to;
@@ -69,32 +68,14 @@ use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
 
-use crate::{Batch, refused};
 use block::Block;
 use frame::Frame;
 use lower::Lower;
 use o_alone::Alone;
 use token::Signs;
 
-/// A piece of the source with the place of its first byte.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Source<'s> {
-    pub(crate) text: &'s [u8],
-    pub(crate) base: u32,
-}
-
-impl Source<'_> {
-    /// The bytes of a span.
-    pub(crate) fn bytes(&self, span: Span) -> &[u8] {
-        let at = |place: u32| place.saturating_sub(self.base) as usize;
-        self.text.get(at(span.start)..at(span.end)).unwrap_or_default()
-    }
-
-    /// The text of a span.
-    pub(crate) fn text(&self, span: Span) -> Box<str> {
-        String::from_utf8_lossy(self.bytes(span)).into()
-    }
-}
+use crate::common::Source;
+use crate::{Batch, refused};
 
 /// Longest block of a dialect that sets no limit, in bytes.
 const LONGEST: usize = 60_000;
@@ -195,7 +176,7 @@ impl Reader {
                 continue;
             }
             if open
-                && let Some(end) = plain::read(text, at, base, &mut self.block.words)
+                && let Some(end) = crate::common::plain::read(text, at, base, &mut self.block.words)
                 && end - at <= self.uncounted
             {
                 self.plain_block(at, end, src, out);

@@ -16,13 +16,13 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Block, Value, Word};
+use super::block::Block;
 use super::computing::Computes;
 use super::lower::Lower;
 use super::sort::{Code, Words};
-use super::words::tenths;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word, tenths};
 
 /// Calls that are in force.
 #[derive(Clone, Debug)]

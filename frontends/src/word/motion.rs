@@ -9,12 +9,13 @@ use ncc_ir::expr::{Expr, Function, Node, Unary};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Value, Word};
-use super::facts::{InForce, Know};
+use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Value, Word};
 
 /// Most turns of one arc.
 const MOST_TURNS: u32 = 9999;

@@ -9,10 +9,11 @@ use ncc_ir::computed::open::open_variables;
 use ncc_ir::expr::Var;
 use ncc_ir::program::{Op, Procedure, Program, Text};
 
+use super::Reader;
 use super::o_subs::refused;
 use super::token::FlowWord;
-use super::{Reader, Source};
 use crate::Batch;
+use crate::common::Source;
 
 /// Whether the text is a subprogram by itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

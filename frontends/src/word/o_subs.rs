@@ -14,6 +14,7 @@ use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
 use ncc_ir::program::{Alarm, Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::Reader;
 use super::block::Block;
 use super::call_of::COMPUTED;
 use super::facts::State;
@@ -21,8 +22,8 @@ use super::lower::Lower;
 use super::o_words::{Decision, Kind, spelled};
 use super::parameters::Index;
 use super::token::FlowWord;
-use super::{Reader, Source};
 use crate::Batch;
+use crate::common::Source;
 
 /// How many structures can stand in one another.
 const DEEPEST: usize = 100;

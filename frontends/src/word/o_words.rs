@@ -175,7 +175,7 @@ impl Lower {
     }
 
     /// The comment of a block that sets parameters is a statement of its own: it is shown when they are set.
-    pub(super) fn o_comment(&mut self, block: &Block, src: super::Source, out: &mut Batch) {
+    pub(super) fn o_comment(&mut self, block: &Block, src: crate::common::Source, out: &mut Batch) {
         if block.settings.is_empty() || self.now.failed {
             return;
         }
@@ -365,7 +365,7 @@ impl Lower {
         let span = block.span;
         let letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
         self.now.number = block.words.iter().find(|w| w.letter == letter).and_then(|w| match w.value {
-            super::block::Value::Number(digits) => digits.whole(),
+            crate::common::words::Value::Number(digits) => digits.whole(),
             _ => None,
         });
         let word = decision.word;

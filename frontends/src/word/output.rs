@@ -11,12 +11,12 @@ use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Op, Output, Piece};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::Digits;
 use super::formula::Formula;
 use super::lower::Lower;
 use super::parameters::Index;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::Digits;
 
 /// How long such a statement is, that begins a text.
 pub(super) fn length(text: &[u8]) -> Option<usize> {

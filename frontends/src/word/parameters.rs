@@ -16,10 +16,10 @@ use ncc_ir::expr::value;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Unary, Var};
 use ncc_ir::source::Span;
 
-use super::block::Digits;
 use super::formula::Formula;
 use super::lower::Lower;
 use crate::Batch;
+use crate::common::words::Digits;
 
 /// Parameters that belong to a call, and those that all programs have (overview, numbered parameters).
 const LOCALS: u32 = 30;

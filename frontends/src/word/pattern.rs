@@ -12,12 +12,12 @@ use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::Word;
 use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::Word;
 
 impl Lower {
     /// A pattern of holes.

@@ -14,11 +14,11 @@ use ncc_ir::geometry::polar;
 use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::Word;
 use super::lower::Lower;
 use super::sort::Code;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::Word;
 
 /// What the words of the plane's axes are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -10,11 +10,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::facts::Know;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
 
 impl Lower {
     /// A block with the code of a probing move.

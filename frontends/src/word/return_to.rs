@@ -11,11 +11,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::Source;
 use super::computing::{Computes, label};
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
 
 /// A return, the subprogram that it stands in, and the block of the caller that it names.
 #[derive(Clone, Debug)]

@@ -7,8 +7,9 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Op, Piece};
 use ncc_ir::source::Span;
 
-use super::lower::{Lower, decode};
+use super::lower::Lower;
 use crate::Batch;
+use crate::common::text::decode;
 
 /// Digits behind the point where nothing is said, and behind `%f`.
 const DIGITS: u8 = 6;

@@ -12,13 +12,13 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Pitch, Synchronised};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Value, Word};
-use super::facts::Know;
 use super::lower::Lower;
 use super::polar;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Value, Word};
 
 impl Lower {
     /// Whether the block's feed word says a lead.

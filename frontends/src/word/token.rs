@@ -9,9 +9,10 @@ use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Function};
 
-use super::block::Digits;
 use super::lower::begins;
 use super::output;
+use crate::common::text::first_char;
+use crate::common::words::Digits;
 
 /// What of the dictionary the lexer needs.
 #[derive(Clone, Copy, Debug)]
@@ -536,14 +537,4 @@ impl Iterator for Tokens<'_> {
             }
         }
     }
-}
-
-/// The first character, as UTF-8 or else Latin-1, and its length in bytes.
-pub(crate) fn first_char(bytes: &[u8]) -> (char, usize) {
-    for len in 1..=bytes.len().min(4) {
-        if let Some(c) = std::str::from_utf8(&bytes[..len]).ok().and_then(|s| s.chars().next()) {
-            return (c, len);
-        }
-    }
-    (bytes.first().map_or(' ', |&b| char::from(b)), 1)
 }

@@ -8,9 +8,10 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
-use super::facts::{InForce, Know, State};
+use super::facts::{InForce, State};
 use super::lower::Lower;
 use crate::Batch;
+use crate::common::known::Know;
 
 /// Codes of motion that no move has said.
 #[derive(Debug, Default)]

@@ -3,9 +3,9 @@
 
 use ncc_dialects::Dialect;
 
-use super::block::Digits;
 use super::token::{Signs, Token, Tokens};
 use crate::Word;
+use crate::common::words::tenths;
 
 /// Tells the words of a line, with or without its end.
 pub(crate) fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
@@ -56,14 +56,4 @@ fn block(tokens: &mut Tokens, found: &mut dyn FnMut(Word)) {
     if let Some(letter) = letter {
         found(Word::Letter(letter));
     }
-}
-
-/// Ten times a number, if that is a whole number.
-pub(crate) fn tenths(digits: Digits) -> Option<u32> {
-    match digits.scale {
-        0 => digits.mantissa.checked_mul(10),
-        1 => Some(digits.mantissa),
-        _ => None,
-    }
-    .and_then(|tenths| u32::try_from(tenths).ok())
 }

@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::common::plain;
 use crate::word::block::{self, Block};
-use crate::word::plain;
 use crate::word::token::Signs;
 
 /// Something like a word.

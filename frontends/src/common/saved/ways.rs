@@ -11,9 +11,8 @@ use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::{ANY, Saved, Told};
+use super::{ANY, ANY_PLACE, Saved, Told};
 use crate::Batch;
-use crate::word::entry_of;
 
 /// Turns of a loop, or of all that jumps lead to, that are followed number by number: more than a group has codes, or a
 /// table of work offsets places on most controls.
@@ -30,16 +29,16 @@ const MOST: i64 = 10_000_000;
 
 /// Whole numbers from one to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
+pub(crate) struct Range {
     /// The least of them.
-    pub(super) from: i64,
+    pub(crate) from: i64,
     /// The greatest.
-    pub(super) to: i64,
+    pub(crate) to: i64,
 }
 
 impl Range {
     /// One number; none is known that a control may not hold exactly.
-    pub(super) fn only(number: i64) -> Option<Range> {
+    pub(crate) fn only(number: i64) -> Option<Range> {
         (-MOST..=MOST).contains(&number).then_some(Range { from: number, to: number })
     }
 
@@ -57,7 +56,7 @@ impl Range {
 }
 
 /// The range of an expression, of which each value is whole then.
-pub(super) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Option<Range> {
+pub(crate) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Option<Range> {
     let node = match expr {
         Expr::Num(number) => return number.whole().and_then(Range::only),
         Expr::Node(node) => node,
@@ -372,7 +371,7 @@ impl Ways<'_> {
     fn refused(&self, code: &CodeOf<'_>, at: Span) -> Fault {
         let told = self.saved.back.iter().find(|(span, _)| *span == at);
         let (code, name) = match told {
-            Some((_, Told::Entry(name))) => ((*name).into(), entry_of::ANY.into()),
+            Some((_, Told::Entry(name))) => ((*name).into(), ANY_PLACE.into()),
             _ => (format!("G{}", spelt(code.number)).into(), ANY.into()),
         };
         Fault::NotSupported { code, name }

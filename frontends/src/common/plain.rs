@@ -6,7 +6,7 @@
 
 use ncc_ir::source::Span;
 
-use super::block::{Digits, Value, Word};
+use super::words::{Digits, Value, Word};
 
 /// Most words of a plain block.
 const MOST_WORDS: usize = 32;
@@ -51,7 +51,7 @@ pub(crate) fn read(text: &[u8], from: usize, base: u32, words: &mut Vec<Word>) -
 /// The number that begins at `at`: a minus sign or none, up to 18 digits with at most one point
 /// among them. Gives its digits and where it ends; `None` if there is none, or one of more digits.
 #[inline(always)]
-pub(super) fn number(text: &[u8], at: usize) -> Option<(Digits, usize)> {
+pub(crate) fn number(text: &[u8], at: usize) -> Option<(Digits, usize)> {
     let rest = text.get(at..)?;
     let negative = rest.first() == Some(&b'-');
     let first = at + usize::from(negative);
@@ -74,7 +74,7 @@ const fn eight(byte: u8) -> u64 {
 /// An unsigned number that ends within eight bytes, and its length; all its digits at once, because
 /// one by one the processor would have to guess how many there are. `None` leaves it to [`long`].
 #[inline(always)]
-pub(super) fn short(bytes: [u8; 8]) -> Option<(Digits, usize)> {
+pub(crate) fn short(bytes: [u8; 8]) -> Option<(Digits, usize)> {
     // A digit becomes its value, everything else is at least ten.
     let values = u64::from_le_bytes(bytes) ^ eight(b'0');
     // The highest bit of each place that is no digit. A carry out of a place with the highest bit
