@@ -115,8 +115,8 @@ pub enum Flow {
 /// none.
 pub fn flow(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
     match settings.dialect.family {
-        Family::Word => word::jumps::jumps(settings, text, found),
-        Family::Sinumerik => siemens::jumps::jumps(text, found),
+        Family::Word => word::text::jumps::jumps(settings, text, found),
+        Family::Sinumerik => siemens::text::jumps::jumps(text, found),
         Family::Canon | Family::Ir => {}
     }
 }
@@ -141,8 +141,8 @@ pub enum Word<'t> {
 /// not. It stops at what is no word. Lines of families without a dictionary of words have none.
 pub fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
     match dialect.family {
-        Family::Word => word::words::words(dialect, line, found),
-        Family::Sinumerik => siemens::words::words(line, found),
+        Family::Word => word::text::words::words(dialect, line, found),
+        Family::Sinumerik => siemens::text::words::words(line, found),
         Family::Canon | Family::Ir => {}
     }
 }

@@ -1,5 +1,5 @@
-//! What the writers of letters and numbers and of the Sinumerik's language share: the block that is put
-//! together, the codes of a dictionary, numbers as a control writes them, and what is in force in the text.
+//! What writers share: the block that is put together, the codes of a dictionary, numbers as a control
+//! writes them, what is in force in the text; and quoted texts of the two text forms.
 //!
 //! ```text
 //! Need { … }, Rank::Feed      block     where a word stands, and whether it fits into the block at hand
@@ -16,6 +16,7 @@ pub(crate) mod entry;
 pub(crate) mod fault;
 pub(crate) mod force;
 pub(crate) mod number;
+pub(crate) mod quoted;
 pub(crate) mod setting;
 
 use ncc_ir::diag::{Diagnostic, Fault};

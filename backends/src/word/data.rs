@@ -10,7 +10,7 @@ use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
 
 use super::Writer;
-use super::formula::rounding;
+use super::macros::formula::rounding;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{Code, Letter};

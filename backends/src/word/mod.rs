@@ -6,32 +6,22 @@
 //!
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
-mod alarm;
 mod by_hand;
-mod call_of;
-mod code_of;
-mod comparisons;
-mod computing;
 mod corner;
 mod cycles;
 mod data;
-pub(crate) mod entry_of;
-pub(crate) mod formula;
 mod frame;
 mod frames;
 mod holes_again;
-mod jump_of;
-mod modal_call;
-pub(crate) mod modes;
-pub(crate) mod motion;
-mod o_words;
-mod output;
+mod macros;
+mod modes;
+mod motion;
 mod plain;
 mod polar;
 mod repeat;
-pub(crate) mod spindle;
+mod spindle;
 mod start;
-pub(crate) mod statement;
+mod statement;
 mod thread;
 
 use std::collections::BTreeMap;
@@ -137,13 +127,13 @@ pub struct Writer {
     /// Blocks that others repeat, or that are jumped to.
     pub(crate) labels: repeat::Labels,
     /// What is known of a program that computes.
-    computing: computing::Computing,
+    computing: macros::computing::Computing,
     /// Whether calls behind moves are being written, and how far.
-    at_moves: modal_call::AtMoves,
+    at_moves: macros::modal_call::AtMoves,
     /// Names of the variables of the procedure at hand, as they are spelt.
     pub(crate) variables: BTreeMap<Text, String>,
     /// What is known of its O words.
-    o_words: o_words::OWords,
+    o_words: macros::o_words::OWords,
     /// Whether the words of the statement at hand say their own distance mode, where others rely on the one in force.
     pub(crate) says_distance: bool,
     /// Whether the words of the plane's axes are radius and angle.
@@ -229,10 +219,10 @@ impl Writer {
             corner: None,
             told_corner: false,
             labels: repeat::Labels::default(),
-            computing: computing::Computing::default(),
-            at_moves: modal_call::AtMoves::None,
+            computing: macros::computing::Computing::default(),
+            at_moves: macros::modal_call::AtMoves::None,
             variables: BTreeMap::new(),
-            o_words: o_words::OWords::default(),
+            o_words: macros::o_words::OWords::default(),
             says_distance: false,
             polar: false,
             tip: false,
@@ -379,7 +369,7 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
-        let (before, jump) = jump_of::found(stmts);
+        let (before, jump) = macros::jump_of::found(stmts);
         for stmt in before {
             let before = self.open(stmt, sink);
             let written = match before {

@@ -8,8 +8,8 @@ use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, St
 use ncc_ir::source::Span;
 
 use super::Writer;
-use super::modal_call::AtMoves;
-use super::o_words::is_no_result_yet;
+use super::macros::modal_call::AtMoves;
+use super::macros::o_words::is_no_result_yet;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
 use crate::common::fault::{cannot, cannot_compute, unwritable};

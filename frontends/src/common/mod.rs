@@ -1,5 +1,5 @@
-//! What the readers of letters and numbers and of the Sinumerik's language share: words with exact
-//! numbers, the recognisers of plain blocks, and what is known of the facts that a program sets.
+//! What readers share: words with exact numbers, the recognisers of plain blocks, what is known of the
+//! facts that a program sets; and quoted texts of the two text forms.
 //!
 //! ```text
 //! N10 G1 X10.5 F200      plain::read    four words with their digits and spans
@@ -12,6 +12,7 @@ pub(crate) mod fast;
 pub(crate) mod known;
 pub(crate) mod number;
 pub(crate) mod plain;
+pub(crate) mod quoted;
 pub(crate) mod saved;
 pub(crate) mod setting;
 pub(crate) mod sort;

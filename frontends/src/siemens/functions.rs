@@ -10,11 +10,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
 
-use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::facts::{InForce, Motion};
 use super::lower::{Head, Lower};
+use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::sort::{Code, Words};
-use super::unit::Kind;
+use super::text::unit::Kind;
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;

@@ -10,9 +10,9 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
 
-use super::letters::letter_for_zero;
 use super::lower::Lower;
-use super::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
+use super::text::letters::letter_for_zero;
+use super::text::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;

@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 
 use super::lower::Lower;
 use super::sort::Words;
-use super::tree::{Address, Called, Expr, Place, Value};
+use super::text::tree::{Address, Called, Expr, Place, Value};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;

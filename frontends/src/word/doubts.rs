@@ -15,9 +15,9 @@ use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
 
-use super::block::Block;
 use super::lower::Lower;
 use super::sort::{Code, Words};
+use super::text::block::Block;
 use crate::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word};

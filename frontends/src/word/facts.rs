@@ -16,7 +16,7 @@ use ncc_ir::program::{CentreFrom, Coord};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
-use super::polar::Words;
+use super::moves::polar::Words;
 use crate::Batch;
 use crate::begins::{self, Unsaid, report, take};
 use crate::common::known::Know;

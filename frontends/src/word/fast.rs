@@ -8,7 +8,7 @@ use ncc_ir::program::{Coord, Op, Stmt};
 
 use super::facts::InForce;
 use super::lower::Lower;
-use super::polar::Words;
+use super::moves::polar::Words;
 use crate::Batch;
 use crate::common::fast::{Fast, FeedWord, code_again, counts_units, line};
 use crate::common::known::Know;

@@ -10,11 +10,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
 
-use super::block::Block;
 use super::facts::{InForce, Kept};
 use super::frames::is_frame;
 use super::lower::Lower;
 use super::sort::{Code, Words};
+use super::text::block::Block;
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;

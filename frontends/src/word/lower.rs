@@ -18,15 +18,15 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::block::Block;
-use super::computing::Computes;
+use super::cycles::no_cycle::CyclesMet;
 use super::doubts::ToolsNamed;
 use super::facts::{InForce, State};
-use super::no_cycle::CyclesMet;
+use super::macros::computing::Computes;
+use super::moves::unmoved::Unmoved;
 use super::number::{CentreSeen, UnitsSeen};
-use super::o_words::ODecides;
+use super::o_code::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
-use super::unmoved::Unmoved;
+use super::text::block::Block;
 use crate::begins::Inherited;
 use crate::common::Source;
 use crate::common::fast::Fast;
@@ -179,7 +179,7 @@ pub(super) struct Now {
     /// A program's name, until a call takes it.
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
-    pub(super) again: Option<super::again::Asked>,
+    pub(super) again: Option<crate::word::calls::again::Asked>,
     /// From what the words of a return count, where that is not the distance in force after the block.
     pub(super) return_distance: Option<Distance>,
 }
@@ -479,7 +479,7 @@ impl Lower {
             self.moved(&op);
         }
         if let Op::Call(call) = &op {
-            let name = (*call.name != *super::call_of::COMPUTED).then(|| call.name.clone());
+            let name = (*call.name != *crate::word::calls::call_of::COMPUTED).then(|| call.name.clone());
             self.inherited.call(name, self.state.unsaid());
         }
         let now = &mut self.now;

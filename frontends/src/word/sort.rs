@@ -9,8 +9,8 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
 
-use super::block::Block;
 use super::lower::Lower;
+use super::text::block::Block;
 use crate::Batch;
 use crate::common::Source;
 use crate::common::sort::{RANK_AFTER, rank};

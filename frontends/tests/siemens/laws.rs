@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::common::plain;
-use crate::siemens::tree::{Item, Statement};
+use crate::siemens::text::tree::{Item, Statement};
 
 /// Pieces of lines.
 fn piece() -> impl Strategy<Value = String> {
