@@ -1,8 +1,8 @@
 //! What controls do besides the names of codes, where two lists of events are laid side by side: what the one switches by
 //! itself, the other may say in words, as long as nothing is cut.
 
-use ncc::job::Job;
 use ncc_dialects::builtin;
+use ncc_driver::job::Job;
 use ncc_exec::world::World;
 
 use crate::plain::{Happening, Plain};

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 use codespan_reporting::term::termcolor::NoColor;
-use ncc::job::{Job, Outcome};
-use ncc::questions::Policy;
-use ncc::render::About;
-use ncc::render::human::{self, Loudness};
-use ncc::rewrite::pass;
 use ncc_dialects::{Settings, builtin};
+use ncc_driver::job::{Job, Outcome};
+use ncc_driver::questions::Policy;
+use ncc_driver::render::About;
+use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::translate::rewrite::pass;
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Runner};
 use ncc_frontends::{Batch, Reader};
@@ -58,7 +58,8 @@ pub fn computes(program: &corpus::Program) -> bool {
 /// # Panics
 /// The anonymous file of the output fails.
 pub fn translate(job: &Job, text: &[u8]) -> (Outcome, Vec<u8>) {
-    let mut outcome = ncc::translate::translate(job, &mut Cursor::new(text)).expect("an output in memory");
+    let mut outcome =
+        ncc_driver::translate::translate(job, &mut Cursor::new(text)).expect("an output in memory");
     let written = match outcome.release {
         Ok(()) => outcome.output.to_vec().expect("an output in memory"),
         Err(_) => Vec::new(),

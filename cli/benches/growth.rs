@@ -7,9 +7,9 @@ use std::path::Path;
 
 use divan::Bencher;
 use ncc::files::open;
-use ncc::job::Job;
-use ncc::translate::translate;
 use ncc_dialects::{Settings, builtin};
+use ncc_driver::job::Job;
+use ncc_driver::translate::translate;
 
 /// The sizes, as multiples of a row's own.
 const TIMES: [usize; 3] = [1, 4, 16];
@@ -61,7 +61,13 @@ fn files_by_include(bencher: Bencher<'_, '_>, times: usize) {
     let settings = settings("fanuc");
     let gathered = |path: &Path| {
         let mut source = open(path).expect("a file");
-        ncc::called::gather(&mut source, &settings, &[folder.path().to_owned()]).expect("files");
+        ncc_driver::source::called::gather(
+            &mut source,
+            &settings,
+            &[folder.path().to_owned()],
+            &ncc::files::Disk,
+        )
+        .expect("files");
         source.called.map_or(0, |called| called.files.len())
     };
     bencher.bench_local(|| assert_eq!(gathered(&path), subs.len()));

@@ -5,10 +5,10 @@ use std::io::Cursor;
 
 use divan::Bencher;
 use divan::counter::{BytesCount, ItemsCount};
-use ncc::job::Job;
-use ncc::translate::translate;
 use ncc_backends::{Layout, Writer};
 use ncc_dialects::{Settings, builtin};
+use ncc_driver::job::Job;
+use ncc_driver::translate::translate;
 use ncc_exec::Exec;
 use ncc_exec::world::World;
 use ncc_frontends::{Batch, Reader};

@@ -7,9 +7,10 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ncc_backends::Numbering;
+use ncc_driver::job::given::decimal;
 use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::diag::Verdict;
-use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_passes::Pass;
 
 use crate::m_codes::{self, MCode};
@@ -191,7 +192,7 @@ pub struct Translate {
     pub args: Option<PathBuf>,
     /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
     /// output sets it [may be repeated]
-    #[arg(long, value_name = "NAME=NUMBER", value_parser = crate::given::value, help_heading = "What to translate")]
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::given::value, help_heading = "What to translate")]
     pub value: Vec<(String, Num)>,
 
     /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
@@ -423,7 +424,8 @@ pub enum Color {
 pub type Start = [Option<Nanos>; AXES];
 
 fn pass(name: &str) -> Result<&'static Pass, String> {
-    crate::rewrite::pass(name).ok_or_else(|| "there is no such pass; `ncc passes` lists them".to_owned())
+    ncc_driver::translate::rewrite::pass(name)
+        .ok_or_else(|| "there is no such pass; `ncc passes` lists them".to_owned())
 }
 
 fn verdicts() -> impl TypedValueParser<Value = Verdict> {
@@ -468,28 +470,6 @@ pub(crate) fn start(text: &str) -> Result<Start, String> {
         }
     }
     Ok(start)
-}
-
-/// A decimal with at most nine digits after the point, in nanos.
-pub(crate) fn decimal(text: &str) -> Option<Nanos> {
-    let (negative, digits) = match text.as_bytes().first()? {
-        b'-' => (true, &text[1..]),
-        b'+' => (false, &text[1..]),
-        _ => (false, text),
-    };
-    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    let all = [whole, fraction].concat();
-    if all.is_empty() || fraction.len() > 9 || !all.bytes().all(|b| b.is_ascii_digit()) {
-        return None;
-    }
-    let mantissa: i64 = all.parse().ok()?;
-    let num = Num {
-        mantissa: if negative { -mantissa } else { mantissa },
-        scale: fraction.len() as u8,
-        point: true,
-        unit: Unit::Mm,
-    };
-    num.nanos(false)
 }
 
 #[cfg(test)]

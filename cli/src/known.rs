@@ -4,10 +4,9 @@
 //! is told here, at its place in the file. Not here: what a dictionary means.
 
 use std::ffi::OsString;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::{fs, io};
 
 use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFiles;
@@ -16,12 +15,11 @@ use codespan_reporting::term::{self, Config};
 use ncc_dialects::{
     Dialect, DialectError, DialectFault, Place, Text, builtin, builtin_ids, builtin_text, builtins, load,
 };
-
+use ncc_driver::problem::{Exit, Problem};
 use ncc_ir::canon::Units;
 use ncc_machines::reading::Side;
 
 use crate::m_codes::MCode;
-use crate::problem::{Exit, Problem};
 use crate::project::Projects;
 
 /// A dictionary that was made of the one at an address, for one side.

@@ -5,11 +5,12 @@
 
 use std::fmt;
 
-use ncc_dialects::{CodeRow, Dialect, Meaning, Settings};
+use ncc_dialects::{Dialect, Meaning, Settings};
+use ncc_driver::problem::Problem;
+use ncc_driver::render::advice::may_be_stated;
 use ncc_machines::reading::Side;
 
 use crate::known::Known;
-use crate::problem::Problem;
 
 /// An M code of the source and what becomes of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,12 +121,6 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
 fn coolant(dialect: &Dialect, number: u16) -> Option<Meaning> {
     let means = dialect.code_row(b'M', u32::from(number) * 10)?.means?;
     matches!(means, Meaning::FloodOn | Meaning::MistOn | Meaning::CoolantOff).then_some(means)
-}
-
-/// Whether what a code does may be stated by the user: the dialect does not have it, or refuses it, and it does not name
-/// blocks to go on at.
-pub(crate) fn may_be_stated(row: Option<&CodeRow>) -> bool {
-    row.is_none_or(|row| row.means.is_none() && row.blocks.is_empty())
 }
 
 /// A code that has a meaning cannot have another one; in the target, one that its dialect refuses does something too.

@@ -4,5 +4,6 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     ncc::interrupt::listen();
+    ncc::files::scratch::use_files();
     ExitCode::from(ncc::run::run(std::env::args_os().collect()) as u8)
 }

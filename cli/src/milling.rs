@@ -1,33 +1,19 @@
-//! Programs that are not for a mill: one message in every verb, before a dialect reads the text.
+//! Programs are for mills: opening one, and telling of one that is not.
 //!
-//! The signs are those of `ncc_frontends::recognise`. `--assume milling` goes on: the finding becomes an
-//! assumption of the translation, which its head and report state, and other verbs print a line.
-//!
-//! Not here: which dialect a milling program is written in (`guess`).
+//! `--assume milling` goes on; verbs that make no program print a line. Not here: what a program looks like
+//! (`not_milling`).
 
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io;
 use std::path::Path;
 
 use clap::ValueEnum;
-use codespan_reporting::diagnostic::Severity;
 use codespan_reporting::term::termcolor::WriteColor;
-use codespan_reporting::term::{self, Config};
-use ncc_frontends::recognise::signs::{Kind, System};
-use ncc_frontends::recognise::{BEGINNING, CODE, Finding, Shown, recognise};
-use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::source::Span;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::source::Source;
+use ncc_driver::source::not_milling::{self, Refusal, note};
 
-use crate::files::{self, Source};
+use crate::files;
 use crate::known::Known;
-use crate::problem::{Exit, Problem, as_write};
-use crate::render::human::boxed;
-use crate::render::json::{self, Entry};
-use crate::render::questions::{Asked, AskedAnswer};
-use crate::render::source::{Excerpt, Lines};
-use crate::render::{Place, Told};
-
-/// Of the further signs, so many are named.
-const MOST_SIGNS: usize = 4;
 
 /// Assumptions that `--assume` states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -72,7 +58,7 @@ pub(crate) fn admit(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Option<Refusal>, Problem> {
-    let Some(refusal) = refusal(source, known)? else {
+    let Some(refusal) = not_milling::refusal(source, known.all_for_mills())? else {
         if let Some(note) = note(source).filter(|_| voice == Voice::Human) {
             // A note that cannot be written changes nothing about what is done.
             let _ = writeln!(err, "{note}");
@@ -87,189 +73,4 @@ pub(crate) fn admit(
 
 fn unwritten(error: &io::Error) -> Problem {
     Problem::file("write", "messages", error)
-}
-
-/// The line that is printed of a program which is read as a milling program although it looks otherwise.
-pub(crate) fn note(source: &Source) -> Option<String> {
-    let Diagnostic { fault: Fault::AssumedMilling { looks_like, line }, .. } = source.assumed.first()? else {
-        return None;
-    };
-    Some(format!("{}: looks like {looks_like} (line {line}); read as a milling program", source.shown))
-}
-
-/// Why a program is refused; `None` is a milling program. Where the user says that all are, what it looks like is
-/// kept with the source.
-///
-/// # Errors
-/// It cannot be read.
-pub(crate) fn refusal(source: &mut Source, known: &Known) -> Result<Option<Refusal>, Problem> {
-    let unread = |shown: &str, e: &io::Error| Problem::file("read", shown, e);
-    let shown = source.shown.clone();
-    let Some(finding) = look(source).map_err(|e| unread(&shown, &e))? else { return Ok(None) };
-    if known.all_for_mills() {
-        let assumed = assumed(source, &finding).map_err(|e| unread(&shown, &e))?;
-        source.assumed = vec![assumed];
-        source.rewind()?;
-        return Ok(None);
-    }
-    let refusal = Refusal::of(source, &finding).map_err(|e| unread(&shown, &e))?;
-    source.rewind()?;
-    Ok(Some(refusal))
-}
-
-/// What the beginning of a source looks like.
-fn look(source: &mut Source) -> io::Result<Option<Finding>> {
-    source.file.seek(SeekFrom::Start(0))?;
-    let mut text = Vec::with_capacity(BEGINNING + 1);
-    // One byte more tells whether the text goes on.
-    (&mut source.file).take(BEGINNING as u64 + 1).read_to_end(&mut text)?;
-    source.file.seek(SeekFrom::Start(0))?;
-    // What is no text at all is told by its readers.
-    Ok(recognise(&text).filter(|_| !text.contains(&0)))
-}
-
-fn assumed(source: &mut Source, finding: &Finding) -> io::Result<Diagnostic> {
-    let span = span(&finding.decisive);
-    let lines = Lines::find(&mut source.file, vec![span.start])?;
-    let line = lines.line(span.start).map_or(1, |line| line.number);
-    let fault = Fault::AssumedMilling { looks_like: kind(finding).into(), line };
-    Ok(Diagnostic::new(fault, span))
-}
-
-fn span(shown: &Shown) -> Span {
-    Span::new(shown.place.start as u32, shown.place.end as u32)
-}
-
-/// A program that is not for a mill, in words.
-#[derive(Debug)]
-pub(crate) struct Refusal {
-    told: Told,
-    lines: Lines,
-    /// What it looks like: `a lathe program`.
-    pub(crate) kind: String,
-}
-
-impl Refusal {
-    fn of(source: &mut Source, finding: &Finding) -> io::Result<Refusal> {
-        let others: Vec<&Shown> = finding.others.iter().take(MOST_SIGNS).collect();
-        let spans: Vec<Span> =
-            std::iter::once(&finding.decisive).chain(others.iter().copied()).map(span).collect();
-        let lines = Lines::find(&mut source.file, spans.iter().map(|span| span.start).collect())?;
-        let excerpt = Excerpt::read(&mut source.file, &lines, &source.shown, &spans[..1])?;
-        let start = excerpt.location(&lines, spans[0].start).unwrap_or((1, 1));
-        let text = excerpt.snippet(&lines, spans[0]).to_owned();
-        let end = (start.0, start.1 + text.chars().count() as u64);
-        let label = finding.decisive.sign.label.to_owned();
-        let signs: Vec<String> = others
-            .iter()
-            .zip(&spans[1..])
-            .map(|(shown, span)| {
-                let line = lines.line(span.start).map_or(0, |line| line.number);
-                format!("line {line}: {}", shown.sign.label)
-            })
-            .collect();
-        let told = Told {
-            code: format!("NC{CODE:04}"),
-            severity: Severity::Error,
-            verdict: None,
-            rank: None,
-            message: headline(finding),
-            place: Place { span: spans[0], start, end, text, label },
-            related: Vec::new(),
-            details: signs,
-            advice: advice(finding),
-            excerpt,
-        };
-        Ok(Refusal { told, lines, kind: kind(finding) })
-    }
-
-    /// Prints it for people.
-    ///
-    /// # Errors
-    /// Writing.
-    pub(crate) fn print(&self, err: &mut dyn WriteColor) -> io::Result<()> {
-        let boxed = boxed(&self.told, &self.lines);
-        term::emit_to_write_style(err, &Config::default(), &self.told.excerpt, &boxed)
-            .map_err(io::Error::other)
-    }
-
-    /// It as a message for programs.
-    pub(crate) fn entry(&self) -> Entry {
-        Entry::of(&self.told)
-    }
-
-    /// The same as a line.
-    pub(crate) fn line(&self, err: &mut dyn WriteColor) -> Result<(), Problem> {
-        json::line(&mut as_write(err), &self.entry()).map_err(|e| unwritten(&e))
-    }
-
-    /// The question that it leaves to the user: what it looks like, or a milling program.
-    pub(crate) fn asked(&self) -> Asked {
-        let answer = |option: Option<&str>, result: String, taken| AskedAnswer {
-            option: option.map(str::to_owned),
-            result: Some(result),
-            taken,
-        };
-        Asked::of_refusal(
-            &self.told,
-            [
-                answer(None, format!("{}, not translated", self.kind), true),
-                answer(Some("--assume milling"), "a milling program, translated".to_owned(), false),
-            ],
-        )
-    }
-
-    /// It in one line, with its place.
-    pub(crate) fn reason(&self) -> String {
-        format!("line {}: {}", self.told.place.start.0, self.told.message)
-    }
-}
-
-/// What a program looks like: `a lathe program`.
-fn kind(finding: &Finding) -> String {
-    match finding.kind {
-        Kind::Lathe => match finding.system {
-            None => "a lathe program".to_owned(),
-            Some(system) => format!("a lathe program ({})", control(system)),
-        },
-        Kind::Heidenhain => "a Heidenhain program".to_owned(),
-        Kind::Okuma => "an Okuma OSP program".to_owned(),
-        Kind::Mazatrol => "a Mazatrol program".to_owned(),
-        Kind::WireEdm => "a wire EDM program".to_owned(),
-        Kind::Printer => "a 3-D printer program".to_owned(),
-        Kind::Text => "plain text, not a program".to_owned(),
-    }
-}
-
-fn control(system: System) -> &'static str {
-    match system {
-        System::FanucA => "FANUC system A",
-        System::FanucB => "FANUC system B",
-        System::FanucC => "FANUC system C",
-        System::Haas => "Haas",
-        System::Sinumerik => "Sinumerik",
-        System::LinuxCnc => "LinuxCNC",
-    }
-}
-
-fn headline(finding: &Finding) -> String {
-    match (finding.certain || finding.kind == Kind::Text, finding.kind) {
-        (true, _) => format!("this looks like {}", kind(finding)),
-        (false, Kind::Lathe) => "is this a lathe program?".to_owned(),
-        (false, _) => format!("is this {}?", kind(finding)),
-    }
-}
-
-/// One action; in doubt the one that answers the question.
-fn advice(finding: &Finding) -> Vec<String> {
-    let supported = match finding.kind {
-        Kind::Heidenhain | Kind::Okuma | Kind::Mazatrol => {
-            "ncc has no dialect for it; post the program again for a control of `ncc dialects`"
-        }
-        Kind::Text => "name the part program itself",
-        Kind::Lathe | Kind::WireEdm | Kind::Printer => {
-            "ncc supports milling programs only; post again for a mill"
-        }
-    };
-    vec![supported.to_owned(), "if it is a milling program: `--assume milling`".to_owned()]
 }

@@ -9,20 +9,22 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
+use ncc_driver::job::Job;
+use ncc_driver::job::given::{self, Given};
+use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::Problem;
+use ncc_driver::provenance::annotate;
+use ncc_driver::questions::Policy;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
 use crate::args::{Eol, Translate};
-use crate::given::{self, Given};
-use crate::job::Job;
 use crate::known::Known;
-use crate::m_codes;
-use crate::machines::pair::{Machines, agreed};
-use crate::problem::Problem;
+use crate::machines::agreed;
 use crate::project::{InForce, Settled, Sides, Stated, settle};
-use crate::provenance::annotate;
-use crate::questions::Policy;
-use crate::run::{INTO_WHAT, settings, state_units};
+use crate::run::INTO_WHAT;
+use crate::{files, m_codes};
 
 /// What all programs of a command have in common.
 #[derive(Debug)]
@@ -58,8 +60,12 @@ impl Order {
         told: &mut dyn WriteColor,
     ) -> Result<Order, Problem> {
         let settled = row.map(|row| settle(row, Sides::Written, &stated(args), None, known)).transpose()?;
-        let mut machines =
-            Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, told)?;
+        let mut machines = crate::machines::find_both(
+            args.machine_from.as_deref(),
+            args.machine_to.as_deref(),
+            known,
+            told,
+        )?;
         if let Some(settled) = &settled {
             machines.from = machines.from.or_else(|| settled.machine.clone());
             machines.to = machines.to.or_else(|| settled.to.clone());
@@ -74,7 +80,7 @@ impl Order {
                  or name a machine: --machine-from MACHINE; or in `ncc.toml`, which `ncc init` writes",
             ));
         }
-        let mut to = settings(machines.settings(Side::To, to), &args.to_option)?;
+        let mut to = choose(machines.settings(Side::To, to), &args.to_option)?;
         m_codes::state(&mut to, Side::To, known)?;
         if args.annotate && !annotate::can(to.dialect) {
             return Err(Problem::usage(
@@ -85,13 +91,14 @@ impl Order {
         let named =
             args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
         let named = agreed(named, machines.from.as_deref(), "from")?;
-        let from = named.map(|from| settings(machines.settings(Side::From, from), &args.from_option));
+        let from = named.map(|from| choose(machines.settings(Side::From, from), &args.from_option));
         let mut from = from.transpose()?;
         if let Some(from) = &mut from {
             state_units(from, known.units())?;
             m_codes::state(from, Side::From, known)?;
         }
-        let mut given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
+        let read = |path| files::text(path).and_then(|(name, text)| Given::of_file(&name, &text));
+        let mut given = args.args.as_deref().map(read).transpose()?.unwrap_or_default();
         let mut values = args.value.clone();
         for (name, holds) in machines.from.iter().flat_map(|profile| profile.values()) {
             let stated = given::value(&format!("{name}={holds}")).ok();
@@ -108,7 +115,7 @@ impl Order {
 
     /// Line ends, as far as they are the same for all.
     pub(crate) fn eol(&self, args: &Translate) -> Eol {
-        args.lines.eol.unwrap_or(self.machines.eol())
+        args.lines.eol.unwrap_or(crate::machines::eol(&self.machines))
     }
 
     /// The translation of one program in the dialect that is named or was recognised.
@@ -125,7 +132,7 @@ impl Order {
         let from = match &self.from {
             Some(settings) => settings.clone(),
             None => {
-                let mut own = settings(self.machines.settings(Side::From, from), &args.from_option)?;
+                let mut own = choose(self.machines.settings(Side::From, from), &args.from_option)?;
                 state_units(&mut own, self.known.units())?;
                 m_codes::state(&mut own, Side::From, &self.known)?;
                 own

@@ -7,30 +7,29 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
-use ncc_dialects::{Dialect, SettingError, Settings};
+use ncc_dialects::Dialect;
+use ncc_driver::guess::better;
+use ncc_driver::job::{Failure, Job, Outcome};
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::provenance::map;
+use ncc_driver::provenance::trace::Asked;
+use ncc_driver::questions::of_translation;
+use ncc_driver::render::human::Loudness;
+use ncc_driver::render::terminal::Shown;
+use ncc_driver::render::{About, dialects, explain, json, questions, report};
+use ncc_driver::source::{Source, called};
+use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
-use crate::files::{self, Destination, Source};
-use crate::guess::{Guess, better, guess};
-use crate::job::{Failure, Job, Outcome};
+use crate::files::{self, Destination, arrow};
 use crate::known::{self, Known};
 use crate::milling::{self, Assumed, Voice};
 use crate::order::Order;
-use crate::problem::{Exit, Problem};
-use crate::provenance::trace::Asked;
-use crate::provenance::{map, why};
-use crate::questions::of_translation;
-use crate::render::human::Loudness;
-use crate::render::terminal::Shown;
-use crate::render::{About, human, json, questions, summary};
+use crate::provenance::why;
 use crate::sugar::{Said, rewrite};
-use crate::tools_by_name;
-use crate::{
-    arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, listing, machines, plot,
-    project, report, review, time, translate,
-};
+use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
 /// What to say to who names no target.
 pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --machine-to MACHINE";
@@ -84,7 +83,7 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
             }
             Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
             Some(DialectsWhat::Test { what, quiet }) => {
-                return ended(dialect_test::run(known, what, *quiet, &mut err), &mut err);
+                return ended(dictionary_test::run(known, what, *quiet, &mut err), &mut err);
             }
         },
         Verb::Machines(args) => return ended(machines::run(args, &known, &mut err), &mut err),
@@ -225,7 +224,7 @@ fn translated(
     };
     let mut source = files::open(path)?;
     if let Some(settled) = &order.settled {
-        source.settle(settled);
+        settled.put_into(&mut source);
     }
     if let Some(refusal) = milling::admit(&mut source, voice, known, err)? {
         if let Some(name) = &args.report {
@@ -234,7 +233,7 @@ fn translated(
             files::to_file(name, &mut |out| report::refused(out, (named, &order.to), &mut source, &refusal))?;
         }
         if voice == Voice::Json {
-            json::line(&mut crate::problem::as_write(err), &refusal.asked())
+            json::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
                 .map_err(|e| Problem::file("write", "messages", &e))?;
             refusal.line(err)?;
         }
@@ -269,7 +268,7 @@ fn translated(
     };
     let mut job = order.job(args, from, &source.name, crlf)?;
     job.rivals = rivals;
-    called::gather(&mut source, &job.from, known.folders())?;
+    called::gather(&mut source, &job.from, known.folders(), &files::Disk)?;
     job.called.clone_from(&source.called);
     job.assumed.clone_from(&source.assumed);
     tools_by_name::number(&mut job, &mut source.file)
@@ -339,7 +338,7 @@ pub(crate) fn tell(
     let loudness = args.telling.loudness();
     match args.format {
         Format::Json => {
-            let mut out = crate::problem::as_write(err);
+            let mut out = ncc_driver::problem::as_write(err);
             for asked in questions::ask(about, &of_translation(about.job, outcome))? {
                 json::line(&mut out, &asked)?;
             }
@@ -348,15 +347,7 @@ pub(crate) fn tell(
                 json::line(&mut out, &report::Summary::of(about.job, outcome))?;
             }
         }
-        Format::Human => {
-            if loudness != Loudness::Quiet || outcome.release.is_err() {
-                questions::print(err, about, &outcome.questions)?;
-            }
-            human::print(err, about, &outcome.diagnostics, loudness)?;
-            if loudness != Loudness::Quiet {
-                summary::print(err, about, outcome)?;
-            }
-        }
+        Format::Human => ncc_driver::render::tell(err, about, outcome, loudness)?,
     }
     err.flush()
 }
@@ -416,94 +407,17 @@ pub(crate) fn recognise_all(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<(&'static Dialect, Vec<&'static Dialect>), Problem> {
-    let found = guess(&mut source.file, known.all()).map_err(|e| Problem::file("read", &source.shown, &e))?;
-    match found {
-        Guess::Sure(dialect, reasons, rivals) => {
-            if say {
-                let _ = writeln!(err, "{}: read as {}: {}", source.shown, dialect.id, reasons.join(", "));
-            }
-            Ok((dialect, rivals))
-        }
-        Guess::Unsure(_) if source.is_blank()? => Err(Problem {
-            exit: Exit::Refused,
-            message: format!("{} is empty", source.shown),
-            help: vec!["there is no program in it to read".to_owned()],
-        }),
-        Guess::Unsure(_) if source.is_no_text()? => Err(Problem {
-            exit: Exit::Refused,
-            message: format!("{} is not a part program", source.shown),
-            help: vec![
-                "there are bytes in it that no text contains; was it saved as UTF-16, or is it another file?"
-                    .to_owned(),
-            ],
-        }),
-        Guess::Unsure(fits) => {
-            let mut help: Vec<String> = fits
-                .iter()
-                .map(|(dialect, against)| match against.is_empty() {
-                    true => format!("{}: nothing speaks against it", dialect.id),
-                    false => format!("{}: {}", dialect.id, against.join(", ")),
-                })
-                .collect();
-            help.insert(0, format!("name it: --from, one of {}", known.ids()));
-            let message = format!("the dialect of {} cannot be told for certain", source.shown);
-            Err(Problem { exit: Exit::Usage, message, help })
-        }
+    let found = ncc_driver::guess::recognise(source, &known.all())?;
+    if say {
+        let reasons = found.reasons.join(", ");
+        let _ = writeln!(err, "{}: read as {}: {reasons}", source.shown, found.dialect.id);
     }
+    Ok((found.dialect, found.rivals))
 }
 
 fn passes() -> String {
     let wide = PASSES.iter().map(|pass| pass.name.len()).max().unwrap_or(0);
     PASSES.iter().map(|pass| format!("{:wide$}  {}\n", pass.name, pass.about)).collect()
-}
-
-/// States the units at power-on of a source, as far as the user has.
-///
-/// # Errors
-/// Its control always has others, or its machine's profile states them.
-pub(crate) fn state_units(settings: &mut Settings, units: Option<Units>) -> Result<(), Problem> {
-    let Some(units) = units else { return Ok(()) };
-    if settings.state_units(units) {
-        return Ok(());
-    }
-    let own = match units {
-        Units::Mm => "inch",
-        Units::Inch => "mm",
-    };
-    Err(Problem::usage(
-        format!("--units contradicts what is known: {} begins in {own}", settings.dialect.id),
-        "leave --units out, or correct the profile of the machine",
-    ))
-}
-
-/// Settings with what the user has chosen.
-///
-/// # Errors
-/// There is no such option, or it does not take the value.
-pub(crate) fn settings(mut settings: Settings, chosen: &[(String, String)]) -> Result<Settings, Problem> {
-    let dialect = settings.dialect;
-    for (option, value) in chosen {
-        settings.choose(option, value).map_err(|error| match error {
-            SettingError::NoOption(option) => Problem::usage(
-                format!("{} has no option `{option}`", dialect.id),
-                match dialect.option.is_empty() {
-                    true => "it has no options at all".to_owned(),
-                    false => {
-                        let names: Vec<&str> = dialect.option.iter().map(|o| o.name.as_str()).collect();
-                        format!("it has: {}", names.join(", "))
-                    }
-                },
-            ),
-            SettingError::NoValue { option, values } => Problem::usage(
-                format!("`{value}` is no value of {option}"),
-                match values.is_empty() {
-                    true => "it takes a number from 0, such as 0.02".to_owned(),
-                    false => format!("it takes: {}", values.join(", ")),
-                },
-            ),
-        })?;
-    }
-    Ok(settings)
 }
 
 fn choice(color: Color) -> ColorChoice {

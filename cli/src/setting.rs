@@ -4,13 +4,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use ncc_driver::job::given::{Given, decimal};
+use ncc_driver::problem::Problem;
+use ncc_driver::render::human::Loudness;
 use ncc_ir::expr::num::Nanos;
 use ncc_time::{Model, ToolChangeOn};
 
-use crate::args::{Eol, Start, decimal, pair, start};
-use crate::given::Given;
-use crate::problem::Problem;
-use crate::render::human::Loudness;
+use crate::args::{Eol, Start, pair, start};
+use crate::files;
 
 /// In which dialect programs are read.
 #[derive(Clone, Debug, Args)]
@@ -44,9 +45,10 @@ impl Holding {
     /// Reads the file.
     ///
     /// # Errors
-    /// As of [`Given::read_one`].
+    /// It cannot be read; as of [`Given::one_of_file`].
     pub(crate) fn read(&self) -> Result<Given, Problem> {
-        Ok(self.args.as_deref().map(Given::read_one).transpose()?.unwrap_or_default())
+        let read = |path| files::text(path).and_then(|(name, text)| Given::one_of_file(&name, &text));
+        Ok(self.args.as_deref().map(read).transpose()?.unwrap_or_default())
     }
 }
 

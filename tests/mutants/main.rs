@@ -18,8 +18,8 @@ mod words;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-use ncc::judge::Judge;
 use ncc_dialects::{Family, builtin};
+use ncc_driver::translate::judge::Judge;
 use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;

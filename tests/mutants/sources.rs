@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use ncc::judge::Judge;
+use ncc_driver::translate::judge::Judge;
 use ncc_tests::corpus::{self, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::plain::{self, Tolerance};

@@ -7,7 +7,7 @@
 
 use std::sync::Mutex;
 
-use ncc::judge::Judge;
+use ncc_driver::translate::judge::Judge;
 use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
@@ -182,7 +182,7 @@ fn every_mutant_of_a_kept_structure_is_caught_or_makes_the_same_moves() {
 }
 
 fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
-    let job = ncc::job::Job { head: false, ..job(program.dialect, to, &program.file) };
+    let job = ncc_driver::job::Job { head: false, ..job(program.dialect, to, &program.file) };
     let mut judge = Judge::new(&job, &program.text).expect("a source in memory");
     if judge.outcome.release.is_err() {
         return;

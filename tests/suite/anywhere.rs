@@ -9,10 +9,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 
-use ncc::job::Failure;
 use ncc_dialects::{Dialect, builtin};
-use ncc_tests::corpus::DIALECTS;
-use ncc_tests::corpus::root;
+use ncc_driver::job::Failure;
+use ncc_tests::corpus::{DIALECTS, root};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, rendered, stopping, translate};
 

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc as Shared;
 
-use ncc::job::Failure;
 use ncc_dialects::builtin;
+use ncc_driver::job::Failure;
 use ncc_ir::canon::{AXES, Distance, Fact, Modes, Plane, Side, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Num, ONE, Unit};

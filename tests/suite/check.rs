@@ -10,7 +10,7 @@ use clap::Parser;
 use codespan_reporting::term::termcolor::NoColor;
 use ncc::args::{Cli, Color, Verb};
 use ncc::known::Known;
-use ncc::problem::Exit;
+use ncc_driver::problem::Exit;
 use ncc_tests::corpus::{self, DIALECTS, files};
 use ncc_tests::expect::{self, Failures};
 use serde_json::Value;
@@ -132,7 +132,7 @@ fn the_example_of_every_page_is_found() {
     let mut failures = Failures::default();
     for code in ncc_check::Rule::CODES {
         let id = format!("NC{code:04}");
-        let page = ncc::explain::page(&id).unwrap_or_else(|| panic!("{id} has no page"));
+        let page = ncc_driver::render::explain::page(&id).unwrap_or_else(|| panic!("{id} has no page"));
         let mut lines = page.lines().skip_while(|line| !line.starts_with("    ncc check "));
         let call = lines.next().unwrap_or_else(|| panic!("{id}: no call in its example"));
         let options: Vec<&str> =

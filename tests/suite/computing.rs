@@ -6,9 +6,9 @@
 
 use std::fmt::Write;
 
-use ncc::job::{Failure, Job};
-use ncc::render::human::Loudness;
-use ncc::rewrite::pass;
+use ncc_driver::job::{Failure, Job};
+use ncc_driver::render::human::Loudness;
+use ncc_driver::translate::rewrite::pass;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::plain::{self, Tolerance};

@@ -8,14 +8,13 @@
 //!
 //! `UPDATE_EXPECT=1` fills empty blocks by translation and writes the `kept:` line anew.
 
-use ncc::rewrite::pass;
-use ncc_tests::besides;
-use ncc_tests::corpus;
+use ncc_driver::translate::rewrite::pass;
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::interpreter::{Event, Machine, What};
 use ncc_tests::page::{self, Page};
 use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::translate::{self, job, stopping, translate};
+use ncc_tests::{besides, corpus};
 
 /// Dialects of the pages.
 const SIDES: [&str; 6] = ["fanuc", "siemens", "linuxcnc", "haas", "mach9", "canon"];
@@ -26,13 +25,13 @@ const COMPUTING: [&str; 4] = ["fanuc", "siemens", "linuxcnc", "haas"];
 /// A translation with its structure, or as straight blocks.
 fn translated(from: &str, to: &str, text: &str, flat: bool) -> Result<Vec<u8>, Vec<u16>> {
     let passes = if flat { vec![pass("flatten").expect("a pass of that name")] } else { Vec::new() };
-    let job = ncc::job::Job { passes, head: false, ..job(from, to, &format!("page.{from}")) };
+    let job = ncc_driver::job::Job { passes, head: false, ..job(from, to, &format!("page.{from}")) };
     let (outcome, written) = translate(&job, text.as_bytes());
     match outcome.release {
         Ok(()) => Ok(written),
         // Held back: there is no refusal.
-        Err(ncc::job::Failure::VerificationFailed) => Err(Vec::new()),
-        Err(ncc::job::Failure::Refused) => Err(stopping(&job, &outcome).into_iter().collect()),
+        Err(ncc_driver::job::Failure::VerificationFailed) => Err(Vec::new()),
+        Err(ncc_driver::job::Failure::Refused) => Err(stopping(&job, &outcome).into_iter().collect()),
     }
 }
 

@@ -3,9 +3,9 @@
 //! `tests/dialects/<name>.toml` is a dictionary beside `<name>.expected`, the failures of its test and the
 //! summary, or what is said of a file that is no dictionary. `UPDATE_EXPECT=1` writes them.
 
-use ncc::dialect_test;
 use ncc::known::Known;
 use ncc_dialects::Family;
+use ncc_driver::dialect_test;
 use ncc_tests::corpus;
 use ncc_tests::expect::{self, Failures};
 

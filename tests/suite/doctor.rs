@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use ncc::job::Job;
-use ncc::machines::pair::Machines;
 use ncc_dialects::builtin;
+use ncc_driver::job::Job;
+use ncc_driver::machines::pair::Machines;
 use ncc_ir::diag::{Fault, Gravity, Verdict};
 use ncc_machines::Profile;
 use ncc_machines::reading::{Place, Side, quoted};

@@ -13,7 +13,7 @@ mod siemens;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ncc::job::{Failure, Job};
+use ncc_driver::job::{Failure, Job};
 use ncc_exec::world::World;
 use ncc_tests::besides;
 use ncc_tests::corpus::DIALECTS;
@@ -214,7 +214,7 @@ impl Judge {
     /// Writes it for a target, and has the second interpreter judge what was written.
     fn written(&mut self, source: &Source, moves: &[Plain], to: &'static str, straight: bool) {
         let passes = match straight {
-            true => vec![ncc::rewrite::pass("flatten").expect("a pass of that name")],
+            true => vec![ncc_driver::translate::rewrite::pass("flatten").expect("a pass of that name")],
             false => Vec::new(),
         };
         let job = Job { passes, ..job(source.from, to, &source.name) };

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use ncc::job::{Failure, Job, Outcome};
 use ncc_dialects::{Family, Meaning, builtin};
+use ncc_driver::job::{Failure, Job, Outcome};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Fault, Gravity, ModeName};
@@ -429,7 +429,7 @@ fn any_slip() {
     });
 }
 
-fn quiet(job: &ncc::job::Job, text: &[u8]) -> Result<(), String> {
+fn quiet(job: &ncc_driver::job::Job, text: &[u8]) -> Result<(), String> {
     let (from, to) = (&job.from.dialect.id, &job.to.dialect.id);
     let (outcome, _) = translate::translate(job, text);
     let said = rendered(job, "law", text, &outcome.diagnostics);

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::Buffer;
-use ncc::machines::pair::Machines;
 use ncc_dialects::builtin;
+use ncc_driver::machines::pair::Machines;
 use ncc_ir::diag::{Gravity, Verdict};
 use ncc_machines::{Profile, Wrong};
 use ncc_tests::corpus;

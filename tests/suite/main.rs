@@ -24,6 +24,7 @@ mod kept;
 mod laws;
 mod machines;
 mod options;
+mod order;
 mod pages;
 mod pairs;
 mod passes;

@@ -10,8 +10,8 @@
 //!
 //! `UPDATE_EXPECT=1` fills empty blocks by translation and writes the `text-exact:` line anew.
 
-use ncc::job::Failure;
-use ncc::judge::Judge;
+use ncc_driver::job::Failure;
+use ncc_driver::translate::judge::Judge;
 use ncc_exec::world::World;
 use ncc_ir::expr::num::ONE;
 use ncc_tests::besides;

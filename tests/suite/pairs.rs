@@ -7,7 +7,7 @@
 
 use std::fmt::Write;
 
-use ncc::job::Failure;
+use ncc_driver::job::Failure;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, rendered, stopping, straight_job, translate};

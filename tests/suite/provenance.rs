@@ -9,12 +9,13 @@ use std::io::Cursor;
 use std::ops::Range;
 
 use codespan_reporting::term::termcolor::NoColor;
-use ncc::job::{Job, Outcome};
 use ncc::known::Known;
 use ncc::provenance::args::Why;
-use ncc::provenance::trace::Asked;
-use ncc::provenance::{map, why};
-use ncc::render::About;
+use ncc::provenance::why;
+use ncc_driver::job::{Job, Outcome};
+use ncc_driver::provenance::map;
+use ncc_driver::provenance::trace::Asked;
+use ncc_driver::render::About;
 use ncc_exec::verify::{Comparison, Pair, Resolution};
 use ncc_exec::world::World;
 use ncc_exec::{Event, Kind};
@@ -37,7 +38,7 @@ struct Mapped {
 fn recorded(job: &Job, asked: Asked, program: &Program) -> Option<(Outcome, Vec<u8>, Option<Value>)> {
     let text = &program.text;
     let (mut outcome, record) =
-        ncc::translate::translate_recording(job, asked, &mut std::io::Cursor::new(text))
+        ncc_driver::translate::translate_recording(job, asked, &mut std::io::Cursor::new(text))
             .expect("an output in memory");
     outcome.release.ok()?;
     let written = outcome.output.to_vec().expect("an output in memory");

@@ -9,11 +9,11 @@ use std::io::Cursor;
 use std::path::Path;
 
 use codespan_reporting::term::termcolor::NoColor;
-use ncc::guess::{Guess, guess};
-use ncc::job::Job;
-use ncc::questions::{Answer, Fact, Policy, Question, of_text};
-use ncc::render::{About, questions};
 use ncc_dialects::{Settings, builtin, builtins};
+use ncc_driver::guess::{Guess, guess};
+use ncc_driver::job::Job;
+use ncc_driver::questions::{Answer, Fact, Policy, Question, of_text};
+use ncc_driver::render::{About, questions};
 use ncc_tests::corpus;
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::settings;
@@ -104,7 +104,7 @@ fn what_is_asked_of_programs() {
 fn stops(job: &Job, text: &[u8], found: &[Question], what: &str, failures: &mut Failures) {
     let done = |questions: Policy| {
         let job = Job { to: settings("ir"), questions, ..job.clone() };
-        ncc::translate::translate(&job, &mut Cursor::new(text)).expect("an output in memory")
+        ncc_driver::translate::translate(&job, &mut Cursor::new(text)).expect("an output in memory")
     };
     let (ask, mut assume) = (done(Policy::Ask), done(Policy::Assume));
     if ask.questions != found || assume.questions != found {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use ncc::job::Failure;
+use ncc_driver::job::Failure;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_tests::corpus::{self, DIALECTS, files};
 use ncc_tests::expect::{self, Failures};

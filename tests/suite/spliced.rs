@@ -7,7 +7,7 @@
 //! `NCC_SPLICED=2000` makes so many of each dialect, and prints those that are held back. `NCC_TEXTS=DIR` keeps the
 //! texts for LinuxCNC there, of which its own interpreter is a judge (`.ci/rs274`).
 
-use ncc::job::{Failure, Job};
+use ncc_driver::job::{Failure, Job};
 use ncc_ir::diag::Fault;
 use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS, Program};

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use fastrand::Rng;
-use ncc::job::Outcome;
+use ncc_driver::job::Outcome;
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Kind, Runner};
 use ncc_ir::canon::{AXES, Distance, Fact, Modes};

@@ -9,7 +9,7 @@ use clap::Parser;
 use codespan_reporting::term::termcolor::NoColor;
 use ncc::args::{Cli, Verb};
 use ncc::known::Known;
-use ncc::problem::Exit;
+use ncc_driver::problem::Exit;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 

@@ -1,7 +1,7 @@
 //! Each text runs twice in a row in one world: what the first run leaves, the second begins with. Judged by the second
 //! interpreter, which executes both runs.
 
-use ncc::job::Outcome;
+use ncc_driver::job::Outcome;
 use ncc_exec::world::World;
 use ncc_ir::behaviour::Concern;
 use ncc_ir::diag::Fault;

@@ -2,13 +2,13 @@
 //! a change that the verification of translations finds makes it different; pages with one fact in every
 //! dialect are equal whoever wrote them.
 
-use ncc::job::Job;
-use ncc::judge::Judge;
 use ncc::known::Known;
 use ncc::review::cert::disagreements;
-use ncc::review::verify::document::{Document, FINER, Word};
 use ncc::review::verify::{SCHEMA, of_texts};
 use ncc_dialects::{Family, builtin};
+use ncc_driver::job::Job;
+use ncc_driver::review::verify::document::{Document, FINER, Word};
+use ncc_driver::translate::judge::Judge;
 use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;

@@ -4,11 +4,10 @@
 //! What is left out is remembered with the reason. Not here: reading what is in a file.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use crate::problem::Problem;
+use ncc_driver::problem::Problem;
 
 /// A file to be translated.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -13,7 +13,6 @@ mod names;
 mod orders;
 mod pool;
 mod progress;
-mod split;
 mod summary;
 mod work;
 
@@ -26,6 +25,7 @@ use std::time::Instant;
 
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 use ncc_dialects::Dialect;
+use ncc_driver::translate::split;
 
 pub use self::summary::SCHEMA;
 
@@ -36,10 +36,13 @@ use self::progress::Progress;
 use self::summary::{Result as Came, Row, Summary};
 use self::work::{Bench, Done, Held, Store, make_folder};
 use crate::args::{Format, Translate};
+use crate::files;
 use crate::known::Known;
 use crate::order::Order;
-use crate::problem::{Exit, Problem, as_write};
-use crate::{called, files};
+use ncc_driver::problem::Exit;
+use ncc_driver::problem::Problem;
+use ncc_driver::problem::as_write;
+use ncc_driver::source::called;
 
 /// Whether a command is about several programs, or about a folder of outputs.
 pub(crate) fn is_meant(args: &Translate) -> bool {

@@ -7,10 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ncc_driver::problem::{Exit, Problem};
 use sha2::{Digest, Sha256};
 
 use super::gather::{Identity, identity};
-use crate::problem::{Exit, Problem};
 
 /// A name that a program's output is to have.
 #[derive(Clone, Debug)]

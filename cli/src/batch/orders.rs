@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Dialect;
+use ncc_driver::problem::Problem;
 
 use super::gather::{Gathered, Reason, identity};
 use crate::args::Translate;
 use crate::known::Known;
 use crate::order::Order;
-use crate::problem::Problem;
 use crate::project::{self, InForce};
 
 /// The orders of a batch.

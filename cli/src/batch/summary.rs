@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
+use ncc_driver::job::project_answers::Used;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::render::words::plural;
+use ncc_driver::time::grid::Grid;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::gather::{Reason, Skipped};
-use crate::problem::{Exit, Problem};
-use crate::project::Used;
-use crate::render::words::plural;
-use crate::time::grid::Grid;
 
 /// The JSON Schema of the document.
-pub const SCHEMA: &str = include_str!("../../schema/batch.schema.json");
+pub const SCHEMA: &str = include_str!("../../../driver/schema/batch.schema.json");
 
 /// What became of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

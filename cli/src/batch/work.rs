@@ -11,24 +11,23 @@ use std::time::Instant;
 
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_dialects::Dialect;
+use ncc_driver::job::{Failure, Job, Outcome};
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::provenance::trace::Asked;
+use ncc_driver::questions::of_translation;
+use ncc_driver::render::human::told;
+use ncc_driver::render::{About, json, questions};
+use ncc_driver::source::{Source, called, not_milling};
+use ncc_driver::translate::{self, split, tools_by_name};
 use ncc_ir::diag::{Fault, Gravity, Verdict};
 use sha2::{Digest, Sha256};
 
 use super::gather::Item;
 use super::orders::Orders;
-use super::split;
 use super::summary::{Missing, Result as Came, Row};
 use crate::args::{Eol, Format, Translate};
-use crate::files::{self, Source};
-use crate::job::{Failure, Job, Outcome};
 use crate::known::Known;
-use crate::problem::{Exit, Problem};
-use crate::provenance::trace::Asked;
-use crate::questions::of_translation;
-use crate::render::human::told;
-use crate::render::{About, json, questions};
-use crate::tools_by_name;
-use crate::{called, milling, run, translate};
+use crate::{files, run};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -42,12 +41,12 @@ pub(super) struct Store {
 
 impl Store {
     pub(super) fn new() -> io::Result<Store> {
-        Ok(Store { file: crate::scratch::file()?, bytes: 0 })
+        Ok(Store { file: crate::files::scratch::file()?, bytes: 0 })
     }
 
     fn put(&mut self, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> io::Result<Range<u64>> {
         let start = self.file.seek(SeekFrom::Start(self.bytes))?;
-        write(&mut self.file).map_err(crate::scratch::full)?;
+        write(&mut self.file).map_err(crate::files::scratch::full)?;
         self.bytes = self.file.stream_position()?;
         Ok(start..self.bytes)
     }
@@ -131,10 +130,10 @@ impl Bench<'_> {
         let Some((order, folder)) = self.orders.at(at) else { return Ok(()) };
         let mut source = files::open(&item.path)?;
         if let Some(settled) = &order.settled {
-            source.settle(settled);
+            settled.put_into(&mut source);
         }
         let say = !args.telling.quiet && args.format == Format::Human;
-        if let Some(refusal) = milling::refusal(&mut source, self.known)? {
+        if let Some(refusal) = not_milling::refusal(&mut source, self.known.all_for_mills())? {
             done.row.result = Came::Refused;
             done.row.exit = Exit::Refused;
             done.row.reason = Some(refusal.reason());
@@ -146,7 +145,7 @@ impl Bench<'_> {
             }
             return Ok(());
         }
-        if let Some(note) = milling::note(&source).filter(|_| say) {
+        if let Some(note) = not_milling::note(&source).filter(|_| say) {
             let _ = writeln!(done.told, "{note}");
         }
         let (from, rivals) = match order.named {
@@ -163,7 +162,7 @@ impl Bench<'_> {
         let mut job = order.job(args, from, &source.name, crlf)?;
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
         job.rivals = rivals;
-        called::gather(&mut source, &job.from, self.known.folders())?;
+        called::gather(&mut source, &job.from, self.known.folders(), &files::Disk)?;
         job.called.clone_from(&source.called);
         job.assumed.clone_from(&source.assumed);
         tools_by_name::number(&mut job, &mut source.file)
@@ -235,7 +234,7 @@ impl Bench<'_> {
             row.reason = Some(format!("line {}: {}", asked.place.line, asked.question));
             return Ok(());
         }
-        let first = told(job, &outcome.diagnostics, crate::render::human::Loudness::Quiet);
+        let first = told(job, &outcome.diagnostics, ncc_driver::render::human::Loudness::Quiet);
         let first = first.first().copied().or(outcome.diagnostics.last());
         let Some(first) = first else { return Ok(()) };
         let lines = about.lines(std::iter::once(first)).map_err(unread)?;

@@ -98,10 +98,11 @@ pub enum Form {
 }
 
 fn id() -> impl TypedValueParser<Value = u16> {
-    clap::builder::StringValueParser::new()
-        .try_map(|text| crate::explain::code(&text).ok_or("no message has this id; one looks like NC0805"))
+    clap::builder::StringValueParser::new().try_map(|text| {
+        ncc_driver::render::explain::code(&text).ok_or("no message has this id; one looks like NC0805")
+    })
 }
 
 fn plane(text: &str) -> Result<Nanos, String> {
-    crate::args::decimal(text).ok_or_else(|| "write a decimal, such as 2 or -0.5".to_owned())
+    ncc_driver::job::given::decimal(text).ok_or_else(|| "write a decimal, such as 2 or -0.5".to_owned())
 }

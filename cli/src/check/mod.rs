@@ -4,39 +4,36 @@
 //! `sarif` write them. Not here: the rules (ncc-check), profiles (ncc-machines).
 
 pub mod args;
-mod drive;
-mod json;
-mod sarif;
-mod text;
-mod told;
-mod words;
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::Path;
 
 use codespan_reporting::term::termcolor::{Ansi, NoColor, WriteColor};
-use ncc_check::Limits;
 use ncc_dialects::Settings;
-use ncc_ir::canon::AXES;
+use ncc_driver::check::{drive, json, limits, sarif, text, told};
 use ncc_ir::diag::Gravity;
-use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_machines::Profile;
 
-pub use self::json::SCHEMA;
+pub use ncc_driver::check::json::SCHEMA;
 
 use self::args::{Check, Form};
-use self::told::Program;
 use crate::args::Color;
-use crate::files::{self, Destination, Source};
-use crate::guess::better;
-use crate::interrupt;
-use crate::job::Output;
+use crate::files::{self, Destination};
 use crate::known::Known;
-use crate::machines::pair::Machines;
-use crate::problem::{Exit, Problem};
-use crate::questions;
-use crate::render::terminal::Shown;
-use crate::review::side::{Asked, Side, open_one};
+use crate::review::side::{Asked, open_one};
+use ncc_driver::check::told::Graded;
+use ncc_driver::check::told::Program;
+use ncc_driver::guess::better;
+use ncc_driver::job::Output;
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::Exit;
+use ncc_driver::problem::Problem;
+use ncc_driver::questions;
+use ncc_driver::render::terminal::Shown;
+use ncc_driver::side::Side;
+use ncc_driver::source::Source;
+use ncc_driver::source::halted;
+use ncc_driver::source::spool::Spool;
 
 /// Runs the verb.
 ///
@@ -102,9 +99,9 @@ fn one(
     }
     let shown = source.shown.clone();
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
-    let limits = limits(args, profile.or(job.machines.from.as_deref()));
+    let limits = limits(profile.or(job.machines.from.as_deref()), args.rapid_plane);
     let course = drive::drive(&job, limits, args.switches.on(), &mut source).map_err(wrong)?;
-    if let Some(problem) = interrupt::problem(&course.diagnostics, &mut source).map_err(wrong)? {
+    if let Some(problem) = halted::problem(&course.diagnostics, &mut source).map_err(wrong)? {
         return Err(problem);
     }
     if say {
@@ -112,7 +109,7 @@ fn one(
         questions::note(&job, &mut source, &course.diagnostics, sound, err)?;
     }
     let doubtful = course.diagnostics.len() > 2;
-    let program = told::tell(args, &job, &mut source, course).map_err(wrong)?;
+    let program = told::tell(&graded(args), &job, &mut source, course).map_err(wrong)?;
     if say
         && doubtful
         && program.counts[0] > 0
@@ -121,6 +118,10 @@ fn one(
         let _ = writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "));
     }
     Ok(program)
+}
+
+fn graded(args: &Check) -> Graded {
+    Graded { allow: args.allow.clone(), deny: args.deny.clone(), verbose: args.telling.verbose }
 }
 
 fn destination(args: &Check) -> Option<&Path> {
@@ -163,11 +164,10 @@ fn formed(args: &Check, programs: Vec<Program>, color: bool) -> io::Result<Vec<u
 /// # Errors
 /// Anonymous files.
 pub fn of_text(args: &Check, from: Settings, profile: Option<&Profile>, text: &[u8]) -> io::Result<Vec<u8>> {
-    let mut file = crate::scratch::file()?;
-    file.write_all(text)?;
-    let Side { mut source, job } = Side::of(Source::of(file, "text"), from, Machines::default(), None);
-    let course = drive::drive(&job, limits(args, profile), args.switches.on(), &mut source)?;
-    formed(args, vec![told::tell(args, &job, &mut source, course)?], false)
+    let Side { mut source, job } =
+        Side::of(Source::of(Spool::of(text.to_vec()), "text"), from, Machines::default(), None);
+    let course = drive::drive(&job, limits(profile, args.rapid_plane), args.switches.on(), &mut source)?;
+    formed(args, vec![told::tell(&graded(args), &job, &mut source, course)?], false)
 }
 
 /// Whether findings on stdout are coloured.
@@ -178,24 +178,5 @@ fn is_colored(color: Color) -> bool {
         Color::Auto => {
             io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
         }
-    }
-}
-
-/// The facts of a machine that rules need.
-fn limits(args: &Check, profile: Option<&Profile>) -> Limits {
-    let Some(profile) = profile else {
-        return Limits { rapid_plane: args.rapid_plane, ..Limits::default() };
-    };
-    let machine = profile.machine();
-    let nanos = |value: f64| (value * 1e6).round() as Nanos * (ONE / 1_000_000);
-    Limits {
-        machine: true,
-        travel: std::array::from_fn::<_, AXES, _>(|axis| machine.axes[axis].travel.map(|t| t.map(nanos))),
-        max_feed: machine.max_feed.map(nanos),
-        axis_feed: std::array::from_fn::<_, AXES, _>(|axis| machine.axes[axis].max_feed.map(nanos)),
-        max_speed: machine.spindle_max.map(nanos),
-        rapid_plane: args.rapid_plane,
-        tables: profile.tables(),
-        no_lengths: false,
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+use ncc_driver::render::About;
 use ncc_ir::canon::Units;
 use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED, key_of, quoted};
@@ -12,7 +13,6 @@ use super::question::Question;
 use super::stub::comment;
 use crate::known::Known;
 use crate::project::init::Init;
-use crate::render::About;
 
 /// The text of the file. Every question is a comment with the key that answers it.
 pub(super) fn text(args: &Init, known: &Known, about: &About, asked: &[Question]) -> String {

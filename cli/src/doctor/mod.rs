@@ -17,28 +17,29 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
+use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::{Job, Outcome, Rest};
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions::Policy;
+use ncc_driver::render::About;
+use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::source::Source;
+use ncc_driver::translate;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_machines::Profile;
 use ncc_machines::reading::{Place, Side, UNNAMED};
+use question::{Question, questions};
 
 use crate::args::{Start, pair};
-use crate::files::{self, Source};
-use crate::job::{Job, Outcome, Rest};
 use crate::known::Known;
-use crate::m_codes;
-use crate::machines::pair::{Machines, agreed};
+use crate::machines::agreed;
 use crate::milling::{self, Voice};
-use crate::problem::{Exit, Problem};
 use crate::project::init::Init;
 use crate::project::{self, Sides, Stated};
-use crate::questions::Policy;
-use crate::render::About;
-use crate::render::human::{self, Loudness};
-use crate::run::{INTO_WHAT, recognise, settings, state_units};
+use crate::run::{INTO_WHAT, recognise};
 use crate::setting::{Standing, Telling};
-use crate::translate;
-use question::{Question, questions};
+use crate::{files, m_codes};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -187,7 +188,7 @@ struct Examined {
 }
 
 fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Examined, Problem> {
-    let mut machines = Machines::find(args.machine_from, args.machine_to, known, err)?;
+    let mut machines = crate::machines::find_both(args.machine_from, args.machine_to, known, err)?;
     let stated = Stated {
         from: args.from,
         machine: args.machine_from,
@@ -214,7 +215,7 @@ fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Exam
     let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
     let mut source = milling::open(args.file, voice, known, err)?;
     if let Some(settled) = &settled {
-        source.settle(settled);
+        settled.put_into(&mut source);
         if !args.telling.quiet {
             project::note(&source.shown, &settled.used, err);
         }
@@ -223,10 +224,10 @@ fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Exam
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.telling.quiet, known, err)?,
     };
-    let mut said = settings(machines.settings(Side::From, from), args.from_option)?;
+    let mut said = choose(machines.settings(Side::From, from), args.from_option)?;
     state_units(&mut said, known.units())?;
     m_codes::state(&mut said, Side::From, known)?;
-    let mut into = settings(machines.settings(Side::To, to), args.to_option)?;
+    let mut into = choose(machines.settings(Side::To, to), args.to_option)?;
     m_codes::state(&mut into, Side::To, known)?;
     let assumed = source.assumed.clone();
     let start = args.start;
@@ -248,7 +249,7 @@ fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Exam
         // What else there is to ask shows once these codes stand for something.
         let mut profile = job.machines.from.as_deref().cloned().unwrap_or_else(|| Profile::empty(from));
         codes.iter().for_each(|code| profile.add_code(code, &stand_in(code)));
-        job.from = settings(profile.settings(), args.from_option)?;
+        job.from = choose(profile.settings(), args.from_option)?;
         state_units(&mut job.from, known.units())?;
         m_codes::state(&mut job.from, Side::From, known)?;
         source.rewind()?;

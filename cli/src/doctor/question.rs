@@ -4,15 +4,14 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ncc_dialects::Dialect;
+use ncc_driver::job::Outcome;
+use ncc_driver::render::About;
+use ncc_driver::render::summary::phrase;
+use ncc_driver::render::words::{Context, numbered};
 use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED};
 use ncc_machines::schema::PowerOn;
 use ncc_machines::table::Table;
-
-use crate::job::Outcome;
-use crate::render::About;
-use crate::render::summary::phrase;
-use crate::render::words::{Context, numbered};
 
 /// Of one question, so many lines are named.
 const MOST_LINES: usize = 8;

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
+use ncc_driver::render::About;
 use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED, key_of, quoted};
 
 use super::question::Question;
-use crate::render::About;
 
 /// Longest line of a comment.
 const WIDE: usize = 100;

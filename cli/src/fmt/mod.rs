@@ -5,38 +5,31 @@
 //! and after; `calls` is for texts that are lists of calls. Not here: what words mean.
 
 pub mod args;
-mod calls;
-mod events;
-mod layout;
-mod number;
-mod references;
-mod same;
-mod shown;
-#[cfg(test)]
-mod tests;
-mod text;
 
-use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::{Family, Settings};
+use ncc_driver::fmt::events::{self, Compared};
+use ncc_driver::fmt::text::{self, Refused};
+use ncc_driver::fmt::{number, shown};
+use ncc_driver::guess::better;
+use ncc_driver::job::Job;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions;
+use ncc_driver::render::About;
+use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::side::Side;
+use ncc_driver::source::spool::Spool;
+use ncc_driver::source::{Readable, Source};
 use ncc_machines::schema::BlockNumbers;
 
 use self::args::Fmt;
-use self::events::Compared;
-use self::text::Refused;
 use crate::args::Eol;
-use crate::files::{self, Source};
-use crate::guess::better;
-use crate::job::Job;
+use crate::files;
 use crate::known::Known;
-use crate::problem::{Exit, Problem};
-use crate::questions;
-use crate::render::About;
-use crate::render::human::{self, Loudness};
-use crate::review::side::{Asked, Side, open_one, operand};
+use crate::review::side::{Asked, open_one, operand};
 
 /// Runs the verb.
 ///
@@ -74,7 +67,7 @@ fn is_stdin(file: &str) -> bool {
 /// A text that was laid out.
 struct Done {
     /// The result.
-    file: File,
+    file: Spool,
     /// Lines that look otherwise.
     changed: u32,
     /// Lines that were not taken apart.
@@ -97,7 +90,7 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
     let loudness = args.telling.loudness();
     let say = loudness != Loudness::Quiet;
     let Side { mut source, mut job } = open_one(&asked, say, known, err)?;
-    let eol = match args.lines.eol.unwrap_or(job.machines.eol()) {
+    let eol = match args.lines.eol.unwrap_or(crate::machines::eol(&job.machines)) {
         Eol::Lf => false,
         Eol::Crlf => true,
         Eol::Keep => source.is_crlf()?,
@@ -129,11 +122,9 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
 /// What keeps it from being laid out.
 pub fn of_text(from: Settings, layout: Layout, text: &[u8], known: &Known) -> Result<Vec<u8>, Problem> {
     let memory = |e: io::Error| Problem::file("use", "an anonymous file", &e);
-    let mut source = crate::scratch::file().map_err(memory)?;
-    source.write_all(text).and_then(|()| source.rewind()).map_err(memory)?;
     let job = Job { layout, ..Job::new(from.clone(), from, "text") };
     let mut nowhere = Buffer::no_color();
-    let mut source = Source::of(source, "text");
+    let mut source = Source::of(Spool::of(text.to_vec()), "text");
     let mut done = laid_out(Loudness::Quiet, &job, &mut source, known, &mut nowhere)?;
     let mut written = Vec::new();
     done.file.rewind().and_then(|()| done.file.read_to_end(&mut written)).map_err(memory)?;
@@ -160,8 +151,8 @@ fn laid_out(
     let shown = source.shown.clone();
     let read = |e: io::Error| Problem::file("read", &shown, &e);
     let eol: &[u8] = if job.layout.crlf { b"\r\n" } else { b"\n" };
-    let mut file = crate::scratch::file().map_err(read)?;
-    let found = text::text(&job.from, eol, &mut source.file, &mut file).map_err(read)?;
+    let mut file = Spool::default();
+    let found = text::text(&job.from, eol, &mut *source.file, &mut file).map_err(read)?;
     match found.refused {
         Some(Refused::NotText(line)) => return Err(not_text(&shown, Some(line))),
         Some(Refused::NotSame(line)) => return Err(not_same(&shown, Some(line))),
@@ -170,7 +161,7 @@ fn laid_out(
     let unread = found.unread;
     let mut done = Done { file, changed: found.changed, unread, shown: String::new(), executed: false };
     if job.layout.numbering != Numbering::Keep {
-        numbered(job, &shown, &mut source.file, &mut done)?;
+        numbered(job, &shown, &mut *source.file, &mut done)?;
     }
     if done.changed == 0 {
         // Every byte is the same.
@@ -178,7 +169,7 @@ fn laid_out(
         return Ok(done);
     }
     let mut assumed = Vec::new();
-    let compared = events::compare(job, &mut source.file, &mut done.file, &mut assumed).map_err(read)?;
+    let compared = events::compare(job, &mut *source.file, &mut done.file, &mut assumed).map_err(read)?;
     if loudness != Loudness::Quiet {
         let sound = !matches!(compared, Compared::NotExecuted(..));
         questions::note(job, source, &assumed, sound, err)?;
@@ -215,9 +206,9 @@ fn laid_out(
 }
 
 /// Gives the blocks of a text that was laid out other numbers.
-fn numbered(job: &Job, shown: &str, before: &mut File, done: &mut Done) -> Result<(), Problem> {
+fn numbered(job: &Job, shown: &str, before: &mut dyn Readable, done: &mut Done) -> Result<(), Problem> {
     let wrong = |e: io::Error| Problem::file("read", shown, &e);
-    let all = |file: &mut File| -> io::Result<Vec<u8>> {
+    let all = |file: &mut dyn Readable| -> io::Result<Vec<u8>> {
         let mut text = Vec::new();
         file.seek(SeekFrom::Start(0))?;
         file.read_to_end(&mut text)?;
@@ -240,7 +231,7 @@ fn numbered(job: &Job, shown: &str, before: &mut File, done: &mut Done) -> Resul
         |text: &'_ [u8]| text.split_inclusive(|b| *b == b'\n').map(<[u8]>::to_vec).collect::<Vec<_>>();
     let changed = lines(&before).iter().zip(&lines(&text)).filter(|(a, b)| a != b).count();
     done.changed = u32::try_from(changed).unwrap_or(u32::MAX);
-    done.file.set_len(0).and_then(|()| done.file.rewind()).map_err(wrong)?;
+    done.file.clear();
     done.file.write_all(&text).map_err(wrong)
 }
 
@@ -303,7 +294,7 @@ fn write(
                 writeln!(out, "{shown}")?;
             }
             if args.diff && done.changed > 0 {
-                shown::difference(&shown, &mut source.file, &mut done.file, out)?;
+                shown::difference(&shown, &mut *source.file, &mut done.file, out)?;
             }
             Ok(())
         })

@@ -6,23 +6,21 @@
 //! interpreter itself, whose own test programs are printed as it prints them. Compensated contours are listed
 //! by the path of the tool's centre.
 
-mod by_time;
-mod read_back;
-
 use std::io::{Read, Seek, SeekFrom};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::canon::rs274;
-use ncc_exec::world::Tables;
+use ncc_driver::job::Job;
+use ncc_driver::listing::read_back;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::render::{About, human, json};
+use ncc_driver::source::Source;
 use ncc_frontends::Batch;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
 
 use crate::args::{Format, Style, Translate};
-use crate::files::{self, Destination, Source};
-use crate::job::Job;
-use crate::problem::{Exit, Problem};
-use crate::render::{About, human, json};
+use crate::files::{self, Destination};
 
 /// What the command line asks for beside a listing that has no meaning there.
 ///
@@ -53,13 +51,6 @@ pub(crate) fn check(args: &Translate, job: &Job) -> Result<(), Problem> {
     Ok(())
 }
 
-/// The table of tools of the source's machine: lengths and radii that its profile states, and no offsets beside them.
-fn tables(job: &Job) -> Tables {
-    let stated = job.machines.from.as_ref().map(|machine| machine.tables()).unwrap_or_default();
-    let offsets = stated.lengths.keys().map(|entry| (*entry, [0; 2])).collect();
-    Tables { lengths: stated.lengths, radii: stated.radii, offsets, ..Tables::default() }
-}
-
 /// Lists the calls of a program.
 ///
 /// # Errors
@@ -87,7 +78,7 @@ pub(crate) fn run(
         let main = batch.main(body);
         let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
         let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
-        match rs274::print(&program, &text, &tables(job), job.from.arc_rule()) {
+        match rs274::print(&program, &text, &read_back::tables(job), job.from.arc_rule()) {
             Ok(printed) => {
                 let same = job.verify.then(|| read_back::verify(job, &program, &text, &printed));
                 match same.unwrap_or(Ok(())) {
@@ -105,7 +96,7 @@ pub(crate) fn run(
     let loudness = args.telling.loudness();
     // Messages that cannot be written change nothing about what was done.
     let _ = match args.format {
-        Format::Json => json::print(&mut crate::problem::as_write(err), &mut about, &found, loudness),
+        Format::Json => json::print(&mut ncc_driver::problem::as_write(err), &mut about, &found, loudness),
         Format::Human => human::print(err, &mut about, &found, loudness),
     };
     let Some(listing) = listing else {

@@ -1,26 +1,27 @@
 //! Machine profiles on the command line: finding one, and telling what is wrong with it.
 
 mod args;
-pub mod pair;
-mod show;
-mod test;
-mod words;
 
 pub use args::Machines;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use codespan_reporting::diagnostic::{Diagnostic as Boxed, Label, Severity};
 use codespan_reporting::files::SimpleFile;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
+use ncc_dialects::Dialect;
+use ncc_driver::machines::words::{message, words};
+use ncc_driver::machines::{pair, show, test};
+use ncc_driver::problem::{Exit, Problem};
+use ncc_machines::schema::LineEnds;
 use ncc_machines::{Profile, ProfileError, shipped};
 
+use self::args::What;
+use crate::args::Eol;
 use crate::known::Known;
-use crate::problem::{Exit, Problem};
 use crate::{files, machines};
-use args::What;
-use words::{message, words};
 
 /// The schema of profiles, as it is documented.
 pub const SCHEMA: &str = include_str!("../../../docs/machine-profile.md");
@@ -146,4 +147,48 @@ pub(crate) fn place(text: &str, at: usize) -> String {
 /// `1 error`, `2 errors`.
 pub(crate) fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+/// The profiles of both sides, by name or file.
+///
+/// # Errors
+/// There is none, or it has faults; those are told on `err`.
+pub(crate) fn find_both(
+    from: Option<&str>,
+    to: Option<&str>,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<pair::Machines, Problem> {
+    let mut one = |name: Option<&str>| {
+        name.map(|name| find(name, known, err)).transpose().map(|found| found.map(Arc::new))
+    };
+    Ok(pair::Machines { from: one(from)?, to: one(to)? })
+}
+
+/// Line ends, as the shop wants them.
+pub(crate) fn eol(machines: &pair::Machines) -> Eol {
+    match machines.layout().line_ends {
+        None | Some(LineEnds::Keep) => Eol::Keep,
+        Some(LineEnds::Lf) => Eol::Lf,
+        Some(LineEnds::Crlf) => Eol::Crlf,
+    }
+}
+
+/// The dialect of a side, by its name or by its profile.
+///
+/// # Errors
+/// Both name one, and not the same.
+pub(crate) fn agreed(
+    named: Option<&'static Dialect>,
+    profile: Option<&Profile>,
+    side: &str,
+) -> Result<Option<&'static Dialect>, Problem> {
+    match (named, profile) {
+        (Some(dialect), Some(profile)) if dialect.id != profile.dialect.id => Err(Problem::usage(
+            format!("--{side} {}, but the machine {} is a {}", dialect.id, profile.id(), profile.dialect.id),
+            format!("leave --{side} out: the profile names the dialect"),
+        )),
+        (Some(dialect), _) => Ok(Some(dialect)),
+        (None, profile) => Ok(profile.map(|profile| profile.dialect)),
+    }
 }

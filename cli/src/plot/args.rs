@@ -7,7 +7,7 @@ use ncc_plot::{Chart, View};
 
 use crate::args::pair;
 use crate::setting::{Reading, Setting, Telling};
-use crate::time::args::{Form, Stage, Time};
+use crate::time::args::{Form, StageArg, Time};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -83,7 +83,7 @@ impl Plot {
             reading: Reading { from, from_option: self.from_option.clone() },
             setting: self.setting.clone(),
             form: Form::Summary,
-            stage: Stage::After,
+            stage: StageArg::After,
             output: None,
             schema: false,
             telling: self.telling,

@@ -9,16 +9,17 @@ use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::job::Output;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::source::Source;
+use ncc_driver::time::drive::{Plan, Said, Sink};
 use ncc_plot::{Listing, Page, Record, charts, report, view};
 use ncc_time::Timed;
 
 use self::args::Plot;
-use crate::files::{Destination, Source};
-use crate::job::Output;
+use crate::files::Destination;
 use crate::known::Known;
 use crate::milling::{self, Voice};
-use crate::problem::{Exit, Problem};
-use crate::time::drive::{Plan, Said, Sink};
 use crate::time::{self, Shop};
 
 /// What a file is.

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use codespan_reporting::diagnostic::Severity;
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::render::report;
 use ncc_machines::project::NAME;
 use ncc_machines::{ProfileError, Wrong};
 
@@ -14,9 +16,7 @@ use super::load::{InForce, Loaded, Row, SCHEMAS};
 use super::settle::facts;
 use super::{Look, Projects};
 use crate::known::Known;
-use crate::machines;
-use crate::problem::{Exit, Problem};
-use crate::{files, report};
+use crate::{files, machines};
 
 /// Files and folders that are looked at for a pattern's sake.
 const MOST: usize = 100_000;

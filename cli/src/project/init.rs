@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::problem::{Exit, Problem};
 use ncc_machines::project::NAME;
 
 use crate::args::pair;
 use crate::doctor;
 use crate::known::Known;
-use crate::problem::{Exit, Problem};
 
 const EXAMPLES: &str = "\
 Examples:

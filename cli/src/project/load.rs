@@ -1,13 +1,13 @@
 //! Finding a project file, reading it, and the row of a program.
 
 use std::collections::HashMap;
-use std::fs;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::{fs, io};
 
 use codespan_reporting::diagnostic::Severity;
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::problem::{Exit, Problem};
 use ncc_machines::project::{MachineRef, NAME, Programs, Project};
 use ncc_machines::{Profile, ProfileError, Wrong, shipped};
 use sha2::{Digest, Sha256};
@@ -16,7 +16,6 @@ use toml::Spanned;
 use super::Look;
 use crate::known::Known;
 use crate::machines;
-use crate::problem::{Exit, Problem};
 
 /// The commands that list every key.
 pub(super) const SCHEMAS: &str =

@@ -11,16 +11,16 @@ mod load;
 mod settle;
 
 pub(crate) use load::{InForce, Projects};
-pub use settle::Used;
 pub(crate) use settle::{Settled, Sides, Stated, settle};
 
 use std::path::Path;
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::job::project_answers::Used;
+use ncc_driver::problem::Problem;
 
 use crate::known::Known;
-use crate::problem::Problem;
 
 /// Which program a project file is asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

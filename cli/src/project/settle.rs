@@ -4,17 +4,18 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ncc_dialects::{Dialect, UnitsName};
+use ncc_driver::job::project_answers::{Answer, Used};
+use ncc_driver::problem::Problem;
+use ncc_driver::render::report::hex;
+use ncc_driver::source::Source;
 use ncc_ir::canon::Units;
 use ncc_machines::Profile;
 use ncc_machines::schema::{Effect, MCodeRow};
 use ncc_machines::table::{Stated as Fact, Tell};
-use serde::{Deserialize, Serialize};
 
 use super::load::{InForce, Row};
 use crate::known::Known;
 use crate::m_codes::MCode;
-use crate::problem::Problem;
-use crate::report::hex;
 
 /// What a call states itself.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,56 +49,6 @@ pub(crate) enum Sides {
     Written,
 }
 
-/// What is in force of a project file, for head, report and certificate.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Used {
-    /// Its path, from the working folder.
-    pub file: String,
-    /// SHA-256 of its bytes, in hexadecimal.
-    pub sha256: String,
-    /// What it answers, in the order of its keys.
-    pub answers: Vec<Answer>,
-    /// What options of the call go before, a sentence each.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub overridden: Vec<String>,
-    /// Profiles that it names, as they are found.
-    #[serde(skip)]
-    pub(crate) profiles: Vec<String>,
-}
-
-/// A fact of a project file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Answer {
-    /// Its key in the row: `machine`, `machine.power_on.units`.
-    pub key: String,
-    /// Its value.
-    pub value: String,
-    /// The line in which it stands, from 1.
-    pub line: usize,
-}
-
-impl Used {
-    /// Its name, its hash and what it answers, in a line.
-    pub(crate) fn line(&self) -> String {
-        format!("{}: {}", self.title().join(" sha256 "), self.facts())
-    }
-
-    /// Its name without folders, and the first digits of its hash.
-    pub(crate) fn title(&self) -> [&str; 2] {
-        let name = self.file.rsplit(['/', '\\']).next().unwrap_or_default();
-        [name, self.sha256.get(..8).unwrap_or_default()]
-    }
-
-    /// What it answers.
-    pub(crate) fn facts(&self) -> String {
-        let facts: Vec<String> =
-            self.answers.iter().map(|answer| format!("{} = {}", answer.key, answer.value)).collect();
-        if facts.is_empty() { "nothing that is not stated by options".to_owned() } else { facts.join("; ") }
-    }
-}
-
 /// What is in force for a program.
 #[derive(Clone, Debug)]
 pub(crate) struct Settled {
@@ -111,6 +62,14 @@ pub(crate) struct Settled {
     pub(crate) output: Option<PathBuf>,
     /// All of it, to be told.
     pub(crate) used: Arc<Used>,
+}
+
+impl Settled {
+    /// Keeps with a source what the project file says of it.
+    pub(crate) fn put_into(&self, source: &mut Source) {
+        source.project = Some(Arc::clone(&self.used));
+        source.include.clone_from(&self.include);
+    }
 }
 
 /// Settles a row with what a call states. `dialect` is the program's where the operand names it.

@@ -10,23 +10,25 @@ use std::path::{Path, PathBuf};
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::Dialect;
+use ncc_driver::job::Job;
+use ncc_driver::job::options::choose;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::provenance::map;
+use ncc_driver::provenance::trace::Asked;
+use ncc_driver::questions::Policy;
+use ncc_driver::render::About;
+use ncc_driver::render::report::hex;
+use ncc_driver::source::spool::Spool;
+use ncc_driver::source::{Source, called};
+use ncc_driver::translate::translate_recording;
 
 use super::args::Why;
-use super::map;
 use super::read::{Document, read};
-use super::trace::Asked;
 use super::why::own_settings;
-use crate::called;
-use crate::files::{self, Source};
-use crate::job::Job;
+use crate::files;
 use crate::known::Known;
 use crate::milling::{self, Voice};
-use crate::problem::{Exit, Problem};
-use crate::questions::Policy;
-use crate::render::About;
-use crate::report::hex;
-use crate::run::{recognise, settings};
-use crate::translate::translate_recording;
+use crate::run::recognise;
 
 /// A map with the source that it was made of.
 pub(crate) struct Found {
@@ -108,7 +110,7 @@ fn with_called(
             folders.push(folder);
         }
     }
-    called::gather(&mut source, &settings, &folders)?;
+    called::gather(&mut source, &settings, &folders, &files::Disk)?;
     let found: Vec<String> =
         source.called.iter().flat_map(|called| &called.files).map(|file| hex(&file.sha256)).collect();
     let other = side.called.iter().enumerate().find(|(at, file)| found.get(*at) != Some(&file.sha256));
@@ -142,7 +144,7 @@ fn source_of(
     let mut other = None;
     for path in &candidates {
         let mut source = files::open(path)?;
-        let text = super::text::Text::new(&mut source.file)
+        let text = ncc_driver::provenance::text::Text::new(&mut source.file)
             .map_err(|e| Problem::file("read", &path.display().to_string(), &e))?;
         if hex(&text.sha256) == side.sha256 {
             return with_called(source, document, map, known);
@@ -177,7 +179,7 @@ fn again(
     let from: &'static Dialect = dialect(&args.from, &mut source, err)?;
     let to: &'static Dialect = dialect(&args.to, output, err)?;
     let crlf = output.is_crlf()?;
-    let own = |dialect: &'static Dialect| settings(ncc_dialects::Settings::new(dialect), &[]);
+    let own = |dialect: &'static Dialect| choose(ncc_dialects::Settings::new(dialect), &[]);
     let job = Job {
         layout: Layout { crlf, ..Layout::default() },
         questions: Policy::Skip,
@@ -202,7 +204,7 @@ fn again(
         )],
     };
     let Some(record) = record else { return Err(other()) };
-    let mut file = crate::scratch::file().map_err(|e| wrong(&e))?;
+    let mut file = Spool::default();
     let shown = path.display().to_string();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };
     let name = output.name.clone();

@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Read;
 
+use ncc_driver::provenance::map::VERSION;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
-
-use super::map::VERSION;
 
 /// One of both sides, as the map names it.
 #[derive(Clone, Debug, Default, Deserialize)]

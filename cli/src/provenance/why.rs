@@ -5,24 +5,25 @@ use std::io::{self, Write};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::provenance::state::{Around, State, WHAT, around};
+use ncc_driver::provenance::text::Text;
+use ncc_driver::source::Source;
+use ncc_driver::source::called::Called;
 use serde::Serialize;
 
 use super::args::Why;
 use super::find::{Found, find};
 use super::read::{Events, Place, Row, Side};
-use super::state::{Around, State, WHAT, around};
-use super::text::Text;
 use crate::args::Format;
-use crate::called::Called;
 use crate::files;
 use crate::known::Known;
-use crate::problem::{Exit, Problem};
 
 /// The version of the answer's form.
 const VERSION: u32 = 1;
 
 /// The form of the answer as JSON.
-pub const SCHEMA: &str = include_str!("../../schema/why.schema.json");
+pub const SCHEMA: &str = include_str!("../../../driver/schema/why.schema.json");
 
 /// Most characters of a line that are shown.
 const LONGEST: usize = 160;
@@ -116,7 +117,7 @@ fn ask(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Answer, Pr
     answer(args, found, &mut output, known)
 }
 
-fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -> Result<Answer, Problem> {
+fn answer(args: &Why, found: Found, output: &mut Source, known: &Known) -> Result<Answer, Problem> {
     let (path, line) = &args.place;
     let Found { document, mut source } = found;
     let wrong = |e: io::Error| Problem::file("read", &path.display().to_string(), &e);

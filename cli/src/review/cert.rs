@@ -7,17 +7,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::review::verify::document::{Document, Hashed, KIND, Program, VERSION};
 use ncc_ir::canon::AXES;
 use ncc_ir::expr::num::Nanos;
 use serde_json::Value;
 
 use super::side::{Asked, open};
-use super::verify::document::{Document, Hashed, KIND, Program, VERSION};
-use super::verify::{Call, Verify, compare, exit, is_stdin};
+use super::verify::{Verify, call, cannot_compare, compare, exit, is_stdin};
 use crate::args::Format;
 use crate::files;
 use crate::known::Known;
-use crate::problem::{Exit, Problem};
 use crate::project::Look;
 
 /// Longest value that is told whole, in characters.
@@ -82,13 +82,11 @@ pub(crate) fn check_again(
         ..Asked::default()
     };
     let mut sides = open([&asked(0), &asked(1)], false, &known, err)?;
-    let call = Call {
-        files: programs.map(|program| program.file.clone()),
-        machines: [machines[0].as_deref(), machines[1].as_deref()],
-        tolerance: certificate.asked.tolerance_mm.map(nanos),
-        known: &known,
-    };
-    let fresh = compare(args, &mut sides, &call, err)?;
+    let files = programs.map(|program| program.file.clone());
+    let machines = machines.each_ref().map(|name| name.as_deref());
+    let tolerance = certificate.asked.tolerance_mm.map(nanos);
+    let call = call(files, machines, tolerance, &sides, &known).map_err(cannot_compare)?;
+    let fresh = compare(args, &mut sides, &call, &known, err)?;
     let wrong = disagreements(&certificate, &fresh);
     let other = certificate.ncc_version != fresh.ncc_version;
     let held = match (wrong.is_empty(), exit(&fresh)) {

@@ -6,9 +6,6 @@
 
 pub mod cert;
 pub mod diff;
-pub(crate) mod feed;
 pub(crate) mod side;
-pub(crate) mod stream;
 pub mod textconv;
 pub mod verify;
-pub(crate) mod words;

@@ -9,24 +9,25 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_dialects::{Dialect, Settings};
+use ncc_dialects::Dialect;
+use ncc_driver::guess::{Guess, guess};
+use ncc_driver::job::given::Given;
+use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::side::Side;
+use ncc_driver::source::{Source, called};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
 use crate::args::Start;
-use crate::called;
-use crate::files::AS_STORED;
-use crate::files::Source;
-use crate::given::Given;
-use crate::guess::{Guess, guess};
-use crate::job::Job;
+use crate::files::{self, AS_STORED};
 use crate::known::Known;
 use crate::m_codes;
-use crate::machines::pair::{Machines, agreed};
+use crate::machines::agreed;
 use crate::milling::{self, Voice};
-use crate::problem::{Exit, Problem};
 use crate::project::{self, InForce, Look, Sides, Stated, settle};
-use crate::run::{recognise, settings, state_units};
+use crate::run::recognise;
 use crate::sugar::is_name;
 
 /// What a command says of one side.
@@ -66,22 +67,6 @@ impl Asked<'_> {
             to_options: self.options,
             output: None,
         }
-    }
-}
-
-/// A program, ready to be executed.
-#[derive(Debug)]
-pub(crate) struct Side {
-    /// Its text.
-    pub(crate) source: Source,
-    /// Its dialect, options and machine; as a translation into itself.
-    pub(crate) job: Job,
-}
-
-impl Side {
-    /// Its dialect.
-    pub(crate) fn dialect(&self) -> &'static Dialect {
-        self.job.from.dialect
     }
 }
 
@@ -212,7 +197,7 @@ impl Opened {
         let voice = if say { Voice::Human } else { Voice::Quiet };
         let mut source = milling::open(&path, voice, known, err)?;
         if let Some(settled) = &settled {
-            source.settle(settled);
+            settled.put_into(&mut source);
             if say {
                 project::note(&source.shown, &settled.used, err);
             }
@@ -273,33 +258,19 @@ impl Opened {
             None => Machines::default(),
         };
         let stated = machines.from.is_some();
-        let mut from = settings(machines.settings(Whose::From, dialect), asked.options)?;
+        let mut from = choose(machines.settings(Whose::From, dialect), asked.options)?;
         // Of two sides, one may be in a language that has its own.
         let fixed = !stated && dialect.power_on.units.as_ref().is_some_and(|row| row.always);
         if !fixed {
             state_units(&mut from, known.units())?;
         }
         m_codes::state(&mut from, Whose::From, known)?;
-        called::gather(&mut self.source, &from, known.folders())?;
+        called::gather(&mut self.source, &from, known.folders(), &files::Disk)?;
         self.source.rewind()?;
         let mut side = Side::of(self.source, from, machines, asked.start);
         side.job.given = asked.given.clone();
         side.job.rivals = self.rivals;
         Ok(side)
-    }
-}
-
-impl Side {
-    /// A program of a dialect with its options.
-    pub(crate) fn of(source: Source, from: Settings, machines: Machines, start: Option<Start>) -> Side {
-        let job = Job {
-            machines,
-            start: start.unwrap_or_default(),
-            called: source.called.clone(),
-            project: source.project.clone(),
-            ..Job::new(from.clone(), from, &source.name)
-        };
-        Side { source, job }
     }
 }
 

@@ -11,21 +11,21 @@ use std::path::Path;
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_diff::record::{Batch, Style};
+use ncc_driver::job::Output;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions;
+use ncc_driver::review::feed::{Settings, records};
+use ncc_driver::review::stream::clearances;
+use ncc_driver::review::words::{coolant, event, number, spindle};
+use ncc_driver::source::not_milling;
 use ncc_ir::canon::Spindle;
 use ncc_ir::program::Text;
 
-use super::feed::{Settings, records};
 use super::side::{Asked, open_one};
-use super::stream::clearances;
-use super::words::{coolant, event, number, spindle};
 use crate::args::pair;
 use crate::files;
-use crate::job::Output;
 use crate::known::Known;
-use crate::milling;
-use crate::problem::{Exit, Problem};
 use crate::project::Look;
-use crate::questions;
 
 /// `ncc git-textconv`.
 #[derive(Debug, Args)]
@@ -63,7 +63,7 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
     // git ends with a driver that fails: what is no milling program is text to it.
     let other = match path == Path::new("-") {
         true => None,
-        false => milling::refusal(&mut files::open(path)?, known)?,
+        false => not_milling::refusal(&mut files::open(path)?, known.all_for_mills())?,
     };
     let opened = match other {
         Some(other) => Err(format!("{} looks like {}", path.display(), other.kind)),
@@ -96,7 +96,11 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
 }
 
 /// Writes the events; whether the program could be executed.
-fn listed(side: &mut super::side::Side, output: &mut Output, err: &mut dyn WriteColor) -> io::Result<bool> {
+fn listed(
+    side: &mut ncc_driver::side::Side,
+    output: &mut Output,
+    err: &mut dyn WriteColor,
+) -> io::Result<bool> {
     let settings = Settings { clearances: clearances(&side.job), ..Settings::default() };
     let mut styles: Vec<Style> = Vec::new();
     let mut texts: Vec<Text> = Vec::new();
@@ -143,7 +147,12 @@ fn state(out: &mut dyn Write, last: Option<&Style>, now: &Style) -> io::Result<(
         writeln!(out, "coolant {}", coolant(is.flood, is.mist))?;
     }
     if last.is_none_or(|last| (last.offset, last.length) != (now.offset, now.length)) {
-        writeln!(out, "work offset {}, length {}", now.offset, super::words::length(&now.length))?;
+        writeln!(
+            out,
+            "work offset {}, length {}",
+            now.offset,
+            ncc_driver::review::words::length(&now.length)
+        )?;
     }
     Ok(())
 }

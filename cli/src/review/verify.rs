@@ -4,32 +4,34 @@
 //! what is written down of it, `text` tells it, `hashes` name what it rests on; certificates are checked
 //! again by `cert`. Not here: how two programs differ in all their parts (`diff`).
 
-pub mod document;
 mod hashes;
-pub(crate) mod pair;
-mod text;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::guess::better;
+use ncc_driver::job::Job;
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions;
+use ncc_driver::render::{About, human};
+use ncc_driver::review::verify::document::{Call, Document};
+use ncc_driver::review::verify::text;
 use ncc_ir::expr::num::Nanos;
 
-pub use self::document::SCHEMA;
-use self::document::{Document, Word};
 use super::cert;
-use super::side::{Asked, Side, open, operand};
+use super::side::{Asked, open, operand};
 use crate::args::{Format, pair};
-use crate::files::{self, Source};
-use crate::guess::better;
-use crate::job::Job;
+use crate::files;
 use crate::known::Known;
-use crate::machines::pair::Machines;
-use crate::problem::{Exit, Problem};
-use crate::questions;
-use crate::render::{About, human};
 use crate::setting::{Holding, Nearness, Standing, Telling};
+pub use ncc_driver::review::verify::document::SCHEMA;
+use ncc_driver::review::verify::document::Word;
+use ncc_driver::side::Side;
+use ncc_driver::source::Source;
+use ncc_driver::source::spool::Spool;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -117,18 +119,6 @@ pub struct Verify {
     pub telling: Telling,
 }
 
-/// What a comparison is called with, as far as the document tells it.
-pub(crate) struct Call<'c> {
-    /// The programs' files, as they were named.
-    pub(crate) files: [String; 2],
-    /// Their machines, likewise.
-    pub(crate) machines: [Option<&'c str>; 2],
-    /// How far lengths may be apart.
-    pub(crate) tolerance: Option<Nanos>,
-    /// The dialects.
-    pub(crate) known: &'c Known,
-}
-
 /// Runs the verb.
 ///
 /// # Errors
@@ -200,18 +190,40 @@ fn verify(
         }
     }
     let named = |text: &str| operand(text, known).map(|(_, path)| path.display().to_string());
-    let call = Call {
-        files: [named(&files[0])?, named(&files[1])?],
-        machines: [args.machine_from.as_deref(), args.machine_to.as_deref()],
-        tolerance: args.nearness.tolerance,
-        known,
-    };
-    let document = compare(args, &mut sides, &call, err)?;
+    let files = [named(&files[0])?, named(&files[1])?];
+    let machines = [args.machine_from.as_deref(), args.machine_to.as_deref()];
+    let call = call(files, machines, args.nearness.tolerance, &sides, known).map_err(cannot_compare)?;
+    let document = compare(args, &mut sides, &call, known, err)?;
     if let Some(name) = certificate {
         files::to_file(name, &mut |out| write(out, &document))?;
     }
     show(args, &document)?;
     Ok(exit(&document))
+}
+
+/// What a comparison is called with, and the hashes of what it rests on.
+///
+/// # Errors
+/// Reading the file of a profile.
+pub(crate) fn call(
+    files: [String; 2],
+    machines: [Option<&str>; 2],
+    tolerance: Option<Nanos>,
+    sides: &[Side; 2],
+    known: &Known,
+) -> io::Result<Call> {
+    Ok(Call {
+        files,
+        machines: machines.map(|name| name.map(str::to_owned)),
+        tolerance,
+        dictionaries: hashes::dictionaries(sides, known),
+        profiles: hashes::profiles(machines, sides)?,
+    })
+}
+
+/// The problem of programs that cannot be read for a comparison.
+pub(crate) fn cannot_compare(error: io::Error) -> Problem {
+    Problem::file("compare", "the programs", &error)
 }
 
 /// Compares both sides, and tells what keeps them from being compared.
@@ -222,10 +234,11 @@ pub(crate) fn compare(
     args: &Verify,
     sides: &mut [Side; 2],
     call: &Call,
+    known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Document, Problem> {
-    let cannot = |e: io::Error| Problem::file("compare", "the programs", &e);
-    let found = pair::compare(sides, call.tolerance.unwrap_or_default()).map_err(cannot)?;
+    let found = ncc_driver::review::verify::pair::compare(sides, call.tolerance.unwrap_or_default())
+        .map_err(cannot_compare)?;
     if args.format == Format::Human {
         for (side, course) in sides.iter_mut().zip(&found.courses) {
             if !args.telling.quiet {
@@ -233,18 +246,18 @@ pub(crate) fn compare(
             }
             if course.refused || args.telling.verbose {
                 // Messages that cannot be written change nothing about what was found.
-                let _ = say(args, side, course, call.known, err);
+                let _ = say(args, side, course, known, err);
             }
         }
     }
-    Document::of(&found, sides, call).map_err(cannot)
+    Document::of(&found, sides, call).map_err(cannot_compare)
 }
 
 /// Tells what was found in a program.
 fn say(
     args: &Verify,
     side: &mut Side,
-    course: &super::stream::Course,
+    course: &ncc_driver::review::stream::Course,
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> io::Result<()> {
@@ -306,11 +319,8 @@ pub fn of_texts(
     tolerance: Option<Nanos>,
     known: &Known,
 ) -> io::Result<Document> {
-    let anonymous = |text: &[u8], name: &str| -> io::Result<Source> {
-        let mut file = crate::scratch::file()?;
-        file.write_all(text)?;
-        Ok(Source::of(file, name))
-    };
+    let anonymous =
+        |text: &[u8], name: &str| -> io::Result<Source> { Ok(Source::of(Spool::of(text.to_vec()), name)) };
     let own = |machine: &Option<std::sync::Arc<ncc_machines::Profile>>| Machines {
         from: machine.clone(),
         to: machine.clone(),
@@ -319,17 +329,10 @@ pub fn of_texts(
         Side::of(anonymous(texts[0], "source")?, job.from.clone(), own(&job.machines.from), Some(job.start)),
         Side::of(anonymous(texts[1], "output")?, job.to.clone(), own(&job.machines.to), None),
     ];
-    let machine = |machine: &Option<std::sync::Arc<ncc_machines::Profile>>| {
-        machine.as_ref().map(|machine| machine.id().to_owned())
-    };
-    let machines = [machine(&job.machines.from), machine(&job.machines.to)];
-    let call = Call {
-        files: ["source".to_owned(), "output".to_owned()],
-        machines: [machines[0].as_deref(), machines[1].as_deref()],
-        tolerance,
-        known,
-    };
-    let found = pair::compare(&mut sides, tolerance.unwrap_or_default())?;
+    let machines = [&job.machines.from, &job.machines.to];
+    let machines = machines.map(|machine| machine.as_ref().map(|machine| machine.id()));
+    let call = call(["source".to_owned(), "output".to_owned()], machines, tolerance, &sides, known)?;
+    let found = ncc_driver::review::verify::pair::compare(&mut sides, tolerance.unwrap_or_default())?;
     Document::of(&found, &mut sides, &call)
 }
 

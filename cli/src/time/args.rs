@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use ncc_driver::time::drive::Stage;
 
 use crate::setting::{Reading, Setting, Telling};
 
@@ -49,12 +50,12 @@ pub struct Time {
         long,
         value_name = "before|after",
         value_enum,
-        default_value_t = Stage::After,
+        default_value_t = StageArg::After,
         hide_default_value = true,
         hide_possible_values = true,
         help_heading = "How the result looks"
     )]
-    pub stage: Stage,
+    pub stage: StageArg,
     /// Write to this file instead of stdout; it appears whole or not at all
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,
@@ -104,11 +105,20 @@ impl Form {
     }
 }
 
-/// Stages of the case study's document.
+/// Stages of the case study's document, as they are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Stage {
+pub enum StageArg {
     /// As the program says it
     Before,
     /// As the machine does it
     After,
+}
+
+impl From<StageArg> for Stage {
+    fn from(stage: StageArg) -> Stage {
+        match stage {
+            StageArg::Before => Stage::Before,
+            StageArg::After => Stage::After,
+        }
+    }
 }

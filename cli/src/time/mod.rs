@@ -6,20 +6,7 @@
 //! executed. Not here: models (ncc-time), machines (ncc-machines), pictures.
 
 pub mod args;
-mod assumed;
-mod blocks;
-mod canon;
-mod columns;
-mod csv;
-pub(crate) mod drive;
-mod duration;
-pub(crate) mod grid;
-mod parameters;
-mod payload;
 mod progress;
-mod reach;
-mod summary;
-mod tally;
 
 use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -27,34 +14,38 @@ use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Settings};
+use ncc_driver::guess::better;
+use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::{Failure, Job, Output};
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions::{self, Policy};
+use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::render::{About, summary as account};
+use ncc_driver::source::{Source, called};
+use ncc_driver::time::drive::{Course, Plan, Sink, Stage, drive};
+use ncc_driver::time::payload::{self, Header};
+use ncc_driver::time::{assumed, canon, csv, duration};
 use ncc_ir::canon::Axis;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side;
 use ncc_time::{AssumedFact, Machine};
 
-use self::args::{Form, Stage, Time};
-use self::drive::{Course, Plan, Sink, drive};
-use self::payload::Header;
-pub use self::payload::SCHEMA;
+use self::args::{Form, Time};
 use self::progress::Progress;
-use self::summary::{Report, Timing};
-use self::tally::{Tallier, Tally};
-use crate::called;
-use crate::files::{self, Destination, Source};
-use crate::guess::better;
-use crate::job::{Failure, Job, Output};
+use crate::files::{self, Destination};
 use crate::known::Known;
 use crate::m_codes;
-use crate::machines::pair::Machines;
 use crate::milling::{self, Voice};
-use crate::problem::{Exit, Problem};
 use crate::project::{self, Sides, Stated};
-use crate::questions::{self, Policy};
-use crate::render::human::Loudness;
-use crate::render::{About, human, summary as account};
-use crate::run::{recognise_all, settings, state_units};
-use crate::translate::translate;
+use crate::run::recognise_all;
+pub use ncc_driver::time::payload::SCHEMA;
+use ncc_driver::time::summary::Report;
+use ncc_driver::time::summary::Timing;
+use ncc_driver::time::tally::Tallier;
+use ncc_driver::time::tally::Tally;
+use ncc_driver::translate::translate;
 
 /// The machine of a call, as the model sees it.
 pub(crate) struct Shop {
@@ -181,7 +172,7 @@ pub(crate) fn settle(
         ..Stated::default()
     };
     let settled = project::settle(&row, Sides::One, &stated, None, known)?;
-    source.settle(&settled);
+    settled.put_into(source);
     if !args.telling.quiet {
         project::note(&source.shown, &settled.used, err);
     }
@@ -238,7 +229,7 @@ fn check(args: &Time, known: &Known) -> Result<(), Problem> {
             "call ncc once for each of them; summary, json, markdown and tools take several",
         ));
     }
-    if args.stage == Stage::Before && !matches!(args.form, Form::Payload | Form::Ndjson) {
+    if Stage::from(args.stage) == Stage::Before && !matches!(args.form, Form::Payload | Form::Ndjson) {
         return Err(Problem::usage(
             format!("--stage before with --as {}", args.form.name()),
             "only payload and ndjson tell of cycles as they are called",
@@ -297,10 +288,10 @@ pub(crate) fn job(
         }
         None => Machines::default(),
     };
-    let mut from = settings(machines.settings(Side::From, dialect), &args.reading.from_option)?;
+    let mut from = choose(machines.settings(Side::From, dialect), &args.reading.from_option)?;
     state_units(&mut from, known.units())?;
     m_codes::state(&mut from, Side::From, known)?;
-    called::gather(source, &from, known.folders())?;
+    called::gather(source, &from, known.folders(), &files::Disk)?;
     source.rewind()?;
     Ok(Job {
         machines,
@@ -322,9 +313,9 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         model: args.setting.model,
         skip: args.setting.switches.on(),
         start_time: args.setting.start_time,
-        stage: args.stage,
+        stage: args.stage.into(),
         // Cycles that are told as they are called have no times.
-        centre: args.stage == Stage::After,
+        centre: Stage::from(args.stage) == Stage::After,
     }
 }
 
@@ -345,7 +336,7 @@ pub(crate) fn execute(
     sink: &mut dyn Sink,
     err: &mut dyn WriteColor,
 ) -> Result<Course, Problem> {
-    let bytes = source.file.metadata().map_or(0, |m| m.len());
+    let bytes = source.bytes().unwrap_or_default();
     let course = {
         let mut progress = Progress::new(&source.name, bytes, !args.telling.quiet);
         drive(plan, source, sink, &mut progress).map_err(|e| Problem::file("time", &source.shown, &e))?
@@ -509,7 +500,7 @@ fn stream(
         Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
             let header =
                 Header { prog_name: &name, machine_name: shop.title(), dialect: &job.from.dialect.id };
-            let (lines, timed) = (args.form == Form::Ndjson, args.stage == Stage::After);
+            let (lines, timed) = (args.form == Form::Ndjson, Stage::from(args.stage) == Stage::After);
             let sink = payload::Payload::new(&header, &shop.machine, lines, timed, &mut out);
             let mut sink = sink.map_err(cannot)?;
             let course = execute(args, &plan, known, source, &mut sink, err)?;
@@ -539,7 +530,7 @@ pub(crate) fn say(
 ) -> io::Result<()> {
     let on = if shop.title().is_empty() { "no machine" } else { shop.title() };
     let end = duration::hms(course.end);
-    match args.stage {
+    match Stage::from(args.stage) {
         Stage::After => writeln!(err, "{shown}: over at {end} on {on}, model {}", args.setting.model.name())?,
         Stage::Before => writeln!(err, "{shown}: before processing, without times")?,
     }
@@ -578,11 +569,11 @@ fn canonical(
         let _ = account::print(err, &mut about, &outcome);
         return Ok(Err(failure));
     }
-    let mut file = crate::scratch::file().map_err(cannot)?;
+    let mut file = ncc_driver::source::spool::Spool::default();
     outcome.output.write_to(&mut file).map_err(cannot)?;
     file.seek(SeekFrom::Start(0)).map_err(cannot)?;
     // A reader of its own: the other one is somewhere else in the text.
-    let mut again = crate::scratch::file().map_err(cannot)?;
+    let mut again = ncc_driver::source::spool::Spool::default();
     outcome.output.write_to(&mut again).map_err(cannot)?;
     again.seek(SeekFrom::Start(0)).map_err(cannot)?;
     let mut text = Source::of(file, &source.name);

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
-use super::duration::hms;
-use crate::render::terminal::one_line;
+use ncc_driver::render::terminal::one_line;
+use ncc_driver::time::drive::Watch;
+use ncc_driver::time::duration::hms;
 
 /// Before so long nothing is shown: most programs are done by then.
 const PATIENCE: Duration = Duration::from_millis(400);
@@ -36,9 +36,10 @@ impl Progress {
         let bar = bar.filter(|bar| !bar.is_hidden());
         Progress { bar, begun: Instant::now(), passed: 0 }
     }
+}
 
-    /// So many bytes are read; the clock of the machine stands there.
-    pub(crate) fn at(&mut self, bytes: u64, now: f64) {
+impl Watch for Progress {
+    fn at(&mut self, bytes: u64, now: f64) {
         if let Some(bar) = &self.bar
             && self.begun.elapsed() > PATIENCE
         {
@@ -47,8 +48,7 @@ impl Progress {
         }
     }
 
-    /// All is read, and the machine goes on.
-    pub(crate) fn now(&mut self, now: f64) {
+    fn now(&mut self, now: f64) {
         self.passed += 1;
         if self.passed == EVERY {
             self.passed = 0;

@@ -38,6 +38,7 @@ use crate::tools::{
     length_axis, length_by_hand, offset_with_z, spindle_angle, tool_axis, tool_change, tool_edge,
     z_after_change,
 };
+use crate::watch::ran;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{AXES, Distance, Modes};
 use ncc_ir::caps::{Caps, PolarForm};
@@ -228,26 +229,32 @@ impl Legaliser {
         let lines = self.absolute(lines);
         if self.rotary.is_used() && lines.is_none() {
             self.rotary.check(stmts, &self.walk, diags);
+            ran("rotary-turns", stmts);
         }
         if self.length_axis.is_used() {
             self.length_axis.check(stmts, &self.walk, diags);
+            ran("length-axis", stmts);
         }
         if lines.is_none() && offset_here::concerns(stmts, &self.target.caps) {
             offset_here::over(stmts, self.walk.clone(), &self.target.caps);
+            ran("offset-here", stmts);
         }
         if self.z_left.concerns(stmts) {
             self.z_left.over(stmts, &self.walk);
+            ran("z-after-change", stmts);
         }
         match lines {
             Some(lines) => self.increments.note_lines(lines),
             None if self.increments.concerns(stmts, self.walk.at.modes.distance) => {
                 self.increments.over(stmts, &self.walk, diags);
+                ran("frame-increments", stmts);
             }
             None => self.increments.note(stmts, &self.walk),
         }
         if self.target.caps.change_stops_spindle {
             let up = self.target.caps.behaviours.surely(Behaviour::ZAtChange);
             self.change.over(stmts, up, diags);
+            ran("tool-change", stmts);
         }
         let ends = self.target.caps.feed_ends_with_mode;
         if ends || self.feed_again {
@@ -268,6 +275,7 @@ impl Legaliser {
                         entries.as_deref(),
                         diags,
                     );
+                    ran("feed-again", stmts);
                 }
                 false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
             }
@@ -284,6 +292,7 @@ impl Legaliser {
                         entries.as_deref(),
                         diags,
                     );
+                    ran("feed-time", stmts);
                 }
                 false => self.times.note(stmts),
             }
@@ -315,7 +324,10 @@ impl Legaliser {
         if self.compensated.refused.any() {
             let entries = self.entries.clone();
             match entries.is_some() || self.compensated.concerns(stmts) {
-                true => compensated_modes::over(stmts, &mut self.compensated, entries.as_deref(), diags),
+                true => {
+                    compensated_modes::over(stmts, &mut self.compensated, entries.as_deref(), diags);
+                    ran("compensated-modes", stmts);
+                }
                 false => self.compensated.note(stmts),
             }
         }
@@ -405,6 +417,7 @@ impl Legaliser {
     ) {
         if needs & CONTROL != 0 {
             expand_repeats::over(stmts, &self.target, diags);
+            ran("expand-repeats", stmts);
         }
         if needs & POLAR != 0 {
             match self.with_polar_words(stmts, needs, start, assumed) {
@@ -414,6 +427,7 @@ impl Legaliser {
                     let exact = Target { decimals: EXACT - 1, ..self.target.clone() };
                     let target = if needs & (CORNER | FRAME) != 0 { &exact } else { &self.target };
                     polar_words::over(stmts, &mut start.clone(), &mut self.polar, target, false, diags);
+                    ran("polar-words", stmts);
                 }
             }
         }
@@ -436,6 +450,7 @@ impl Legaliser {
         }
         let (mut own, mut kept, mut found) = (self.clone(), stmts.clone(), Vec::new());
         polar_words::over(&mut kept, &mut start.clone(), &mut own.polar, &own.target, true, &mut found);
+        ran("polar-words", &kept);
         let holes = |stmts: &[Stmt]| {
             let polar = stmts.iter().filter(|stmt| matches!(stmt.op, Op::Polar(_))).count();
             let calls = stmts.iter().filter(|stmt| matches!(stmt.op, Op::StartCycle(_))).count();
@@ -463,28 +478,35 @@ impl Legaliser {
     ) {
         if needs & WORK != 0 {
             work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
+            ran("work-offset", stmts);
         }
         if needs & PATH != 0 {
             path_control::over(stmts, &mut self.path, &self.target, diags);
+            ran("path-control", stmts);
         }
         if needs & TURN != 0 {
             rotary_ways::over(stmts, &mut start.clone(), &self.target, diags);
+            ran("rotary-ways", stmts);
         }
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);
+            ran("skip-levels", stmts);
         }
         let needs = needs | self.mend_corners(stmts, needs, start, diags);
         if needs & FRAME != 0 {
             expand_frames::over(stmts, &mut start.clone(), &mut self.frames, &self.target, diags);
+            ran("expand-frames", stmts);
         }
         // A shift that the program has set itself is over by now.
         if needs & SHIFT != 0 {
             origin_shift::over(stmts, &mut self.shift, diags);
+            ran("origin-shift", stmts);
         }
         let mut needs = needs;
         if needs & MACHINE != 0 {
             let found = diags.len();
             machine_moves::over(stmts, &mut start.clone(), &mut self.machine, &self.target, diags);
+            ran("machine-moves", stmts);
             let cut = diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
             if let Some(at) = cut.map(|cut| cut.span) {
                 origin_shift::take(&mut self.shift, at, diags);
@@ -503,9 +525,11 @@ impl Legaliser {
         // Every pass walks from the same start: what it walks over does what the piece does.
         if needs & ARC != 0 {
             convert_arcs::too_fine(stmts, &mut start.clone(), &self.target, diags);
+            ran("fine-arcs", stmts);
         }
         if needs & ARC != 0 && !self.target.caps.arc_forms {
             arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
+            ran("arc-form", stmts);
         }
         // Computed words are from zero, others may not be.
         let computed = self.measures && needs & (ARC | FRAME | CORNER) != 0;
@@ -513,73 +537,98 @@ impl Legaliser {
         let mut needs = if mixed { needs | MEASURE } else { needs };
         if needs & MEASURE != 0 && !self.target.caps.feed_apart {
             feed_unit::over(stmts, &mut start.clone(), &self.target);
+            ran("feed-unit", stmts);
         }
         if needs & MEASURE != 0 && !self.target.caps.word_distance {
             one_distance::over(stmts, &mut start.clone(), diags);
+            ran("one-distance", stmts);
         }
         if needs & (EDGE | TABLE) != 0 {
             tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
+            ran("tool-edge", stmts);
         }
         if needs & TABLE != 0 && self.target.caps.change_by_hand {
             length_by_hand::over(stmts, &mut start.clone(), &mut self.by_hand, diags);
+            ran("length-by-hand", stmts);
         }
         if needs & TOOL_AXIS != 0 {
             tool_axis::over(stmts, &mut start.clone(), &mut self.axis, &self.target, diags);
+            ran("tool-axis", stmts);
         }
         if needs & RADIUS != 0 {
             cutter_radius::over(stmts, &mut start.clone(), &mut self.radius, &self.target, diags);
+            ran("cutter-radius", stmts);
         }
         if needs & (ARC | MESSAGE | CALL | CONTROL | MACHINE) != 0 {
             self.check(stmts, &mut start.clone(), diags);
+            ran("refuse", stmts);
         }
         if needs & THREAD != 0 && stmts.iter().any(|stmt| in_step::is_cycle(stmt, &self.target)) {
             in_step::as_cycles(stmts, &mut start.clone(), &self.target);
+            ran("threads-as-cycles", stmts);
             needs |= self.lacks & CYCLE;
         }
         if needs & THREAD != 0 && stmts.iter().any(|stmt| tapped_holes::is_half(stmt, &self.target)) {
             tapped_holes::over(stmts, &mut start.clone(), &self.target);
+            ran("tapped-holes", stmts);
             needs |= self.lacks & CYCLE;
         }
         if needs & CYCLE != 0 {
             state_clearance::over(stmts, start.clone(), &self.target, diags);
+            ran("state-clearance", stmts);
             taps::over(stmts, &mut start.clone(), &mut self.taps, &self.target, diags);
+            ran("taps", stmts);
             return_plane::over(stmts, &mut start.clone(), &self.target, diags);
+            ran("return-plane", stmts);
         }
         if needs & PATTERN != 0 {
             expand_patterns::over(stmts, &mut start.clone(), &self.target, diags);
+            ran("expand-patterns", stmts);
         }
         if needs & CYCLE != 0 {
             approach::over(stmts, &mut start.clone(), &self.target, diags);
+            ran("approach", stmts);
             expand_cycles::over(stmts, &mut start.clone(), &mut self.cycles, &self.target, diags);
+            ran("expand-cycles", stmts);
             if !self.target.caps.incremental_cycles {
                 absolute_holes::over(stmts, &mut start.clone(), diags);
+                ran("absolute-holes", stmts);
             } else if self.target.caps.cycles_measured_anew {
                 absolute_holes::alike(stmts, &mut start.clone(), diags);
+                ran("holes-alike", stmts);
             }
         }
         spindle_angle::over(stmts, &mut self.angle, &self.target, diags);
+        ran("spindle-angle", stmts);
         if needs & (CYCLE | THREAD) != 0 && self.lacks & THREAD != 0 {
             in_step::over(stmts, &mut start.clone(), &mut self.threads, &self.target, diags);
+            ran("threads", stmts);
         }
         if needs & PATTERN != 0 {
             expand_patterns::reform(stmts, &mut start.clone(), &self.target, diags);
+            ran("reform-patterns", stmts);
         }
         if needs & ARC != 0 && !self.target.caps.arc_turns {
             expand_turns::over(stmts, &mut start.clone(), &self.target, diags);
+            ran("expand-turns", stmts);
         }
         // An expanded cycle may have left an offset that was in its block to take up elsewhere.
         if needs & LENGTH != 0 {
             offset_with_z::over(stmts, &mut start.clone(), &mut self.length, diags);
+            ran("offset-with-z", stmts);
         }
         if needs & MOVE != 0 {
             one_move::over(stmts, &mut self.one);
+            ran("one-move", stmts);
         }
         if needs & EVERY != 0 {
             flatten_facts::over(stmts, &mut start.clone(), diags);
+            ran("flatten-facts", stmts);
         }
         // What is left as it is now is what is written.
         if needs & AT_ONCE != 0 {
             at_once::over(stmts, &mut start.clone(), &mut self.at_once, &self.target, diags);
+            ran("at-once", stmts);
         }
     }
 
@@ -598,6 +647,7 @@ impl Legaliser {
         let (found, whole) = (diags.len(), needs & FRAME != 0);
         let keep = if whole { expand_corners::Keep::None } else { expand_corners::Keep::Sayable };
         expand_corners::over(stmts, &mut start.clone(), &mut self.corners, &self.target, keep, diags);
+        ran("expand-corners", stmts);
         let written = diags[found..].iter().any(|d| matches!(d.fault, Fault::CornerExpanded));
         if written { self.lacks & ARC } else { 0 }
     }

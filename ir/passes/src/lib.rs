@@ -16,6 +16,7 @@ pub mod support;
 pub mod threads;
 pub mod tools;
 pub mod values;
+pub mod watch;
 
 pub use arcs::expand_compensation::Compensating;
 pub use frames::machine_moves::retract;

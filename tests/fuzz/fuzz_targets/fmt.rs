@@ -7,9 +7,9 @@ use std::sync::LazyLock;
 use libfuzzer_sys::fuzz_target;
 use ncc::fmt::of_text;
 use ncc::known::Known;
-use ncc::problem::Exit;
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::{Family, Settings, builtins};
+use ncc_driver::problem::Exit;
 
 static KNOWN: LazyLock<Known> = LazyLock::new(Known::built_in);
 

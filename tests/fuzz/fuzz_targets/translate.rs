@@ -3,15 +3,15 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use ncc::job::{Failure, Job};
 use ncc_dialects::{Settings, builtins};
+use ncc_driver::job::{Failure, Job};
 
 fuzz_target!(|data: &[u8]| {
     let [from, to, text @ ..] = data else { return };
     let dialects: Vec<_> = builtins().collect();
     let pick = |byte: u8| Settings::new(dialects[usize::from(byte) % dialects.len()]);
     let job = Job::new(pick(*from), pick(*to), "fuzz");
-    let outcome = ncc::translate::translate(&job, &mut std::io::Cursor::new(text)).expect("reading from memory");
+    let outcome = ncc_driver::translate::translate(&job, &mut std::io::Cursor::new(text)).expect("reading from memory");
     assert_ne!(
         outcome.release,
         Err(Failure::VerificationFailed),

@@ -10,19 +10,20 @@ use std::path::Path;
 
 use clap::Args;
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
+use ncc_driver::guess::{Guess, guess};
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions;
+use ncc_driver::review::diff::motion::motion;
+use ncc_driver::review::diff::tell::{Account, decoded};
+use ncc_driver::side::Side;
+use ncc_driver::source::not_milling;
 
-use super::motion::motion;
-use super::tell::{Account, decoded};
 use super::{SHOWN, plain, text, unified};
 use crate::args::pair;
 use crate::files;
-use crate::guess::{Guess, guess};
 use crate::known::Known;
-use crate::milling;
-use crate::problem::{Exit, Problem};
 use crate::project::Look;
-use crate::questions;
-use crate::review::side::{Asked, Side, open};
+use crate::review::side::{Asked, open};
 
 /// `ncc git-diff`.
 #[derive(Debug, Args)]
@@ -108,7 +109,7 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mu
     let from = if named { args.from.as_deref() } else { dialect(args, known, versions) };
     let asked =
         |operand| Asked { look: Some(look), operand, from, options: &args.from_option, ..Asked::default() };
-    if let Some(told) = not_milling(known, versions, path) {
+    if let Some(told) = of_texts(known, versions, path) {
         return told;
     }
     let mut quiet = Buffer::no_color();
@@ -125,11 +126,11 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mu
 }
 
 /// The difference of the texts, where a version is no milling program.
-fn not_milling(known: &Known, versions: [&str; 2], path: &str) -> Option<String> {
+fn of_texts(known: &Known, versions: [&str; 2], path: &str) -> Option<String> {
     let mut sources = versions.map(|file| files::open(Path::new(file)).ok());
     let mut out = String::new();
     for (source, version) in sources.iter_mut().zip(["old", "new"]) {
-        if let Some(other) = milling::refusal(source.as_mut()?, known).ok()? {
+        if let Some(other) = not_milling::refusal(source.as_mut()?, known.all_for_mills()).ok()? {
             let _ = writeln!(out, "{path} ({version}) looks like {}; the texts are compared", other.kind);
         }
     }

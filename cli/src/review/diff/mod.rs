@@ -6,11 +6,7 @@
 
 mod edits;
 pub mod git;
-mod html;
-mod json;
-pub(crate) mod motion;
 mod plain;
-pub(crate) mod tell;
 mod text;
 
 use std::io::{self, Write};
@@ -19,21 +15,25 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions;
+use ncc_driver::render::{About, human};
+use ncc_driver::review::diff::{html, json};
 
-pub use self::json::SCHEMA;
-use self::motion::{Motion, motion};
-use self::tell::Account;
 use self::text::Texts;
-use super::side::{Asked, Side, open};
+use super::side::{Asked, open};
 use crate::args::pair;
-use crate::files::{self, Source};
 use crate::known::Known;
-use crate::machines::pair::Machines;
-use crate::problem::{Exit, Problem};
-use crate::project;
-use crate::questions;
-use crate::render::{About, human};
 use crate::setting::{Holding, Nearness, Standing, Telling};
+use crate::{files, project};
+pub use ncc_driver::review::diff::json::SCHEMA;
+use ncc_driver::review::diff::motion::Motion;
+use ncc_driver::review::diff::motion::motion;
+use ncc_driver::review::diff::tell::Account;
+use ncc_driver::side::Side;
+use ncc_driver::source::Source;
+use ncc_driver::source::spool::Spool;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -236,9 +236,7 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
 pub fn document(texts: [(Settings, &[u8]); 2], by_text: Option<&[Ignore]>) -> io::Result<Option<String>> {
     let mut sides = Vec::new();
     for ((settings, text), name) in texts.into_iter().zip(["a", "b"]) {
-        let mut file = crate::scratch::file()?;
-        file.write_all(text)?;
-        sides.push(Side::of(Source::of(file, name), settings, Machines::default(), None));
+        sides.push(Side::of(Source::of(Spool::of(text.to_vec()), name), settings, Machines::default(), None));
     }
     let Ok(mut sides) = <[Side; 2]>::try_from(sides) else { return Ok(None) };
     let account = match by_text {
@@ -311,7 +309,7 @@ fn say(
                 "{shown}: not compared, because it cannot be executed as {}",
                 side.job.from.dialect.id
             )?;
-            let found = crate::guess::better(&mut side.source.file, &side.job.from, known.all())?;
+            let found = ncc_driver::guess::better(&mut side.source.file, &side.job.from, known.all())?;
             if let Some((other, reasons)) = found {
                 writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
                 writeln!(err, "  help: {}:{shown}", other.id)?;

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::tell::{Account, Block, Difference};
+use ncc_driver::review::diff::tell::{Account, Block, Difference};
 
 /// Narrowest column of a text.
 const NARROWEST: usize = 20;

@@ -8,13 +8,13 @@ use std::collections::HashMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use ncc_dialects::{Bare, Family, INTEGER_FEED, Quantity, Settings};
+use ncc_driver::review::diff::tell::{Account, Block, Difference, decoded};
+use ncc_driver::side::Side;
 use sha2::{Digest, Sha256};
 use similar::{DiffOp, group_diff_ops};
 
 use super::Ignore;
 use super::edits::edits;
-use super::tell::{Account, Block, Difference, decoded};
-use crate::review::side::Side;
 
 /// Blocks around a difference that are shown.
 const AROUND: usize = 3;

@@ -1,33 +1,13 @@
-//! SHA-256 of everything that a verdict rests on: programs, dictionaries, profiles.
+//! SHA-256 of dictionaries and profiles that a verdict rests on.
 
-use std::fs::{self, File};
-use std::io::{self, Read, Seek, SeekFrom};
+use std::{fs, io};
 
+use ncc_driver::render::report::hex;
+use ncc_driver::review::verify::document::Hashed;
+use ncc_driver::side::Side;
 use sha2::{Digest, Sha256};
 
-use super::document::Hashed;
 use crate::known::Known;
-use crate::report::hex;
-use crate::review::side::Side;
-
-/// Length and hash of a file.
-///
-/// # Errors
-/// Reading it.
-pub(crate) fn of_file(file: &mut File) -> io::Result<(u64, String)> {
-    file.seek(SeekFrom::Start(0))?;
-    let (mut hash, mut bytes) = (Sha256::new(), 0);
-    let mut piece = vec![0; 1 << 16];
-    loop {
-        match file.read(&mut piece)? {
-            0 => return Ok((bytes, hex(&hash.finalize()))),
-            n => {
-                hash.update(&piece[..n]);
-                bytes += n as u64;
-            }
-        }
-    }
-}
 
 /// The dictionaries of both sides, each with what it builds on, each once.
 pub(crate) fn dictionaries(sides: &[Side; 2], known: &Known) -> Vec<Hashed> {

@@ -13,6 +13,7 @@ use crate::frames::origin_shift;
 use crate::legalise::{Legaliser, Target};
 use crate::support::known_facts::{self, Known};
 use crate::threads::taps;
+use crate::watch::ran_whole;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::arguments;
@@ -32,6 +33,7 @@ impl Legaliser {
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
         number_names::over(program, &self.target, true, diags);
+        ran_whole("number-names", program);
         let mut found = Vec::new();
         let mut bare = program.clone();
         let any =
@@ -55,6 +57,7 @@ impl Legaliser {
         match computed_frames::run(program, &self.target.caps, known) {
             Ok(computed_frames::Found::Straight) => {}
             Ok(computed_frames::Found::Said) if !self.frames.is_busy() => {
+                ran_whole("computed-frames", program);
                 fresh.lacks &= !crate::legalise::FRAME
             }
             Ok(computed_frames::Found::Said) => {

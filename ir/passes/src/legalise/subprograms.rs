@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use super::*;
 use crate::support::known_facts::has_bare_holes;
+use crate::watch::ran_whole;
 use ncc_ir::canon::FeedMode;
 use ncc_ir::program::Text;
 use ncc_ir::program::kinds::flow;
@@ -47,6 +48,7 @@ impl Legaliser {
         }
         if frames || self.repeats_in_the_way(rest) {
             expand_repeats::everywhere(rest, diags);
+            ran_whole("expand-repeats", rest);
         }
         // A subprogram may lack what only its callers know: it is given that, or written out.
         let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
@@ -88,6 +90,7 @@ impl Legaliser {
         let (mut given, mut told) = (rest.clone(), Vec::new());
         let inherits = self.target.caps.inherits_motion;
         specialise_procedures::over(&mut given, &self.walk, inherits, &mut told);
+        ran_whole("specialise-procedures", &given);
         let subs = given.procedures.iter().skip(1);
         let mut names: BTreeSet<Text> = match self.calls_under_expanded(&given) {
             true => subs.clone().filter(|sub| takes_cycle(&sub.body)).map(|sub| sub.name.clone()).collect(),
@@ -96,6 +99,7 @@ impl Legaliser {
         loop {
             let (mut own, mut program, mut found) = (self.clone(), given.clone(), told.clone());
             expand_calls::some(&mut program, &mut self.walk.clone(), &names, &mut found);
+            ran_whole("expand-calls", &program);
             if program.procedures.len() < 2 || self.calls_under_expanded(&program) {
                 return false;
             }
@@ -126,15 +130,19 @@ impl Legaliser {
             Subprograms::Specialise => {
                 let inherits = self.target.caps.inherits_motion;
                 specialise_procedures::over(rest, &self.walk, inherits, diags);
+                ran_whole("specialise-procedures", rest);
             }
             Subprograms::Expand => {
                 expand_repeats::in_procedures(rest, self.target.caps.repeat_blocks, diags);
+                ran_whole("expand-repeats", rest);
                 // The walk is needed again for the other passes.
                 expand_calls::over(rest, &mut self.walk.clone(), diags);
+                ran_whole("expand-calls", rest);
             }
         }
         self.refuse_cycles_left(rest, diags);
         number_names::over(rest, &self.target, false, diags);
+        ran_whole("number-names", rest);
         self.entries = self.entries_of(rest).map(Rc::new);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {

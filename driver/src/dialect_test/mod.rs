@@ -1,0 +1,128 @@
+//! `ncc dialects test`: proof that every word of a dictionary reads back to the meaning it was written
+//! for.
+//!
+//! For every row a statement with its meaning is written by the dialect's own writer, read by its own
+//! reader, and must come back as the same statement; a row that is never written is read in the place
+//! of the one that is; a refused row is read, and must be refused by its name. A dictionary can say
+//! only what both sides can do, so a row that nothing reads or writes fails too.
+//!
+//! Not here: whether a row is true of the control. That is for its source, and for the machine.
+
+pub mod calls;
+pub mod codes;
+pub mod form;
+pub mod local_call;
+pub mod names;
+pub mod proof;
+pub mod words;
+
+use ncc_dialects::{Dialect, Family};
+
+use self::proof::Bench;
+
+/// What was found out about a row.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its table: `code`.
+    pub table: &'static str,
+    /// The row: `G81`, or what of it: `G81 R`.
+    pub row: String,
+    /// What was written, lines parted by ` ¶ `; in brackets where it was only read.
+    pub written: String,
+    /// What was read, in the neutral program's words; or the name of the refusal.
+    pub read: String,
+    /// Why it failed, if it did.
+    pub failed: Option<String>,
+    /// Whether its source confirms the row.
+    pub sure: bool,
+}
+
+/// Tests every row of a dictionary.
+pub fn test(dialect: &'static Dialect) -> Vec<Row> {
+    if matches!(dialect.family, Family::Canon | Family::Ir) {
+        return Vec::new();
+    }
+    let bench = Bench::new(dialect);
+    let mut rows = Vec::new();
+    form::rows(&bench, &mut rows);
+    words::rows(&bench, &mut rows);
+    codes::rows(&bench, &mut rows);
+    names::rows(&bench, &mut rows);
+    calls::rows(&bench, &mut rows);
+    rows
+}
+
+/// Longest column of the table.
+const WIDE: usize = 56;
+
+/// The table, a summary, and the rows that no source confirms.
+pub fn table(dialect: &Dialect, rows: &[Row], all: bool) -> String {
+    let mut out = format!("{}: {}\n", dialect.id, dialect.title);
+    if let Some(base) = &dialect.base {
+        out.push_str(&format!("builds on: {base}\n"));
+    }
+    let failed: Vec<&Row> = rows.iter().filter(|r| r.failed.is_some()).collect();
+    let shown: Vec<&Row> = rows.iter().filter(|r| all || r.failed.is_some()).collect();
+    let width =
+        |text: fn(&Row) -> &str| shown.iter().map(|r| text(r).chars().count().min(WIDE)).max().unwrap_or(0);
+    let (row, written) = (width(|r| &r.row).max(3), width(|r| &r.written).max(10));
+    if !shown.is_empty() {
+        out.push_str(&format!(
+            "\n        {:8}  {:row$}  {:written$}  read as\n",
+            "table", "row", "written as"
+        ));
+    }
+    for r in &shown {
+        let verdict = if r.failed.is_some() { "failed" } else { "ok" };
+        let mark = if r.sure { ' ' } else { '?' };
+        let line = format!(
+            "{verdict:6}{mark} {:8}  {:row$}  {:written$}  {}",
+            r.table,
+            cut(&r.row),
+            cut(&r.written),
+            r.read
+        );
+        out.push_str(line.trim_end());
+        out.push('\n');
+        if let Some(why) = &r.failed {
+            out.push_str(&format!("        {why}\n"));
+        }
+    }
+    let count = |table: &str| rows.iter().filter(|r| r.table == table).count();
+    let tables =
+        ["form", "number", "address", "code", "corner", "repeat", "cycle", "pattern", "data", "name", "call"];
+    let counts: Vec<String> = tables
+        .iter()
+        .map(|t| (t, count(t)))
+        .filter(|(_, n)| *n > 0)
+        .map(|(t, n)| format!("{n} {t}"))
+        .collect();
+    let unsure: Vec<&str> = rows.iter().filter(|r| !r.sure).map(|r| r.row.as_str()).collect();
+    out.push('\n');
+    match rows.is_empty() {
+        true => out.push_str("it has no words of its own: its form is the program's\n"),
+        false => out.push_str(&format!(
+            "{} of {} ok ({}), {} failed\n",
+            rows.len() - failed.len(),
+            rows.len(),
+            counts.join(", "),
+            failed.len()
+        )),
+    }
+    if !unsure.is_empty() {
+        out.push_str(&format!(
+            "{} not confirmed by any source (`sure = false`, marked ?): {}\n",
+            unsure.len(),
+            unsure.join(", ")
+        ));
+    }
+    out
+}
+
+/// A text no wider than a column.
+fn cut(text: &str) -> String {
+    match text.chars().count() > WIDE {
+        true => text.chars().take(WIDE - 1).chain(['…']).collect(),
+        false => text.to_owned(),
+    }
+}

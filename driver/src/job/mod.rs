@@ -1,0 +1,393 @@
+//! What a translation is asked for and what it gives back: the face of the pipeline towards the
+//! command line, and towards tests that call it without a process.
+//!
+//! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
+
+pub mod given;
+pub mod options;
+pub mod project_answers;
+
+use std::collections::BTreeSet;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::sync::Arc;
+
+use ncc_backends::Layout;
+use ncc_dialects::{Dialect, Settings};
+use ncc_exec::maps::{Maps, Renaming};
+use ncc_frontends::Reader;
+use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
+use ncc_ir::canon::{AXES, AdviceKind};
+use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::geometry::arc_feed::ArcFeed;
+use ncc_ir::geometry::beside::Rules;
+use ncc_ir::program::Text;
+use ncc_ir::program::numbered::Numbered;
+use ncc_machines::reading::{Place, Side};
+use ncc_passes::modes::side_effects::SideEffects;
+use ncc_passes::{Compensating, Pass};
+
+use crate::job::given::Given;
+use crate::job::project_answers::Used;
+use crate::machines::pair::Machines;
+use crate::questions::{Policy, Question};
+use crate::source::called::Called;
+use crate::source::spool::Spool;
+
+/// The pass that writes the path of the tool's centre.
+const EXPAND_COMPENSATION: &str = "expand-compensation";
+
+/// A translation to be done.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The dialect of the source, with its options.
+    pub from: Settings,
+    /// The dialect of the output, with its options.
+    pub to: Settings,
+    /// The machines of both sides, as far as profiles of them were given.
+    pub machines: Machines,
+    /// How the output is laid out.
+    pub layout: Layout,
+    /// Passes that the source's program goes through first, in this order.
+    pub passes: Vec<&'static Pass>,
+    /// Whether long-hand holes and lists of positions are folded into cycles and patterns; `None`
+    /// where the source is a list of events that has no other form.
+    pub fold: Option<bool>,
+    /// Whether the output is read back and compared. Without, its head says UNVERIFIED.
+    pub verify: bool,
+    /// Whether the output opens with the comment that names source, hash and assumptions.
+    pub head: bool,
+    /// Where the axes stand in program coordinates before the first block, as stated by the user
+    /// (millimetres or degrees, in nanos); `None` is not known.
+    pub start: [Option<Nanos>; AXES],
+    /// What the source's variables may be given before it begins.
+    pub given: Given,
+    /// Values of variables at the start, as the user states them. The output sets them itself.
+    pub values: Vec<(String, Num)>,
+    /// The program number of the output, where the target has one.
+    pub program_number: Option<u32>,
+    /// Name of the source for the head and the report: a file name without folders, or `-`.
+    pub source_name: String,
+    /// Files of called programs, which stand behind the source's own text.
+    pub called: Option<Called>,
+    /// The project file that counts for the source.
+    pub project: Option<Arc<Used>>,
+    /// Assumptions about the source that the user stated, such as `--assume milling`.
+    pub assumed: Vec<Diagnostic>,
+    /// Numbers of tools that the source calls by name and no profile numbers, for a target without names.
+    pub numbered_tools: Vec<(Text, u32)>,
+    /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
+    pub rivals: Vec<&'static Dialect>,
+    /// The handling of questions: facts that change the cut and that the program does not state.
+    pub questions: Policy,
+    /// Verdicts that stop a translation by themselves, and shall not.
+    pub allow: Vec<Verdict>,
+    /// Verdicts that would not stop a translation, and shall.
+    pub deny: Vec<Verdict>,
+}
+
+impl Job {
+    /// A translation as it is done where nothing else is asked for: no machines, no passes, no program
+    /// number, nothing known of where the axes stand; verified, and with a head.
+    pub fn new(from: Settings, to: Settings, source_name: impl Into<String>) -> Job {
+        Job {
+            from,
+            to,
+            machines: Machines::default(),
+            layout: Layout::default(),
+            passes: Vec::new(),
+            fold: None,
+            verify: true,
+            head: true,
+            start: [None; AXES],
+            given: Given::default(),
+            values: Vec::new(),
+            program_number: None,
+            source_name: source_name.into(),
+            called: None,
+            project: None,
+            assumed: Vec::new(),
+            numbered_tools: Vec::new(),
+            rivals: Vec::new(),
+            questions: Policy::default(),
+            allow: Vec::new(),
+            deny: Vec::new(),
+        }
+    }
+
+    /// A reader for the source, which is known by its file's name; with `assume` as of [`Reader::new`].
+    pub fn reader(&self, assume: bool) -> Reader {
+        let mut reader = Reader::new(self.from.clone(), assume);
+        reader.named(&self.source_name);
+        reader
+    }
+
+    /// The target's numbers of what the source calls by its own.
+    pub fn maps(&self) -> Maps {
+        let mut maps = self.machines.maps(self.to.dialect);
+        maps.tool_names.extend(self.numbered_tools.iter().cloned());
+        maps
+    }
+
+    /// The way back, for a judge of what was written.
+    pub fn renaming(&self) -> Renaming {
+        let mut renaming = self.machines.renaming();
+        // One that the maps have no number for, as its length has another, got one here.
+        renaming.tool_names.retain(|_, name| !self.numbered_tools.iter().any(|(own, _)| own == name));
+        renaming.tool_names.extend(self.numbered_tools.iter().map(|(name, number)| (*number, name.clone())));
+        renaming
+    }
+
+    /// Whether long-hand text is folded. A list of events is, unless the target is one as well.
+    pub fn folds(&self) -> bool {
+        let (from, to) = (&self.from.dialect.caps, &self.to.dialect.caps);
+        !to.flat && self.fold.unwrap_or(from.flat)
+    }
+
+    /// Whether the output is for a control of another kind than the source's. The text forms are no
+    /// control: what they hold is still the source's.
+    pub fn between_controls(&self) -> bool {
+        let to = self.to.dialect;
+        self.from.dialect.id != to.id && !to.can.everything && !to.can.flat
+    }
+
+    /// Side effects of codes on the source's control. A list of events cannot say machine zero. It holds only the
+    /// program's own moves.
+    pub fn source_behaviours(&self) -> Behaviours {
+        let mut source = self.from.behaviours();
+        if self.to.dialect.can.flat {
+            source.set(Behaviour::ZAtChange, 0, false);
+        }
+        source
+    }
+
+    /// Side effects of codes on the target's control. A target without words for machine zero is assumed to move Z
+    /// there at a tool change, as the source's control does. An open fact stays open.
+    pub fn target_behaviours(&self) -> Behaviours {
+        let mut target = self.to.behaviours();
+        if self.to.dialect.can.everything || self.to.dialect.can.flat {
+            // A text form is no control that would keep anything.
+            for behaviour in Behaviour::ALL.iter().filter(|one| one.concern() == Concern::AtEnd) {
+                target.set(*behaviour, self.from.behaviours().get(*behaviour), false);
+            }
+        }
+        let change = Behaviour::ZAtChange;
+        if self.takes_way_up() && !self.to.dialect.can.flat {
+            target.set(change, self.from.behaviours().get(change), target.is_open(change));
+        }
+        target
+    }
+
+    /// Whether the source's control moves Z to machine zero at a tool change, and the target has no words for that: it
+    /// is assumed to do the same, or, a list of events, leaves it out. Nothing is known there of the target's Z.
+    pub fn takes_way_up(&self) -> bool {
+        let caps = &self.to.dialect.caps;
+        let says = caps.references.home || caps.machine_coordinates;
+        let change = Behaviour::ZAtChange;
+        self.from.behaviours().surely(change) && !self.to.behaviours().does(change) && !says
+    }
+
+    /// The pass that writes side effects of codes as words.
+    pub fn side_effects(&self) -> SideEffects {
+        let all =
+            SideEffects::new(self.source_behaviours(), self.target_behaviours(), self.from.fine_increments());
+        let all = if self.takes_way_up() { all.with_way_up_taken() } else { all };
+        let says = |value| self.to.dialect.caps.advises(AdviceKind::CompensatedFeed, value);
+        match (0..AdviceKind::CompensatedFeed.values().len() as u8).all(says) {
+            true => all.with_arc_feed(),
+            false => all,
+        }
+    }
+
+    /// Whether cutter radius compensation is worked out, so that the output has none.
+    pub fn works_compensation_out(&self) -> bool {
+        self.passes.iter().any(|pass| pass.name == EXPAND_COMPENSATION)
+    }
+
+    /// How it is worked out: as the source's control does it, by the tools of the source's machine.
+    pub fn compensating(&self) -> Compensating {
+        let known = self.from.dialect.can.contour_left_at_once;
+        Compensating {
+            rules: if known { Rules::INTERPRETER } else { Rules::NEAR },
+            known,
+            radii: self.machines.from.as_ref().map(|machine| machine.tables().radii).unwrap_or_default(),
+            listing: false,
+            arc_feed: ArcFeed::of(&self.source_behaviours()),
+            feed_decimals: self.to.dialect.caps.feed_decimals,
+        }
+    }
+
+    /// Whether a verdict stops this translation. What is denied stops even if it is allowed.
+    pub fn stops(&self, verdict: Verdict) -> bool {
+        self.deny.contains(&verdict) || (verdict.stops() && !self.allow.contains(&verdict))
+    }
+
+    /// Whether a diagnostic stops this translation.
+    pub fn refuses(&self, diagnostic: &Diagnostic) -> bool {
+        match diagnostic.fault.gravity() {
+            Gravity::Error => true,
+            Gravity::Warning => false,
+            Gravity::Verdict(verdict) => self.stops(verdict),
+        }
+    }
+}
+
+/// What became of a translation, whether its output may be used or not.
+#[derive(Debug)]
+pub struct Outcome {
+    /// What was found, in the order in which it was found. Spans are places in the source.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The number that the output has as a program, if it has one.
+    pub program_number: Option<u32>,
+    /// Numbers that were put in for the target's machine: what, the source's number or name, and the
+    /// target's.
+    pub renumbered: BTreeSet<(Numbered, Text, Text)>,
+    /// Which facts of the machines the assumptions among them rest on.
+    pub rests: Vec<Rest>,
+    /// Facts that the program does not state and that change its cut, the most dangerous first. They stop the
+    /// translation, or were answered with ncc's own readings.
+    pub questions: Vec<Question>,
+    /// What the verification covered; `None` if it was not asked for or did not come to its end.
+    pub verified: Option<Verified>,
+    /// Whether the output may be used, and if not, why.
+    pub release: Result<(), Failure>,
+    /// The output. Empty or unfinished, and not to be used, if it is not released.
+    pub output: Output,
+    /// How many constructs came through with each verdict, in the order of [`Verdict::ALL`].
+    pub counts: [u64; Verdict::ALL.len()],
+    /// SHA-256 of the source's bytes.
+    pub source_sha256: [u8; 32],
+    /// Length of the source.
+    pub source_bytes: u64,
+    /// Blocks read from the source.
+    pub blocks: u64,
+}
+
+impl Outcome {
+    /// Whether open questions alone stop the translation.
+    pub fn is_asked(&self, job: &Job) -> bool {
+        self.release == Err(Failure::Refused)
+            && !self.questions.is_empty()
+            && !self.diagnostics.iter().any(|diagnostic| job.refuses(diagnostic))
+    }
+
+    /// How many constructs came through with a verdict.
+    pub fn count(&self, verdict: Verdict) -> u64 {
+        self.counts[verdict as usize]
+    }
+}
+
+/// A fact of a machine that an assumption rests on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rest {
+    /// Which of the diagnostics.
+    pub diagnostic: usize,
+    /// Whose fact.
+    pub side: Side,
+    /// Its place in a profile.
+    pub place: Place,
+}
+
+/// What a verification covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Verified {
+    /// Generated worlds in which both programs were executed.
+    pub worlds: u32,
+    /// Settings of the block-skip switches that were tried in each; 1 for a program without.
+    pub skip_settings: u32,
+    /// Events compared, over all worlds and settings.
+    pub events: u64,
+}
+
+/// Why an output is not released.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// The program has errors, a loss is not allowed, or a question is open: exit code 1.
+    Refused,
+    /// Source and output were not shown to do the same: exit code 3.
+    VerificationFailed,
+}
+
+/// An output: its head, which can be written only when all the rest is known, and the rest.
+#[derive(Debug)]
+pub struct Output {
+    /// What it is called by, where it is a subprogram that stands alone.
+    called: Option<Text>,
+    head: Vec<u8>,
+    body: Spool,
+    body_bytes: u64,
+}
+
+impl Output {
+    /// An output without anything in it.
+    pub fn new() -> Output {
+        Output { called: None, head: Vec::new(), body: Spool::default(), body_bytes: 0 }
+    }
+
+    /// Says that it is a subprogram by itself, and what it is called by.
+    pub fn set_called(&mut self, name: Text) {
+        self.called = Some(name);
+    }
+
+    /// What it is called by, where it is a subprogram that stands alone.
+    pub fn called(&self) -> Option<&str> {
+        self.called.as_deref()
+    }
+
+    /// Adds to the body.
+    ///
+    /// # Errors
+    /// The anonymous file cannot be made or written.
+    pub fn push(&mut self, text: &[u8]) -> io::Result<()> {
+        self.body.write_all(text)?;
+        self.body_bytes += text.len() as u64;
+        Ok(())
+    }
+
+    /// Sets the text that goes before the body.
+    pub fn set_head(&mut self, head: Vec<u8>) {
+        self.head = head;
+    }
+
+    /// Lines of the text that goes before the body.
+    pub fn head_lines(&self) -> usize {
+        memchr::memchr_iter(b'\n', &self.head).count()
+    }
+
+    /// Length of the whole.
+    pub fn bytes(&self) -> u64 {
+        self.head.len() as u64 + self.body_bytes
+    }
+
+    /// Writes the whole, head first. May be called again.
+    ///
+    /// # Errors
+    /// Reading the anonymous file, or writing to `into`.
+    pub fn write_to(&mut self, into: &mut dyn Write) -> io::Result<()> {
+        into.write_all(&self.head)?;
+        self.body.seek(SeekFrom::Start(0))?;
+        let mut piece = vec![0; 1 << 16];
+        loop {
+            match self.body.read(&mut piece)? {
+                0 => return Ok(()),
+                n => into.write_all(&piece[..n])?,
+            }
+        }
+    }
+
+    /// The whole, in memory.
+    ///
+    /// # Errors
+    /// Reading the anonymous file.
+    pub fn to_vec(&mut self) -> io::Result<Vec<u8>> {
+        let mut all = Vec::with_capacity(self.bytes() as usize);
+        self.write_to(&mut all)?;
+        Ok(all)
+    }
+}
+
+impl Default for Output {
+    fn default() -> Output {
+        Output::new()
+    }
+}

@@ -1,0 +1,9 @@
+//! Profiles of machines as a translation takes them, and what there is to tell of one.
+//!
+//! [`pair`] holds the profiles of both sides, [`show`] lists facts with their sources, [`test`](mod@test) translates a
+//! sample for a machine and back, [`words`] has the messages. Not here: the form of a profile (`ncc_machines`).
+
+pub mod pair;
+pub mod show;
+pub mod test;
+pub mod words;

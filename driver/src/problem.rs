@@ -1,0 +1,128 @@
+//! What keeps a command from being done, and the exit codes.
+
+use std::io::{self, Write};
+
+use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
+use serde::Serialize;
+
+use crate::job::Failure;
+use crate::source::halted::Interrupted;
+use crate::source::spool::Lacking;
+
+/// Exit codes, as the help names them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Done, and verified unless that was not wanted.
+    Done = 0,
+    /// The program has errors, or a loss is not allowed; of two programs that are compared: they differ.
+    Refused = 1,
+    /// Wrong usage.
+    Usage = 2,
+    /// Verification failed; nothing is released.
+    VerificationFailed = 3,
+    /// A file, or its character set.
+    File = 4,
+    /// Programs could not be compared.
+    NotCompared = 5,
+    /// Ctrl-C: nothing was written (128 and the number of SIGINT, as shells have it).
+    Interrupted = 130,
+}
+
+impl Exit {
+    /// That of a translation, by whether its output may be used.
+    pub fn of(release: Result<(), Failure>) -> Exit {
+        match release {
+            Ok(()) => Exit::Done,
+            Err(Failure::Refused) => Exit::Refused,
+            Err(Failure::VerificationFailed) => Exit::VerificationFailed,
+        }
+    }
+
+    /// That of two files of one command: the higher one.
+    pub fn and(self, other: Exit) -> Exit {
+        if other as u8 > self as u8 { other } else { self }
+    }
+}
+
+/// A command that cannot be done, told before or beside any diagnostics of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The exit code.
+    pub exit: Exit,
+    /// What is wrong, in one line; empty if there is nobody to tell.
+    pub message: String,
+    /// What to do.
+    pub help: Vec<String>,
+}
+
+impl Problem {
+    /// Wrong usage.
+    pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Problem {
+        Problem { exit: Exit::Usage, message: message.into(), help: vec![help.into()] }
+    }
+
+    /// A file that cannot be used.
+    pub fn file(what: &str, name: &str, error: &io::Error) -> Problem {
+        if let Some(lacking) = error.get_ref().and_then(|inner| inner.downcast_ref::<Lacking>()) {
+            let message = format!("cannot {what} {name}: {lacking}");
+            return Problem { exit: Exit::File, message, help: lacking.help() };
+        }
+        if let Some(interrupted) = error.get_ref().and_then(|inner| inner.downcast_ref::<Interrupted>()) {
+            let message = match interrupted.line {
+                Some(_) => format!("{interrupted} of {name}; nothing was written"),
+                None => format!("{interrupted}; {name} was not written"),
+            };
+            return Problem { exit: Exit::Interrupted, message, help: Vec::new() };
+        }
+        let reason = match error.kind() {
+            io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
+            io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+            io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+            _ => error.to_string(),
+        };
+        let message = format!("cannot {what} {name}: {reason}");
+        Problem { exit: Exit::File, message, help: Vec::new() }
+    }
+
+    /// Prints it.
+    ///
+    /// # Errors
+    /// Writing.
+    pub fn print(&self, out: &mut dyn WriteColor, json: bool) -> io::Result<()> {
+        #[derive(Serialize)]
+        struct Line<'a> {
+            severity: &'static str,
+            message: &'a str,
+            advice: &'a [String],
+        }
+        if self.message.is_empty() {
+            return Ok(());
+        }
+        if json {
+            let line = Line { severity: "error", message: &self.message, advice: &self.help };
+            return crate::render::json::line(&mut as_write(out), &line);
+        }
+        out.set_color(ColorSpec::new().set_fg(Some(Color::Red)).set_bold(true).set_intense(true))?;
+        write!(out, "error")?;
+        out.reset()?;
+        writeln!(out, ": {}", self.message)?;
+        for (i, line) in self.help.iter().enumerate() {
+            writeln!(out, "{}{line}", if i == 0 { "  help: " } else { "        " })?;
+        }
+        Ok(())
+    }
+}
+
+/// A coloured output as a plain one.
+pub fn as_write(out: &mut dyn WriteColor) -> impl Write + '_ {
+    struct Plain<'a>(&'a mut dyn WriteColor);
+    impl Write for Plain<'_> {
+        fn write(&mut self, text: &[u8]) -> io::Result<usize> {
+            self.0.write(text)
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            self.0.flush()
+        }
+    }
+    Plain(out)
+}

@@ -1,0 +1,312 @@
+//! Questions in words: what is asked, both results in numbers, and what answers it.
+//!
+//! ```text
+//! question[NC0303]: is Z100 100 mm or 0.1 mm?
+//!   7 │ G43 H1 Z100 M8        answer: `--from-option decimal_point=calculator` (100 mm) or `=increment` (0.1 mm)
+//! ```
+
+use std::io;
+
+use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
+use ncc_dialects::DECIMAL_POINT;
+use ncc_ir::canon::{FeedMode, Units};
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use serde::Serialize;
+
+use super::json::JsonPlace;
+use super::numbers::{rotary_turn, signed};
+use super::source::Excerpt;
+use super::words::{plain, plain_upto, return_path};
+use super::{About, Told};
+use crate::questions::{Answer, Fact, Made, Question, Reading, Shown};
+
+/// So much of a line is shown before its answer, in characters.
+const LINE: usize = 40;
+
+/// Lines are filled up with blanks to so many characters.
+const COLUMN: usize = 20;
+
+/// A question in words.
+#[derive(Debug, Serialize)]
+pub struct Asked {
+    /// `NC0303`.
+    pub code: String,
+    /// `question`.
+    pub severity: &'static str,
+    /// What is asked.
+    pub question: String,
+    /// Where both readings differ first.
+    pub place: JsonPlace,
+    /// Both answers.
+    pub answers: [AskedAnswer; 2],
+    /// The line, as it is shown.
+    #[serde(skip)]
+    line: String,
+    /// The file of a called program that it stands in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
+}
+
+/// An answer in words.
+#[derive(Debug, Serialize)]
+pub struct AskedAnswer {
+    /// The option of the command line that gives it; `null` where the program itself must say it.
+    pub option: Option<String>,
+    /// What the program makes with it.
+    pub result: Option<String>,
+    /// Whether it is ncc's own reading.
+    pub taken: bool,
+}
+
+impl Asked {
+    /// The question of a refusal that an option takes back, in the words of the refusal.
+    pub fn of_refusal(told: &Told, answers: [AskedAnswer; 2]) -> Asked {
+        Asked {
+            code: told.code.clone(),
+            severity: "question",
+            question: told.message.clone(),
+            place: told.place.clone().into(),
+            answers,
+            line: String::new(),
+            file: None,
+        }
+    }
+}
+
+/// Questions in words, in their order.
+///
+/// # Errors
+/// Reading the source.
+pub fn ask(about: &mut About, questions: &[Question]) -> io::Result<Vec<Asked>> {
+    let called = about.job.called.as_ref();
+    let mut lines =
+        super::source::Lines::find(about.source, questions.iter().map(|q| q.span.start).collect())?;
+    lines.own_numbers(called);
+    let mut all = Vec::new();
+    for question in questions {
+        let file = called.and_then(|called| called.file(question.span.start));
+        let name = file.map_or(about.name, |file| file.name.as_str());
+        let excerpt = Excerpt::read(about.source, &lines, name, &[question.span])?;
+        let text = excerpt.snippet(&lines, question.span).to_owned();
+        let (line, column) = excerpt.location(&lines, question.span.start).unwrap_or((1, 1));
+        let answers = question.readings.each_ref().map(|reading| AskedAnswer {
+            option: option(&reading.answer),
+            result: result(&reading.result),
+            taken: reading.taken,
+        });
+        all.push(Asked {
+            code: format!("NC{:04}", question.fact.code()),
+            severity: "question",
+            question: headline(question, &text),
+            place: JsonPlace {
+                start: question.span.start,
+                end: question.span.end,
+                line,
+                column,
+                end_column: column + text.chars().count() as u64,
+                text,
+                label: "both readings differ here first".to_owned(),
+            },
+            answers,
+            line: excerpt.line(&lines, question.span.start).to_owned(),
+            file: file.map(|file| file.name.clone()),
+        });
+    }
+    Ok(all)
+}
+
+/// Prints questions, the most dangerous first.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub fn print(out: &mut dyn WriteColor, about: &mut About, questions: &[Question]) -> io::Result<()> {
+    let asked = ask(about, questions)?;
+    let wide = asked.iter().map(|asked| asked.place.line.to_string().len()).max().unwrap_or(1);
+    for asked in asked {
+        out.set_color(ColorSpec::new().set_fg(Some(Color::Magenta)).set_bold(true).set_intense(true))?;
+        write!(out, "question[{}]", asked.code)?;
+        out.reset()?;
+        writeln!(out, ": {}", asked.question)?;
+        let file = asked.file.as_ref().map(|file| format!("{}:", plain(file))).unwrap_or_default();
+        let line = plain_upto(asked.line.trim(), LINE);
+        let answers = answers(&asked.answers);
+        writeln!(out, "  {file}{:wide$} │ {line:COLUMN$}  answer: {answers}", asked.place.line)?;
+    }
+    Ok(())
+}
+
+/// One line for a verb that goes on: which reading it takes.
+pub fn note(questions: &[Question]) -> String {
+    let own: Vec<String> = questions
+        .iter()
+        .map(|question| {
+            let other = question.readings.iter().find(|reading| !reading.taken);
+            let other = other.and_then(|reading| option(&reading.answer));
+            let other = other.map(|option| format!(" (else `{option}`)")).unwrap_or_default();
+            format!("{}{other}", taken(question))
+        })
+        .collect();
+    format!("not stated, and it changes the cut; read as {}", own.join("; "))
+}
+
+/// ncc's own reading, in the few words that fit a program's head.
+pub fn taken(question: &Question) -> String {
+    match (&question.taken().answer, question.fact) {
+        (Answer::From(dialect), _) => format!("control = {dialect}"),
+        (Answer::Units(units), _) => format!("units = {}", name(*units)),
+        (Answer::Option(option, value), _) => format!("{option} = {value}"),
+        (Answer::OfMachines { option, value, .. }, _) => format!("{option} = {value}"),
+        (Answer::WritePoints, _) => format!("{DECIMAL_POINT} = calculator"),
+    }
+}
+
+fn headline(question: &Question, text: &str) -> String {
+    let [first, second] = question.readings.each_ref();
+    match (question.fact, &first.answer, &second.answer) {
+        (Fact::Control, Answer::From(own), Answer::From(other)) => {
+            format!("{own} or {other}? The text fits both")
+        }
+        (Fact::DecimalPoint, ..) => match (result(&first.result), result(&second.result)) {
+            (Some(one), Some(two)) if is_word(first) => {
+                format!("is {} {one} or {two}?", plain_upto(text, 20))
+            }
+            _ => "numbers without a decimal point: least increments or units?".to_owned(),
+        },
+        (Fact::ReturnPath, ..) => match (&first.result, result(&first.result), result(&second.result)) {
+            (Shown::Path { code, .. }, Some(one), Some(two)) => {
+                format!("{} {one}, or {two}?", plain(code))
+            }
+            _ => "which of G90 and G91 counts in this block?".to_owned(),
+        },
+        (Fact::CycleBesideMotion, ..) => match &first.result {
+            Shown::Hole { cycle, motion, .. } => {
+                format!("{} beside {}: a hole, or a move without one?", plain(cycle), plain(motion))
+            }
+            _ => "does the cycle beside a motion drill?".to_owned(),
+        },
+        (Fact::ToolChange, ..) => match (&first.result, &second.result) {
+            (Shown::Made(Made::Tool(named)), Shown::Made(Made::Tool(waiting))) => {
+                format!("does M06 put in T{named} or T{waiting}? The next H is H{waiting}")
+            }
+            _ => "does M06 put in the tool of its block, or the one that waits?".to_owned(),
+        },
+        (Fact::RotaryTurn, ..) => match [&first.result, &second.result] {
+            [Shown::Turn(axis, by), Shown::Turn(_, or)] => rotary_turn(*axis, *by, *or),
+            _ => "how far does a rotary axis turn here?".to_owned(),
+        },
+        (Fact::Centres, ..) => "arc centres (I J K): from the start of the arc or from zero?".to_owned(),
+        (Fact::Units | Fact::Control, ..) => "mm or inch? The program never states its unit".to_owned(),
+    }
+}
+
+fn is_word(reading: &Reading) -> bool {
+    matches!(reading.result, Shown::Word { .. })
+}
+
+fn answers(both: &[AskedAnswer; 2]) -> String {
+    let one = |answer: &AskedAnswer| {
+        let option = match &answer.option {
+            Some(option) => format!("`{option}`"),
+            None => "write decimal points".to_owned(),
+        };
+        match &answer.result {
+            Some(result) => format!("{option} ({result})"),
+            None => option,
+        }
+    };
+    let first = one(&both[0]);
+    // The second one leaves out what both begin with.
+    let shared = |option: &String| option.split_once('=').map(|(name, _)| name.len());
+    let short = match (&both[0].option, &both[1].option) {
+        (Some(a), Some(b)) => {
+            shared(a).filter(|n| shared(b) == Some(*n) && a[..*n] == b[..*n]).map(|n| b[n..].to_owned())
+        }
+        (None, _) | (_, None) => None,
+    };
+    let second = AskedAnswer {
+        option: short.or_else(|| both[1].option.clone()),
+        result: both[1].result.clone(),
+        taken: both[1].taken,
+    };
+    format!("{first} or {}", one(&second))
+}
+
+fn option(answer: &Answer) -> Option<String> {
+    match answer {
+        Answer::From(dialect) => Some(format!("--from {dialect}")),
+        Answer::Units(units) => Some(format!("--units {}", name(*units))),
+        Answer::Option(option, value) => Some(format!("--from-option {option}={value}")),
+        Answer::WritePoints => None,
+        Answer::OfMachines { option, value, from, to } => {
+            let sides = [("from", *from), ("to", *to)].into_iter().filter(|(_, asked)| *asked);
+            let all: Vec<String> =
+                sides.map(|(side, _)| format!("--{side}-option {option}={value}")).collect();
+            Some(all.join(" "))
+        }
+    }
+}
+
+fn name(units: Units) -> &'static str {
+    match units {
+        Units::Mm => "mm",
+        Units::Inch => "inch",
+    }
+}
+
+/// What a reading makes, in numbers.
+fn result(shown: &Shown) -> Option<String> {
+    Some(match shown {
+        Shown::Nothing => return None,
+        Shown::Word { value, feed } => word(*value, *feed),
+        Shown::Turn(axis, by) => {
+            format!("{} turns by {} degrees", char::from(axis.letter()), signed(*by))
+        }
+        Shown::Hole { cycle, drills: true, .. } => format!("{} drills", plain(cycle)),
+        Shown::Hole { cycle, motion, drills: false } => {
+            format!("{} moves all axes, {} is cancelled", plain(motion), plain(cycle))
+        }
+        Shown::Path { words, zero, absolute, .. } => return_path(words, *zero, *absolute),
+        Shown::Made(made) => match *made {
+            Made::End(axis, at) => {
+                let unit = if matches!(axis.letter(), b'A'..=b'C') { "degrees" } else { "mm" };
+                format!("{} ends at {} {unit}", char::from(axis.letter()), decimal(at))
+            }
+            Made::Centre(axis, at) => {
+                format!("the centre is at {} {} mm", char::from(axis.letter()), decimal(at))
+            }
+            Made::Feed(rate, FeedMode::PerMinute) => format!("the feed is {} mm/min", decimal(rate)),
+            Made::Feed(rate, FeedMode::PerRevolution) => format!("the feed is {} mm a turn", decimal(rate)),
+            Made::Feed(rate, FeedMode::InverseTime) => format!("the feed is {} a minute", decimal(rate)),
+            Made::Dwell(time) => format!("the dwell is {} s", decimal(time)),
+            Made::Spindle(true) => "the spindle turns".to_owned(),
+            Made::Spindle(false) => "the spindle stands".to_owned(),
+            Made::Tool(number) => format!("tool {number} cuts"),
+            Made::Refused(code) => format!("refused, NC{code:04}"),
+            Made::Otherwise => return None,
+        },
+    })
+}
+
+fn word(value: Num, feed: bool) -> String {
+    let sign = if value.mantissa < 0 { "-" } else { "" };
+    let digits = format!("{:0width$}", value.mantissa.unsigned_abs(), width = usize::from(value.scale) + 1);
+    let (whole, part) = digits.split_at(digits.len() - usize::from(value.scale));
+    let point = if part.is_empty() { "" } else { "." };
+    let unit = match value.unit {
+        Unit::One | Unit::Entry => "",
+        Unit::Mm => " mm",
+        Unit::Inch => " inch",
+        Unit::Degree => " degrees",
+        Unit::Second => " s",
+    };
+    format!("{sign}{whole}{point}{part}{unit}{}", if feed { "/min" } else { "" })
+}
+
+/// Nanos as a decimal of at most four digits after the point.
+fn decimal(nanos: Nanos) -> String {
+    let text = format!("{:.4}", nanos as f64 / ONE as f64);
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
+}

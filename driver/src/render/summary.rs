@@ -1,0 +1,484 @@
+//! The account at the end: what was verified, what was assumed, expanded, rewritten and lost.
+
+use std::collections::HashMap;
+use std::io;
+
+use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
+use ncc_ir::canon::PathMode;
+use ncc_ir::diag::{Fault, Gravity};
+use ncc_ir::rank::Rank;
+
+use super::About;
+use super::human::{Loudness, told};
+use super::numbers::millimetres;
+use super::questions::taken;
+use super::source::Lines;
+use super::words::{Context, plain, plural, words, work_offset};
+use crate::job::{Failure, Outcome};
+use crate::questions::Question;
+use crate::render::head::{assumption, by_name};
+use crate::source::called::Called;
+
+/// Of one phrase, so many line numbers are named.
+const MOST_LINES: usize = 6;
+/// Of one verdict, so many phrases are named.
+const MOST_PHRASES: usize = 12;
+
+/// Headings are filled up with blanks to so many characters.
+const HEADING: usize = 23;
+/// Lists of phrases are broken before so many characters.
+const WIDTH: usize = 100;
+
+/// Under which heading something is named, in the order of the account.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Heading {
+    /// A loss that was allowed.
+    Lost,
+    Check,
+    Usual,
+    NoEffect,
+}
+
+impl Heading {
+    const ALL: [Heading; 4] = [Heading::Lost, Heading::Check, Heading::Usual, Heading::NoEffect];
+
+    fn words(self) -> &'static str {
+        match self {
+            Heading::Lost => "lost",
+            Heading::Check => "check at the machine",
+            Heading::Usual => "usual defaults",
+            Heading::NoEffect => "no effect on the cut",
+        }
+    }
+
+    /// Whether each phrase has a line, with its places; else they share one.
+    fn each(self) -> bool {
+        match self {
+            Heading::Lost | Heading::Check => true,
+            Heading::Usual | Heading::NoEffect => false,
+        }
+    }
+}
+
+/// The heading under which a fault is named, if it has a place in the account. What was asked has one of its own.
+fn heading(fault: &Fault, questions: &[Question]) -> Option<Heading> {
+    let Gravity::Verdict(verdict) = fault.gravity() else { return None };
+    if verdict.stops() {
+        return Some(Heading::Lost);
+    }
+    let asked = || questions.iter().any(|question| question.fact.code() == fault.code());
+    match fault.rank()? {
+        Rank::Dangerous if asked() => None,
+        // Both values make the same cut.
+        Rank::Dangerous | Rank::Usual => Some(Heading::Usual),
+        Rank::Check => Some(Heading::Check),
+        Rank::NoEffect => Some(Heading::NoEffect),
+    }
+}
+
+/// Diagnostics that one phrase covers.
+struct Group {
+    phrase: String,
+    count: usize,
+    /// First byte of the first few.
+    places: Vec<u32>,
+}
+
+/// Prints the account of a translation that was done.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> io::Result<()> {
+    let (from, to) = (&about.job.from.dialect.id, &about.job.to.dialect.id);
+    write!(out, "{}: {from} to {to}", about.name)?;
+    match (&outcome.release, &outcome.verified) {
+        (Err(_), _) => return print_failure(out, about, outcome),
+        (Ok(()), Some(verified)) => {
+            write!(out, ", ")?;
+            coloured(out, Color::Green, "verified")?;
+            let worlds = format!("{} {}", verified.worlds, plural(verified.worlds.into(), "world"));
+            let skips = match verified.skip_settings {
+                0 | 1 => String::new(),
+                n => format!(" and {n} settings of the block-skip switches"),
+            };
+            writeln!(out, ": the same {} events in source and output, in {worlds}{skips}", verified.events)?;
+        }
+        (Ok(()), None) => {
+            write!(out, ", ")?;
+            coloured(out, Color::Red, "NOT VERIFIED")?;
+            writeln!(out)?;
+        }
+    }
+    project(out, about)?;
+    for line in by_name(&outcome.renumbered, "→") {
+        writeln!(out, "  {line}")?;
+    }
+    let at =
+        Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "", beside: ("", "") };
+    let groups: Vec<(Heading, Vec<Group>)> = Heading::ALL
+        .into_iter()
+        .map(|heading| (heading, groups(outcome, heading, at)))
+        .filter(|(_, groups)| !groups.is_empty())
+        .collect();
+    let places = groups.iter().flat_map(|(_, groups)| groups).flat_map(|g| g.places.iter().copied());
+    let places = places.chain(outcome.questions.iter().map(|question| question.span.start)).collect();
+    let mut lines = Lines::find(about.source, places)?;
+    lines.own_numbers(about.job.called.as_ref());
+    let called = about.job.called.as_ref();
+    for (i, question) in outcome.questions.iter().enumerate() {
+        let own = Group { phrase: taken(question), count: 1, places: vec![question.span.start] };
+        headed(out, Color::Red, if i == 0 { "not answered" } else { "" })?;
+        writeln!(out, "{} ({})", own.phrase, line_list(&own, &lines, called))?;
+    }
+    for (heading, groups) in groups {
+        let colour = if heading == Heading::Lost { Color::Red } else { Color::Yellow };
+        if !heading.each() {
+            headed(out, colour, heading.words())?;
+            writeln!(out, "{}", list(&groups))?;
+            continue;
+        }
+        for (i, group) in groups.iter().take(MOST_PHRASES).enumerate() {
+            headed(out, colour, if i == 0 { heading.words() } else { "" })?;
+            writeln!(out, "{} ({})", group.phrase, line_list(group, &lines, called))?;
+        }
+        if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
+            headed(out, colour, "")?;
+            writeln!(out, "… and {more} more; --verbose or --report says all")?;
+        }
+    }
+    Ok(())
+}
+
+/// What a project file answers, and what options go before.
+fn project(out: &mut dyn WriteColor, about: &About) -> io::Result<()> {
+    let Some(used) = &about.job.project else { return Ok(()) };
+    let mut facts = used.facts().split("; ").map(|fact| format!("{fact};")).collect::<Vec<String>>();
+    if let Some(last) = facts.last_mut() {
+        last.pop();
+    }
+    let mut lines = vec![String::new()];
+    for fact in facts {
+        let last = lines.last().map_or(0, |line| line.chars().count());
+        if last > 0 && HEADING + 2 + last + 1 + fact.chars().count() > WIDTH {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(&fact);
+        }
+    }
+    for (i, line) in lines.iter().chain(&used.overridden).enumerate() {
+        headed(out, Color::Green, &if i == 0 { used.title().join(" ") } else { String::new() })?;
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+fn headed(out: &mut dyn WriteColor, colour: Color, heading: &str) -> io::Result<()> {
+    write!(out, "  ")?;
+    coloured(out, colour, &format!("{heading:<HEADING$}"))
+}
+
+/// Phrases that share a line: how many, and what they are.
+fn list(groups: &[Group]) -> String {
+    let mut text = format!("{}: ", groups.len());
+    let mut column = HEADING + 2 + text.len();
+    let mut phrases: Vec<String> = groups.iter().take(MOST_PHRASES).map(|g| g.phrase.clone()).collect();
+    if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
+        phrases.push(format!("… and {more} more"));
+    }
+    let last = phrases.len().saturating_sub(1);
+    for (i, phrase) in phrases.iter().enumerate() {
+        let end = if i == last { " (`-v` lists them)" } else { ";" };
+        let wide = phrase.chars().count() + end.len() + 1;
+        if i > 0 && column + wide > WIDTH {
+            text += &format!("\n{:1$}", "", HEADING + 2);
+            column = HEADING + 2;
+        } else if i > 0 {
+            text.push(' ');
+        }
+        text += phrase;
+        text += end;
+        column += wide;
+    }
+    text
+}
+
+fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
+    failure(out, about, outcome)?;
+    project(out, about)
+}
+
+fn failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
+    write!(out, ", ")?;
+    let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
+    let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
+    let losses = stopping.len() as u64 - errors;
+    let questions = outcome.questions.len() as u64;
+    match outcome.release {
+        Err(Failure::VerificationFailed) => {
+            coloured(out, Color::Red, "verification failed")?;
+            writeln!(out, "; nothing was written")
+        }
+        Err(Failure::Refused) | Ok(()) => {
+            coloured(out, Color::Red, "not translated")?;
+            let count = |n: u64, noun: &str| (n > 0).then(|| format!("{n} {}", plural(n, noun)));
+            let losses = count(losses, "verdict").map(|verdicts| format!("{verdicts} that may not pass"));
+            let reasons: Vec<String> = [count(questions, "question"), count(errors, "error"), losses]
+                .into_iter()
+                .flatten()
+                .collect();
+            writeln!(out, ": {}; nothing was written", reasons.join(", "))
+        }
+    }
+}
+
+fn coloured(out: &mut dyn WriteColor, colour: Color, text: &str) -> io::Result<()> {
+    out.set_color(ColorSpec::new().set_fg(Some(colour)).set_bold(true))?;
+    write!(out, "{text}")?;
+    out.reset()
+}
+
+fn groups(outcome: &Outcome, under: Heading, at: Context) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut by_phrase: HashMap<String, usize> = HashMap::new();
+    for diagnostic in &outcome.diagnostics {
+        if heading(&diagnostic.fault, &outcome.questions) != Some(under) {
+            continue;
+        }
+        let phrase = phrase(&diagnostic.fault, at);
+        let index = *by_phrase.entry(phrase).or_insert_with_key(|phrase| {
+            groups.push(Group { phrase: phrase.clone(), count: 0, places: Vec::new() });
+            groups.len() - 1
+        });
+        let group = &mut groups[index];
+        group.count += 1;
+        if group.places.len() < MOST_LINES {
+            group.places.push(diagnostic.span.start);
+        }
+    }
+    groups.sort_by_key(|group| group.places.iter().copied().min());
+    groups
+}
+
+/// `line 6`, `lines 9, 19, 30 and 12 more`.
+fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
+    let file = |place: u32| called.and_then(|called| called.file(place));
+    if let Some(first) = group.places.iter().find_map(|place| file(*place)) {
+        // Lines of several files are told of the first one alone.
+        let in_it = |place: &&u32| file(**place).is_some_and(|other| other.name == first.name);
+        let mut numbers: Vec<u64> =
+            group.places.iter().filter(in_it).filter_map(|p| Some(lines.line(*p)?.number)).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let others = group.count - group.places.iter().filter(in_it).count();
+        let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
+        let more = if others > 0 { format!(" and {others} elsewhere") } else { String::new() };
+        return format!("{} line {}{more}", first.name, list.join(", "));
+    }
+    let mut numbers: Vec<u64> =
+        group.places.iter().filter_map(|place| lines.line(*place)).map(|line| line.number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let more = group.count - group.places.len();
+    let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
+    match (list.as_slice(), more) {
+        ([only], 0) => format!("line {only}"),
+        ([], _) => format!("{} places", group.count),
+        (list, 0) => {
+            let (last, first) = list.split_last().map_or(("", list), |(last, first)| (last.as_str(), first));
+            format!("lines {} and {last}", first.join(", "))
+        }
+        (list, more) => format!("lines {} and {more} more", list.join(", ")),
+    }
+}
+
+/// A fault as a phrase after its heading. Details that differ from place to place are left out.
+pub fn phrase(fault: &Fault, at: Context) -> String {
+    let to = at.to.id.as_str();
+    match fault {
+        Fault::AssumedBareNumber { .. } => {
+            "numbers without a decimal point, read by the control's usual setting".to_owned()
+        }
+        Fault::AssumedOption { option, value } => format!("{} = {}", plain(option), plain(value)),
+        Fault::AssumedWorkOffset { offset } => {
+            format!("the only work offset is {}", work_offset(*offset, [at.to, at.from]))
+        }
+        // In the words that the operator reads at the top of the program.
+        Fault::AssumedMode { .. }
+        | Fault::AssumedNoEffect { .. }
+        | Fault::AssumedOffsetWithZ
+        | Fault::AssumedRow { .. }
+        | Fault::AssumedHoleOrder { .. }
+        | Fault::AssumedContourEnds
+        | Fault::AssumedMilling { .. }
+        | Fault::AssumedTip
+        | Fault::AssumedTilt
+        | Fault::AssumedContourPath
+        | Fault::AssumedControl { .. }
+        | Fault::AssumedToolChange { .. }
+        | Fault::AssumedReturn { .. }
+        | Fault::AssumedCycle { .. }
+        | Fault::StartedAgain { .. }
+        | Fault::OpenBehaviour { .. }
+        | Fault::FeedAtUnits { .. }
+        | Fault::MovedAtChange
+        | Fault::LengthByHand { .. }
+        | Fault::FeedOnArcs { .. }
+        | Fault::PathAtStart { .. }
+        | Fault::NextRunShifted { .. }
+        | Fault::NextRunTurned
+        | Fault::NextRunVariables { .. }
+        | Fault::RoundsFreely
+        | Fault::OptionalStopDiffers
+        | Fault::CallDepth { .. }
+        | Fault::AssumedEdge { .. }
+        | Fault::AssumedRadius { .. }
+        | Fault::AssumedPath { .. }
+        | Fault::AssumedParameter { .. } => {
+            assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)
+        }
+        Fault::SideEffectWritten { behaviour } => format!("{}, as words", behaviour.about()),
+        Fault::CommentReformatted => format!("comments, in the characters of {to}"),
+        Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
+        Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
+        Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
+        Fault::MachineCutExpanded { offset } => format!(
+            "cuts in machine coordinates into {}, less the offsets",
+            work_offset(*offset, [at.to, at.from])
+        ),
+        Fault::MachineCutFolded { .. } => {
+            "words less the offsets into cuts in machine coordinates".to_owned()
+        }
+        Fault::MacroApart { name, names } => {
+            format!("the macro {}, as {}: one for each set of arguments", plain(name), plain(names))
+        }
+        Fault::PeckShortened => "pecks that are longer than their holes".to_owned(),
+        Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
+        Fault::CompensationExpanded { radius } => {
+            format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))
+        }
+        Fault::FeedByTime => "feed of linear and rotary axes together, by time".to_owned(),
+        Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
+        Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
+        Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
+        Fault::AlarmsRenumbered { .. } => "alarms under other numbers".to_owned(),
+        Fault::AlarmValues => "values in the text of an alarm left out".to_owned(),
+        Fault::ValuesInFull { digits } => {
+            format!("values in messages, with {digits} digits behind the point")
+        }
+        Fault::VariablesRenamed { .. } => "variables under other names".to_owned(),
+        Fault::Flattened { blocks } => format!("what computes into {blocks} straight blocks"),
+        Fault::FramesExpanded => "frames into the coordinates".to_owned(),
+        Fault::CycleFolded { kind, holes } => {
+            format!("moves into the {} cycle ({holes} {})", plain(kind), plural(u64::from(*holes), "hole"))
+        }
+        Fault::PatternFolded { pattern, holes, .. } => {
+            format!("{holes} positions into a {}", plain(pattern))
+        }
+        Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
+        Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
+        Fault::PathRelaxed { from, to: mode } => match PathMode::named(from) {
+            Some(PathMode::SlowCorners) => "the feed, not lowered at inner corners of a contour".to_owned(),
+            Some(PathMode::Tapping) => "the feed, which can be held and overridden".to_owned(),
+            _ => format!("{}, as {}", plain(from), plain(mode)),
+        },
+        Fault::AdviceLeftOut { kind } => format!("{} left out", plain(&kind.replace('-', " "))),
+        Fault::WorkOffsetLeftOut { offset } => format!("work offset {offset} left out: nothing moves in it"),
+        Fault::NumbersLeftOut { count } => {
+            format!("{count} block {} left out", plural(u64::from(*count), "number"))
+        }
+        Fault::NameChanged { from, to } => format!("the name {}, as {}", plain(from), plain(to)),
+        Fault::ToolNumbered { name, number } => {
+            format!("T{number} is {}, numbered in the order of use", plain(name))
+        }
+        Fault::CodeLeftOut { code } => format!("{} left out, as stated", plain(code)),
+        Fault::MessageAsComment => "messages, as comments".to_owned(),
+        Fault::NameAsComment => "the program's name, as a comment".to_owned(),
+        Fault::BlockSplit => "blocks, as several".to_owned(),
+        Fault::MessageDropped => "messages to the operator".to_owned(),
+        Fault::OutputDropped => "text for a device or a file left out".to_owned(),
+
+        // What is no verdict has no place in the account, and would be named by its message.
+        Fault::RadiusUnknown { .. }
+        | Fault::ContourUnreachable { .. }
+        | Fault::UnexpectedCharacter { .. }
+        | Fault::BadNumber { .. }
+        | Fault::UnclosedComment
+        | Fault::BlockTooLong { .. }
+        | Fault::NotText
+        | Fault::WordWithoutNumber { .. }
+        | Fault::LetterOForZero
+        | Fault::EmptyProgram
+        | Fault::Syntax { .. }
+        | Fault::NoProgramEnd
+        | Fault::TextAfterEnd
+        | Fault::TextBeforeStart { .. }
+        | Fault::LabelTwice { .. }
+        | Fault::ComparedLast { .. }
+        | Fault::OpeningMarkMissing { .. }
+        | Fault::UnknownCode { .. }
+        | Fault::NotSupported { .. }
+        | Fault::CodesExclude { .. }
+        | Fault::WordUnused { .. }
+        | Fault::WordMissing { .. }
+        | Fault::WordTwice { .. }
+        | Fault::TooManyCodes { .. }
+        | Fault::PointNotAllowed { .. }
+        | Fault::OutOfRange { .. }
+        | Fault::NoMotionMode
+        | Fault::ArcWithoutCentre
+        | Fault::ArcCentreAndRadius
+        | Fault::ArcEndOffCircle { .. }
+        | Fault::ArcRadiusTooSmall
+        | Fault::NoArc
+        | Fault::NoCorner { .. }
+        | Fault::ArcRadiusNoWay
+        | Fault::PositionUnknown { .. }
+        | Fault::CallUnknown { .. }
+        | Fault::LabelUnknown { .. }
+        | Fault::CallRecursive { .. }
+        | Fault::CallsTooDeep { .. }
+        | Fault::CallsDeeper { .. }
+        | Fault::ProgramTwice { .. }
+        | Fault::MacroLanguage { .. }
+        | Fault::NoToolSelected
+        | Fault::NoFeed
+        | Fault::NoSpeed
+        | Fault::NoValue { .. }
+        | Fault::VariableUnset { .. }
+        | Fault::BeginsOtherwise { .. }
+        | Fault::Computes { .. }
+        | Fault::NoCycle
+        | Fault::CycleUpsideDown
+        | Fault::EntryFactNeeded { .. }
+        | Fault::NotExecuted { .. }
+        | Fault::NoEnd { .. }
+        | Fault::Interrupted { .. }
+        | Fault::Endless
+        | Fault::CannotSay { .. }
+        | Fault::SecondWorkOffset { .. }
+        | Fault::FactUnsaid { .. }
+        | Fault::ArcRadiiDiffer { .. }
+        | Fault::RotaryTurnOpen { .. }
+        | Fault::CompensatedThere { .. }
+        | Fault::RefusedCompensated { .. }
+        | Fault::ArcVanishes
+        | Fault::DoneByTarget { .. }
+        | Fault::MustBeStated { .. }
+        | Fault::TargetRange { .. }
+        | Fault::ProfileDenies { .. }
+        | Fault::NotInMap { .. }
+        | Fault::NotTheSame { .. }
+        | Fault::NotReadBack { .. }
+        | Fault::VariableGiven { .. }
+        | Fault::ValueNotRead { .. }
+        | Fault::NotTaken { .. }
+        | Fault::OutputNotTaken { .. }
+        | Fault::FactNotTried { .. }
+        | Fault::NotCalled { .. }
+        | Fault::ArgumentNeeded { .. }
+        | Fault::CutStanding
+        | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
+    }
+}

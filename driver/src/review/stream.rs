@@ -1,0 +1,439 @@
+//! Executing a whole program of any dialect in several worlds at once: statement by statement, each
+//! handed out with what it makes in every world.
+//!
+//! [`stream`] is what `verify` and `diff` have in common with the timing of programs: pieces of the
+//! source, the reader, facts that the dialect takes for granted, controls that execute. A program
+//! streams in constant memory until its first call, label or loop; its rest is kept whole and run from
+//! there. What is done with the events is the caller's matter; nothing is compared or told here.
+//!
+//! ```text
+//! let worlds = worlds(&side.job, clearances(&side.job));
+//! let controls = worlds.iter().map(|world| Exec::new(world, skip)).collect();
+//! let course = stream(&side.job, &mut side.source.file, controls, &mut |made| { …; ControlFlow::Continue(()) })?;
+//! if course.refused { /* course.diagnostics say why, at their places */ }
+//! ```
+
+use std::io::{self, SeekFrom};
+use std::mem::discriminant;
+use std::ops::ControlFlow;
+
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
+use ncc_exec::world::World;
+use ncc_exec::{Event, Exec, Runner};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::{AXES, Modes, Units};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::expr::system::System;
+use ncc_ir::program::cycle::{Clearance, CycleKind};
+use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_machines::reading::Told;
+
+use crate::job::Job;
+use crate::machines::pair::Answer;
+use crate::source::Readable;
+use crate::source::chunks::{Chunk, Chunks};
+use crate::translate::parameter;
+use crate::verify_run::{WORLDS, fixed, levels};
+
+/// After so many errors, reading more of the program would help nobody.
+const ENOUGH_ERRORS: usize = 200;
+
+/// A control in a world, and what the last statement made in it.
+#[derive(Clone, Debug)]
+pub struct Control {
+    /// The control.
+    pub exec: Exec,
+    /// Events of the last statement.
+    pub events: Vec<Event>,
+}
+
+/// What is handed out.
+#[derive(Clone, Copy)]
+pub enum Stage<'s> {
+    /// Nothing has been executed; the tools stand where they start.
+    Start,
+    /// A statement that made events in one world at least.
+    Stmt(&'s Stmt),
+    /// The text is over.
+    End,
+}
+
+/// What one statement made.
+pub struct Made<'m> {
+    /// How far the program is.
+    pub stage: Stage<'m>,
+    /// The controls, in the order in which they were given, after it.
+    pub controls: &'m [Control],
+}
+
+/// What becomes of facts that a program relies on and never says.
+#[derive(Clone, Copy, Debug)]
+pub enum Unsaid {
+    /// Its dialect's power-on rows are taken for granted, and told: a user's source.
+    Taken,
+    /// Only these facts hold; the worlds disagree about every other: a text that has to say it all.
+    Only(Modes),
+}
+
+/// What became of a program.
+#[derive(Clone, Debug, Default)]
+pub struct Course {
+    /// What was found, in the order in which it was found.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Whether the program has errors; then it was not executed to its end.
+    pub refused: bool,
+    /// Levels of block skip that occur: bit n is level n.
+    pub skip_levels: u16,
+    /// Blocks that say something.
+    pub blocks: u64,
+    /// Facts that the program relies on and never says, where they are taken for granted.
+    pub assumed: Modes,
+    /// What its text has of what a comparison must know of the whole.
+    pub has: Has,
+    /// SHA-256 of the source's bytes; only of a source that was read to its end.
+    pub sha256: [u8; 32],
+}
+
+/// What is taken for granted where a program asks for a value of the machine's own.
+pub fn as_stated(asked: &System, at: Span) -> Diagnostic {
+    let parameter = format!("the machine's {asked}, which the program asks for").into();
+    let value = "what its profile states, else nothing".into();
+    Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)
+}
+
+/// What a program has somewhere in its text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Has {
+    /// Messages for the operator.
+    pub messages: bool,
+    /// Messages with values in them.
+    pub values: bool,
+    /// Words of inches.
+    pub inches: bool,
+    /// The first work offset that it names.
+    pub work_offset: Option<u16>,
+    /// A word that cancels a shift of the origin.
+    pub clears_shift: bool,
+    /// Cycles that clear chips with a parameter of the control: pecks, breaks of chips.
+    pub chips: bool,
+}
+
+/// The control's own parameters of cycles, where options or a profile state them: clearance of peck
+/// drilling and lift of chip-breaking drilling, in nanos of a millimetre.
+pub fn clearances(job: &Job) -> [Option<Nanos>; 2] {
+    [PECK_CLEARANCE, BREAK_LIFT].map(|option| parameter(job, option).and_then(|value| value.nanos(false)))
+}
+
+/// The worlds in which a program is judged. The first is plain: offsets and lengths are nothing and
+/// the tool stands at program zero, so that its coordinates are those of the program. The others are
+/// generated, as for a verification. `clearances` are those of the side itself or, where it states
+/// none, of the other side.
+pub fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
+    let fixed = fixed(job.from.dialect);
+    let plain = World {
+        seed: 0,
+        power_on: Modes { no_origin_shift: Some(true), ..fixed },
+        start: [0; AXES],
+        peck_clearance: ONE,
+        break_lift: ONE,
+        // No tables, nothing renamed.
+        ..World::generate(0, &fixed)
+    };
+    let mut worlds = vec![plain];
+    worlds.extend((1..=WORLDS).map(|seed| World::generate(seed, &fixed).with_external()));
+    for world in &mut worlds {
+        world.behaviours = job.from.behaviours();
+        world.increments = job.from.fine_increments();
+        world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+        world.compensation_again = job.from.dialect.caps.compensation_again;
+        world.arcs = job.from.arc_rule();
+        world.refused_compensated = job.from.dialect.caps.refused_compensated;
+        let [clearance, lift] = clearances;
+        world.peck_clearance = clearance.unwrap_or(world.peck_clearance);
+        world.break_lift = lift.unwrap_or(world.break_lift);
+    }
+    worlds
+}
+
+/// Executes a program from its beginning in all the controls at once. `take` gets the start, every
+/// statement that makes something, and at last the end of the text; it may break off.
+///
+/// The controls should be fresh. What the program relies on and never says is taken for granted of
+/// each, as its dialect has it, and is among the diagnostics.
+///
+/// # Errors
+/// Reading the source.
+pub fn stream(
+    job: &Job,
+    file: &mut dyn Readable,
+    controls: Vec<Exec>,
+    take: &mut dyn FnMut(Made) -> ControlFlow<()>,
+) -> io::Result<Course> {
+    stream_as(job, file, Unsaid::Taken, controls, take)
+}
+
+/// The same of a program of which it is said what becomes of the facts that it leaves unsaid.
+///
+/// # Errors
+/// Reading the source.
+pub fn stream_as(
+    job: &Job,
+    file: &mut dyn Readable,
+    unsaid: Unsaid,
+    controls: Vec<Exec>,
+    take: &mut dyn FnMut(Made) -> ControlFlow<()>,
+) -> io::Result<Course> {
+    file.seek(SeekFrom::Start(0))?;
+    let mut run = Run {
+        job,
+        reader: job.reader(matches!(unsaid, Unsaid::Taken)),
+        unsaid,
+        batch: Batch::default(),
+        controls: controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect(),
+        stood: false,
+        course: Course::default(),
+        errors: 0,
+        take,
+        broken_off: false,
+    };
+    let mut chunks = Chunks::new(file);
+    loop {
+        match chunks.take()? {
+            Chunk::Lines(base, range) => run.piece(chunks.text(range), base),
+            Chunk::TooLong(start, end) => run.reader.too_long(Span::new(start, end), &mut run.batch),
+            Chunk::End => break,
+        }
+        if run.errors >= ENOUGH_ERRORS || run.broken_off {
+            break;
+        }
+    }
+    run.course.sha256 = chunks.finish().0;
+    run.reader.finish(&mut run.batch);
+    run.take_diagnostics();
+    if run.batch.whole && run.errors == 0 {
+        run.whole();
+    } else {
+        let stmts = std::mem::take(&mut run.batch.stmts);
+        run.statements(&stmts);
+    }
+    Ok(run.end())
+}
+
+struct Run<'r> {
+    job: &'r Job,
+    reader: Reader,
+    unsaid: Unsaid,
+    batch: Batch,
+    controls: Vec<Control>,
+    /// Whether the tools have been put where they start.
+    stood: bool,
+    course: Course,
+    errors: usize,
+    take: &'r mut dyn FnMut(Made) -> ControlFlow<()>,
+    broken_off: bool,
+}
+
+impl Run<'_> {
+    fn piece(&mut self, text: &[u8], base: u32) {
+        self.reader.read(text, base, &mut self.batch);
+        self.take_diagnostics();
+        if !self.batch.whole {
+            let mut stmts = std::mem::take(&mut self.batch.stmts);
+            self.statements(&stmts);
+            stmts.clear();
+            self.batch.stmts = stmts;
+        }
+    }
+
+    fn statements(&mut self, stmts: &[Stmt]) {
+        self.look(stmts);
+        if self.errors > 0 {
+            return;
+        }
+        self.assume();
+        for stmt in stmts {
+            if self.broken_off {
+                return;
+            }
+            if let Err(refusal) = self.statement(stmt) {
+                self.take_diagnostic(refusal);
+                return;
+            }
+        }
+    }
+
+    /// The rest of a program, kept whole.
+    fn whole(&mut self) {
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![self.batch.main(body)];
+        procedures.append(&mut self.batch.procedures);
+        let program = Program { procedures, ..Program::default() };
+        for procedure in &program.procedures {
+            self.look(&procedure.body);
+        }
+        self.assume();
+        let mut runner = Runner::new(&program);
+        self.job.given.start(&mut runner);
+        let done = if runner.asks() {
+            self.each_its_way(vec![runner; self.controls.len()])
+        } else {
+            self.all_one_way(runner)
+        };
+        if let Err(refusal) = done {
+            self.take_diagnostic(refusal);
+        }
+    }
+
+    /// All controls execute the same: what the program decides and computes depends on nothing that differs between
+    /// them.
+    fn all_one_way(&mut self, mut runner: Runner) -> Result<(), Diagnostic> {
+        while !self.broken_off
+            && let Some(control) = self.controls.first()
+            && let Some(stmt) = runner.next(&control.exec)?
+        {
+            self.statement(stmt)?;
+        }
+        Ok(())
+    }
+
+    /// Each control executes what the program comes to with its own answers. Where they go different ways there is no
+    /// statement that all have made, and the program is refused.
+    fn each_its_way(&mut self, mut runners: Vec<Runner>) -> Result<(), Diagnostic> {
+        while !self.broken_off {
+            let mut silent = true;
+            let mut first: Option<Stmt> = None;
+            let mut over = 0;
+            for (control, runner) in self.controls.iter_mut().zip(&mut runners) {
+                control.events.clear();
+                let Some(stmt) = runner.next(&control.exec)? else {
+                    over += 1;
+                    continue;
+                };
+                control.exec.step(stmt, &mut control.events)?;
+                silent &= control.events.is_empty();
+                match &first {
+                    Some(first)
+                        if first.span == stmt.span && discriminant(&first.op) == discriminant(&stmt.op) => {}
+                    Some(first) => return Err(other_way(first.span)),
+                    None => first = Some(stmt.clone()),
+                }
+            }
+            match first {
+                None => return Ok(()),
+                Some(first) if over > 0 => return Err(other_way(first.span)),
+                Some(first) if !silent => self.hand_out(Stage::Stmt(&first)),
+                Some(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes facts for granted that the program relies on, and puts the tool where it starts: at
+    /// program zero in the plain world, and where the world has it in the others.
+    fn assume(&mut self) {
+        let stood = std::mem::replace(&mut self.stood, true);
+        for control in &mut self.controls {
+            // What the text itself takes for granted goes before what holds for it.
+            control.exec.assume(&self.batch.assumed);
+            if let Unsaid::Only(facts) = &self.unsaid {
+                control.exec.assume(facts);
+            }
+            if !stood {
+                control.exec.stand_at(&self.job.start);
+            }
+        }
+        if !stood {
+            self.hand_out(Stage::Start);
+        }
+    }
+
+    #[inline]
+    fn statement(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let mut silent = true;
+        for control in &mut self.controls {
+            control.events.clear();
+            control.exec.step(stmt, &mut control.events)?;
+            silent &= control.events.is_empty();
+        }
+        if !silent {
+            self.hand_out(Stage::Stmt(stmt));
+        }
+        Ok(())
+    }
+
+    fn hand_out(&mut self, stage: Stage) {
+        self.broken_off = (self.take)(Made { stage, controls: &self.controls }).is_break();
+    }
+
+    fn end(mut self) -> Course {
+        let open = self.controls.iter().find_map(|control| control.exec.no_open_corner().err());
+        if let Some(refusal) = open.filter(|_| self.errors == 0 && !self.broken_off) {
+            self.take_diagnostic(refusal);
+        }
+        self.course.refused = self.errors > 0;
+        self.course.assumed = self.batch.assumed;
+        if self.errors == 0 && !self.broken_off {
+            for control in &mut self.controls {
+                control.events.clear();
+                control.exec.end_of_text(&mut control.events);
+            }
+            self.hand_out(Stage::End);
+        }
+        self.course
+    }
+
+    /// Looks through statements for what is to be known of the whole.
+    fn look(&mut self, stmts: &[Stmt]) {
+        self.course.skip_levels |= levels(stmts);
+        for stmt in stmts {
+            note(&stmt.op, &mut self.course.has);
+        }
+        let says = |s: &&Stmt| !s.joined && !matches!(s.op, Op::Blank | Op::Comment(_));
+        self.course.blocks += stmts.iter().filter(says).count() as u64;
+    }
+
+    fn take_diagnostics(&mut self) {
+        for diagnostic in std::mem::take(&mut self.batch.diagnostics) {
+            self.take_diagnostic(diagnostic);
+        }
+    }
+
+    /// Takes what was found. An assumption that the machine's profile settles is none.
+    fn take_diagnostic(&mut self, mut diagnostic: Diagnostic) {
+        match self.job.machines.answer(&diagnostic.fault, Told::Reader, &self.job.from, &self.job.to) {
+            Answer::Open => {}
+            Answer::Settled => return,
+            Answer::Denied(denied) => diagnostic.fault = denied,
+        }
+        self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
+        self.course.diagnostics.push(diagnostic);
+    }
+}
+
+/// Machines that answer differently go different ways from here on.
+fn other_way(at: Span) -> Diagnostic {
+    let what = "a way that depends on the machine's own values".into();
+    Diagnostic::new(Fault::NotExecuted { what }, at)
+}
+
+/// Notes what a statement has, and those inside of it.
+fn note(op: &Op, has: &mut Has) {
+    if let Op::SetOriginOffsets(number) = op {
+        has.work_offset.get_or_insert(*number);
+    } else if let Op::StartCycle(cycle) = op {
+        has.chips |= matches!(
+            cycle.kind,
+            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. }
+                | CycleKind::DrillBreak { lift: Clearance::Parameter, .. }
+        );
+    } else if let Op::Control(control) = op {
+        control.bodies().flatten().for_each(|stmt| note(&stmt.op, has));
+    } else {
+        has.messages |= matches!(op, Op::Message(_) | Op::MessageOf(_));
+        has.values |= matches!(op, Op::MessageOf(_));
+        has.inches |= matches!(op, Op::UseLengthUnits(Units::Inch));
+        has.clears_shift |= matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_));
+    }
+}

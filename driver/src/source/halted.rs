@@ -1,0 +1,55 @@
+//! Work that was asked to stop: the reading of a source looks at the request between its pieces.
+//!
+//! Who asks, and how long it may take, is the host's matter; runs of a program look at it by themselves
+//! ([`ncc_exec::halt`]).
+
+use std::fmt;
+use std::io::{self, Read, Seek, SeekFrom};
+
+use ncc_exec::halt;
+use ncc_ir::diag::{Diagnostic, Fault};
+
+use crate::problem::Problem;
+use crate::source::Source;
+
+/// The work on a source was interrupted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Interrupted {
+    /// The line that was next, from 1; `None` where no source is read.
+    pub line: Option<u64>,
+}
+
+impl fmt::Display for Interrupted {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(out, "interrupted at line {line}"),
+            None => write!(out, "interrupted"),
+        }
+    }
+}
+
+impl std::error::Error for Interrupted {}
+
+/// The problem that names the line of its source at which a run was interrupted.
+///
+/// # Errors
+/// Reading the source.
+pub fn problem(found: &[Diagnostic], source: &mut Source) -> io::Result<Option<Problem>> {
+    let Some(fault) = found.iter().find(|d| matches!(d.fault, Fault::Interrupted { .. })) else {
+        return Ok(None);
+    };
+    source.file.seek(SeekFrom::Start(0))?;
+    let mut before = Vec::new();
+    source.file.as_mut().take(u64::from(fault.span.start)).read_to_end(&mut before)?;
+    let line = memchr::memchr_iter(b'\n', &before).count() as u64 + 1;
+    let error = io::Error::other(Interrupted { line: Some(line) });
+    Ok(Some(Problem::file("read", &source.shown, &error)))
+}
+
+/// Fails if the process is to stop.
+///
+/// # Errors
+/// [`Interrupted`], in a line of a source.
+pub fn heed(line: Option<u64>) -> io::Result<()> {
+    if halt::is_asked() { Err(io::Error::other(Interrupted { line })) } else { Ok(()) }
+}

@@ -1,0 +1,247 @@
+//! What a timing takes for granted, in the few words of a summary.
+
+use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_machines::Profile;
+use ncc_time::{AssumedFact, Fact, Model, WHOLE_PATH};
+
+use super::drive::{Course, Length, Plan};
+use super::duration::short;
+use crate::job::Job;
+use crate::render::head::assumption;
+use crate::render::words;
+
+/// Of the program and its control: what the front-end took for granted.
+pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
+    let dialects = [job.from.dialect, job.to.dialect];
+    let assumed = diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Verdict(Verdict::Assumed));
+    let mut lines: Vec<String> = Vec::new();
+    for line in assumed.filter_map(|d| assumption(&d.fault, dialects)) {
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// Of the run: where it starts, which switches are on, what has no place in it.
+pub fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
+    let mut lines = Vec::new();
+    let silent: Vec<String> = Axis::ALL
+        .into_iter()
+        .filter(|axis| {
+            plan.job.start[*axis as usize].is_none() && (!axis.is_rotary() || course.moved[*axis as usize])
+        })
+        .map(letter)
+        .collect();
+    if !silent.is_empty() {
+        lines.push(format!("the tool starts at program zero in {}", silent.join(" ")));
+    }
+    let off: Vec<String> = (1..16)
+        .filter(|level| course.skip_levels >> level & 1 == 1 && plan.skip >> level & 1 == 0)
+        .map(|level| level.to_string())
+        .collect();
+    if !off.is_empty() {
+        let word = if off.len() == 1 { "switch" } else { "switches" };
+        lines.push(format!("block-skip {word} {} off", off.join(", ")));
+    }
+    if course.stops {
+        lines.push("stops for the operator take no time".to_owned());
+    }
+    if course.turns_onto_planes {
+        lines.push("turning the tool onto tilted planes takes no time".to_owned());
+    }
+    if course.tip {
+        lines.push("points of the tool's tip are timed as points of the linear axes".to_owned());
+    }
+    lines.extend(of_contours(plan, course));
+    lines.extend(of_offsets(plan, course));
+    lines.extend(of_lengths(plan, course));
+    lines
+}
+
+/// Of contours under cutter compensation: which are timed along what.
+fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
+    if !course.compensates {
+        return Vec::new();
+    }
+    if !plan.centre {
+        return vec!["contours under cutter compensation are timed along the programmed contour".to_owned()];
+    }
+    let mut lines: Vec<String> = Vec::new();
+    let mut unknown: Vec<String> = Vec::new();
+    for (line, fault) in &course.as_programmed {
+        match fault {
+            Fault::RadiusUnknown { entry: Some(entry) } => unknown.push(format!("entry {entry}")),
+            Fault::RadiusUnknown { entry: None } => unknown.push("an edge".to_owned()),
+            Fault::ContourUnreachable { why } => {
+                lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
+            }
+            Fault::CannotSay { what } | Fault::NotExecuted { what } => {
+                lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
+            }
+            _ => lines.push(format!("from line {line} on timed along the programmed contour")),
+        }
+    }
+    unknown.sort();
+    unknown.dedup();
+    if !unknown.is_empty() {
+        let radii = unknown.join(", ");
+        lines.insert(
+            0,
+            format!("timed along the programmed contour, for the radius of {radii} is not stated"),
+        );
+    }
+    lines.dedup();
+    if !plan.job.compensating().known && course.follows_centre {
+        lines.push("outer corners of compensated contours are gone round by an arc".to_owned());
+    }
+    lines
+}
+
+/// Of the table of work offsets. Where a program keeps to one of them and to its own coordinates, nothing
+/// depends on it.
+fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
+    if course.offsets.len() < 2 && !course.in_machine {
+        return Vec::new();
+    }
+    let table = &plan.tables.work_offsets;
+    if !course.offsets.iter().any(|number| table.contains_key(number)) {
+        let zero = if course.in_machine { "machine zero" } else { "one" };
+        return vec![match course.offsets.first() {
+            Some(only) if course.offsets.len() == 1 => format!("{} is {zero}", offset(plan, *only)),
+            Some(_) | None => format!("all work offsets are {zero}"),
+        }];
+    }
+    let silent = |number: &u16| -> Vec<String> {
+        let stated = table.get(number).copied().unwrap_or_default();
+        let open = |axis: &Axis| {
+            (!axis.is_rotary() || course.moved[*axis as usize]) && stated[*axis as usize].is_none()
+        };
+        Axis::ALL.into_iter().filter(open).map(letter).collect()
+    };
+    let open = course.offsets.iter().map(|number| (*number, silent(number)));
+    open.filter(|(_, axes)| !axes.is_empty())
+        .map(|(number, axes)| format!("{} = 0 in {}", offset(plan, number), axes.join(" ")))
+        .collect()
+}
+
+fn offset(plan: &Plan, number: u16) -> String {
+    words::work_offset(number, [plan.job.from.dialect, plan.job.to.dialect])
+}
+
+/// Of the table of lengths.
+fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
+    let is_stated = |length: &Length| match length {
+        Length::Entry(entry) => plan.tables.lengths.contains_key(entry),
+        Length::Edge(..) => false,
+    };
+    let used: Vec<&Length> = course.lengths.iter().filter(|length| **length != Length::Entry(0)).collect();
+    if used.is_empty() {
+        return Vec::new();
+    }
+    if !used.iter().any(|length| is_stated(length)) {
+        return vec!["all tools are of one length".to_owned()];
+    }
+    let open = used.into_iter().filter(|length| !is_stated(length));
+    open.map(|length| match length {
+        Length::Entry(entry) => {
+            let tool = plan.tables.edge_entries.iter().find(|(_, own)| *own == entry);
+            format!("length of tool {} = 0 mm", tool.map_or(entry, |(tool, _)| tool))
+        }
+        Length::Edge(tool, edge) if *tool < 0 => format!("length of edge {edge} at the start = 0 mm"),
+        Length::Edge(tool, edge) => format!("length of edge {edge} of tool {tool} = 0 mm"),
+    })
+    .collect()
+}
+
+/// Of the machine: what its profile states, but marks as assumed.
+pub fn of_profile(profile: &Profile) -> Vec<String> {
+    if profile.schema.typical {
+        return vec![
+            "rates, accelerations and times are typical figures, of no machine in particular".to_owned(),
+        ];
+    }
+    let mut marked: Vec<(&'static str, Vec<String>)> = Vec::new();
+    let of_time = ["[rates]", "[times]", "[spindle]", "[[axis]]"];
+    for row in profile.rows().into_iter().filter(|row| of_time.contains(&row.head)) {
+        let axis = row.facts.iter().find(|fact| fact.key == "letter").and_then(|fact| fact.value.clone());
+        for fact in row.facts.iter().filter(|fact| fact.assumed && fact.value.is_some()) {
+            match marked.iter_mut().find(|(key, axes)| *key == fact.key && axis.is_some() && !axes.is_empty())
+            {
+                Some((_, axes)) => axes.extend(axis.clone()),
+                None => marked.push((fact.key, axis.clone().into_iter().collect())),
+            }
+        }
+    }
+    let word = |(key, axes): &(&str, Vec<String>)| match axes.as_slice() {
+        [] => (*key).to_owned(),
+        axes => format!("{key} of {}", axes.join(" ")),
+    };
+    match marked.as_slice() {
+        [] => Vec::new(),
+        marked => {
+            let words: Vec<String> = marked.iter().map(word).collect();
+            vec![format!("marked so in the machine's profile: {}", words.join(", "))]
+        }
+    }
+}
+
+/// Of the machine: what its profile does not state, and neither does the model.
+pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<String> {
+    let moved = &course.moved;
+    let machine = &plan.machine;
+    let needed = |fact: &&AssumedFact| match fact.fact {
+        Fact::ExactStop => course.corners.unsaid,
+        Fact::PathTolerance => course.corners.unsaid || course.corners.open,
+        _ => true,
+    };
+    let facts: Vec<AssumedFact> = facts.iter().filter(needed).copied().collect();
+    let mut lines = in_words(&facts, moved);
+    if plan.model != Model::Ideal && course.corners.open {
+        let tolerance = machine.path_tolerance.unwrap_or_default();
+        lines.push(format!(
+            "where the program rounds corners and does not say how far, {} mm",
+            short(tolerance, 3)
+        ));
+    }
+    if plan.model == Model::Ideal && course.bounds.is_some() {
+        // The upper bound needs more than the model does.
+        let (_, all) = machine.assumed(Model::Trapezoidal);
+        let needed: Vec<AssumedFact> = all.into_iter().filter(|f| f.fact == Fact::Acceleration).collect();
+        lines.extend(in_words(&needed, moved).into_iter().map(|line| format!("for the bound, {line}")));
+    }
+    lines
+}
+
+fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
+    let mut lines: Vec<(String, Vec<String>, String)> = Vec::new();
+    for fact in facts {
+        if fact.axis.is_some_and(|axis| !moved[axis as usize]) {
+            continue;
+        }
+        let name = fact.fact.name().to_owned();
+        let value = match fact.fact.unit(fact.axis) {
+            "" if fact.value == 0.0 => "no".to_owned(),
+            "" => "yes".to_owned(),
+            _ if fact.fact == Fact::LookAhead && fact.value >= f64::from(WHOLE_PATH) => {
+                "the whole path".to_owned()
+            }
+            unit => format!("{} {unit}", short(fact.value, 3)),
+        };
+        let axis = fact.axis.map(letter);
+        match lines.last_mut().filter(|(n, axes, v)| *n == name && *v == value && !axes.is_empty()) {
+            Some((_, axes, _)) => axes.extend(axis),
+            None => lines.push((name, axis.into_iter().collect(), value)),
+        }
+    }
+    let line = |(name, axes, value): (String, Vec<String>, String)| match axes.as_slice() {
+        [] => format!("{name} = {value}"),
+        axes => format!("{name} of {} = {value}", axes.join(" ")),
+    };
+    lines.into_iter().map(line).collect()
+}
+
+fn letter(axis: Axis) -> String {
+    (axis.letter() as char).to_string()
+}

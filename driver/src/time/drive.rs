@@ -1,0 +1,694 @@
+//! From the text to functions with their times: read, execute in a world of the machine's tables, run
+//! the clock.
+//!
+//! A program streams through in pieces until its first call, label or loop, as in a translation; its
+//! rest is kept whole and run from there. What comes out goes to a [`Sink`], function by function.
+//! Not here: what is made of them, and where it is written.
+
+use std::collections::{BTreeSet, VecDeque};
+use std::io::{self, Read, Seek, SeekFrom};
+use std::rc::Rc;
+
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
+use ncc_exec::maps::Renaming;
+use ncc_exec::world::{Sideways, Tables, World};
+use ncc_exec::{Event, Exec, Kind, Runner};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::{AXES, Modes, PathMode};
+use ncc_ir::computed::open::asked_of_the_machine;
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::cycle::{Clearance, CycleKind};
+use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_machines::reading::Told;
+use ncc_plot::Turned;
+use ncc_time::{Act, Clock, Machine, Model, Place, Timed};
+
+use super::blocks::Blocks;
+use super::reach::{Reach, reach, turned};
+use crate::job::Job;
+use crate::machines::pair::Answer;
+use crate::review::stream::as_stated;
+use crate::source::Source;
+use crate::source::chunks::{Chunk, Chunks};
+use crate::translate::parameter;
+use crate::verify_run::fixed;
+
+/// After so many errors, reading more of the program would help nobody.
+const ENOUGH_ERRORS: usize = 200;
+
+/// So many blocks of a contour are remembered, of which an event may come late: one that does not move holds none up.
+const MOST_HELD: usize = 64;
+
+/// Stages of the case study's document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// As the program says it.
+    Before,
+    /// As the machine does it.
+    After,
+}
+
+/// Who is told how far a long program has come.
+pub trait Watch {
+    /// So many bytes are read; the clock of the machine stands there, in seconds.
+    fn at(&mut self, bytes: u64, now: f64);
+
+    /// All is read, and the machine goes on.
+    fn now(&mut self, now: f64);
+}
+
+/// Nobody.
+#[derive(Clone, Copy, Debug)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn at(&mut self, _bytes: u64, _now: f64) {}
+
+    fn now(&mut self, _now: f64) {}
+}
+
+/// What is to be executed, and how it is timed.
+pub struct Plan<'p> {
+    /// The program's dialect and options; as a translation into itself.
+    pub job: &'p Job,
+    /// The machine.
+    pub machine: Machine,
+    /// Its tables of offsets and lengths, as far as they are stated.
+    pub tables: Tables,
+    /// Clearance of peck drilling and lift of chip-breaking drilling, mm in nanos, that its profile states.
+    pub parameters: [Option<Nanos>; 2],
+    /// The model.
+    pub model: Model,
+    /// Block-skip switches that are on: bit n is level n.
+    pub skip: u16,
+    /// Seconds on the clock before the first block.
+    pub start_time: f64,
+    /// Whether cycles are told as they are called, or as they are made.
+    pub stage: Stage,
+    /// Whether compensated contours are gone along by the tool's centre, where its radius is known.
+    pub centre: bool,
+}
+
+/// What the source says of a function.
+#[derive(Clone, Debug, Default)]
+pub struct Said {
+    /// Text of its block, if the sink wants it.
+    pub block: Rc<str>,
+    /// The comment, of a remark.
+    pub remark: Option<Rc<str>>,
+    /// Box around an arc in the program's coordinates, if the sink wants it.
+    pub reach: Option<Box<Reach>>,
+    /// How frames turn the plane of an arc, if the sink wants it and they do.
+    pub turned: Option<Box<Turned>>,
+}
+
+/// What takes the functions.
+pub trait Sink {
+    /// Whether it wants the text of blocks.
+    fn wants_blocks(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants the boxes around arcs.
+    fn wants_reach(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants to know how frames turn arcs.
+    fn wants_turns(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants bounds of the whole.
+    fn wants_bounds(&self) -> bool {
+        false
+    }
+
+    /// A function with its time.
+    ///
+    /// # Errors
+    /// Writing.
+    fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()>;
+
+    /// A statement of a cycle that is told as it is called; the control stands before the holes.
+    ///
+    /// # Errors
+    /// Writing.
+    fn called(&mut self, _stmt: &Stmt, _exec: &Exec, _block: &str) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Whose length is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Length {
+    /// An entry of the length table, which is edge 1 of the tool with its number too; 0 is none.
+    Entry(u32),
+    /// An edge of a tool; -1 is a tool that nobody named.
+    Edge(i64, u32),
+}
+
+/// Corners that a program leaves to the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Corners {
+    /// No path mode is in force.
+    pub unsaid: bool,
+    /// One is in force that rounds, and no length says how far.
+    pub open: bool,
+}
+
+/// What became of a program.
+pub struct Course {
+    /// What was found.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Whether the program has errors; then what the sink has is not to be used.
+    pub refused: bool,
+    /// Levels of block skip that occur: bit n is level n.
+    pub skip_levels: u16,
+    /// Whether the program stops for the operator.
+    pub stops: bool,
+    /// Whether it turns the tool onto tilted planes.
+    pub turns_onto_planes: bool,
+    /// Whether it has points of the tool's tip.
+    pub tip: bool,
+    /// Work offsets in force while it moves.
+    pub offsets: BTreeSet<u16>,
+    /// Lengths in force while it moves.
+    pub lengths: BTreeSet<Length>,
+    /// Whether it moves in machine coordinates.
+    pub in_machine: bool,
+    /// Axes that move.
+    pub moved: [bool; AXES],
+    /// Whether corners are taken as the program says nothing of, and as it says without a length.
+    pub corners: Corners,
+    /// Seconds at least and at most, where the sink wants them.
+    pub bounds: Option<[f64; 2]>,
+    /// Whether contours are compensated.
+    pub compensates: bool,
+    /// Whether a move was one of the tool's centre beside a contour.
+    pub follows_centre: bool,
+    /// Contours that the tool's centre was not followed along: in which line that was found, and why.
+    pub as_programmed: Vec<(u32, Fault)>,
+    /// Blocks of the source that say something.
+    pub blocks: u64,
+    /// Seconds on the clock at the end.
+    pub end: f64,
+}
+
+/// Executes a program.
+///
+/// # Errors
+/// Reading the source, or what the sink fails with.
+pub fn drive(
+    plan: &Plan,
+    source: &mut Source,
+    sink: &mut dyn Sink,
+    watch: &mut dyn Watch,
+) -> io::Result<Course> {
+    let mut drive = Drive::new(plan, sink);
+    let mut chunks = Chunks::new(&mut source.file);
+    let mut read = 0;
+    loop {
+        match chunks.take()? {
+            Chunk::Lines(base, range) => {
+                read = u64::from(base) + range.len() as u64;
+                drive.piece(chunks.text(range), base)?;
+            }
+            Chunk::TooLong(start, end) => drive.reader.too_long(Span::new(start, end), &mut drive.batch),
+            Chunk::End => break,
+        }
+        watch.at(read, drive.clock.now());
+        if drive.errors >= ENOUGH_ERRORS {
+            break;
+        }
+    }
+    drive.reader.finish(&mut drive.batch);
+    drive.take_diagnostics();
+    if drive.batch.whole && drive.errors == 0 {
+        let mut text = Vec::new();
+        source.file.seek(SeekFrom::Start(0))?;
+        source.file.read_to_end(&mut text)?;
+        drive.whole(&text, watch)?;
+    } else {
+        let stmts = std::mem::take(&mut drive.batch.stmts);
+        drive.statements(&stmts, &[])?;
+    }
+    drive.end()
+}
+
+struct Drive<'d> {
+    plan: &'d Plan<'d>,
+    sink: &'d mut dyn Sink,
+    wants_blocks: bool,
+    wants_reach: bool,
+    wants_turns: bool,
+    wants_bounds: bool,
+    reader: Reader,
+    batch: Batch,
+    blocks: Blocks,
+    exec: Exec,
+    world: World,
+    stood: bool,
+    /// Whether there has been a move.
+    moved: bool,
+    /// Work offset and length that were noted last.
+    depends: Option<(u16, Length)>,
+    /// Where the axes stood before the next function, machine coordinates.
+    last: [Nanos; AXES],
+    clock: Clock,
+    /// A model with acceleration beside one that has none, for the upper bound.
+    beside: Option<Clock>,
+    events: Vec<Event>,
+    /// Of functions whose time is not certain yet, in order.
+    said: VecDeque<Said>,
+    /// Blocks whose events may wait for the next ones: a contour's end is not known before.
+    held: VecDeque<(Span, Place, Said)>,
+    course: Course,
+    errors: usize,
+}
+
+impl<'d> Drive<'d> {
+    fn new(plan: &'d Plan<'d>, sink: &'d mut dyn Sink) -> Drive<'d> {
+        let world = world(plan);
+        let mut exec = Exec::new(&world, plan.skip);
+        exec.narrate();
+        if plan.centre {
+            exec.compute_known_compensation(plan.job.compensating().rules);
+        }
+        // Cycles that are not made have no time, so that nothing has.
+        let model = if plan.stage == Stage::Before { Model::Ideal } else { plan.model };
+        let wants_bounds = sink.wants_bounds();
+        Drive {
+            wants_bounds,
+            wants_blocks: sink.wants_blocks(),
+            wants_reach: sink.wants_reach(),
+            wants_turns: sink.wants_turns(),
+            plan,
+            sink,
+            reader: plan.job.reader(true),
+            batch: Batch::default(),
+            blocks: Blocks::new(),
+            last: exec.machine(),
+            exec,
+            world,
+            stood: false,
+            moved: false,
+            depends: None,
+            clock: Clock::new(model, plan.machine.clone()),
+            beside: (wants_bounds && model == Model::Ideal)
+                .then(|| Clock::new(Model::Trapezoidal, plan.machine.clone())),
+            events: Vec::new(),
+            said: VecDeque::new(),
+            held: VecDeque::new(),
+            course: Course {
+                diagnostics: Vec::new(),
+                refused: false,
+                skip_levels: 0,
+                stops: false,
+                turns_onto_planes: false,
+                tip: false,
+                offsets: BTreeSet::new(),
+                lengths: BTreeSet::new(),
+                in_machine: false,
+                moved: [false; AXES],
+                corners: Corners::default(),
+                bounds: None,
+                compensates: false,
+                follows_centre: false,
+                as_programmed: Vec::new(),
+                blocks: 0,
+                end: 0.0,
+            },
+            errors: 0,
+        }
+    }
+
+    /// A piece of the source.
+    fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
+        self.reader.read(text, base, &mut self.batch);
+        self.take_diagnostics();
+        self.blocks.begin(base);
+        if !self.batch.whole {
+            let mut stmts = std::mem::take(&mut self.batch.stmts);
+            self.statements(&stmts, text)?;
+            stmts.clear();
+            self.batch.stmts = stmts;
+        }
+        self.blocks.end(text);
+        Ok(())
+    }
+
+    /// Statements of a program that streams.
+    fn statements(&mut self, stmts: &[Stmt], text: &[u8]) -> io::Result<()> {
+        self.look(stmts);
+        if self.errors > 0 {
+            return Ok(());
+        }
+        self.assume(self.batch.assumed);
+        for stmt in stmts {
+            if let Err(refusal) = self.statement(stmt, text)? {
+                self.take(refusal);
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// The rest of a program, kept whole.
+    fn whole(&mut self, text: &[u8], watch: &mut dyn Watch) -> io::Result<()> {
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![self.batch.main(body)];
+        procedures.append(&mut self.batch.procedures);
+        let program = Program { procedures, ..Program::default() };
+        for procedure in &program.procedures {
+            self.look(&procedure.body);
+        }
+        if self.errors > 0 {
+            return Ok(());
+        }
+        self.blocks = Blocks::whole(text);
+        self.assume(self.batch.assumed);
+        for (asked, at) in asked_of_the_machine(&program) {
+            self.take(as_stated(&asked, at));
+        }
+        let mut runner = Runner::new(&program);
+        self.plan.job.given.start(&mut runner);
+        loop {
+            let next = match runner.next(&self.exec) {
+                Ok(Some(stmt)) => stmt,
+                Ok(None) => return Ok(()),
+                Err(refusal) => {
+                    self.take(refusal);
+                    return Ok(());
+                }
+            };
+            if let Err(refusal) = self.statement(next, text)? {
+                self.take(refusal);
+                return Ok(());
+            }
+            watch.now(self.clock.now());
+        }
+    }
+
+    /// Takes facts for granted that the program relies on, and puts the tool where it starts.
+    fn assume(&mut self, facts: Modes) {
+        self.exec.assume(&facts);
+        if !std::mem::replace(&mut self.stood, true) {
+            let start = self.plan.job.start.map(|at| Some(at.unwrap_or(0)));
+            self.exec.stand_at(&start);
+            self.last = self.exec.machine();
+        }
+    }
+
+    /// Puts the tool, which has not moved yet, where it starts in the work offset that has just come into
+    /// force: its start is one in the program's coordinates.
+    fn start_in(&mut self, before: u16) {
+        let [was, is] = [before, self.exec.offset_in_force()].map(|offset| self.world.work_offset(offset));
+        let here = self.exec.machine();
+        self.exec.be_at(std::array::from_fn(|axis| here[axis] + is[axis] - was[axis]));
+        self.last = self.exec.machine();
+    }
+
+    /// Executes a statement and passes on what it makes.
+    fn statement(&mut self, stmt: &Stmt, text: &[u8]) -> io::Result<Result<(), Diagnostic>> {
+        let skipped = stmt.skip.is_some_and(|level| self.plan.skip >> level & 1 == 1);
+        if self.exec.ended() || skipped {
+            return Ok(Ok(()));
+        }
+        if self.plan.stage == Stage::Before && self.is_call(&stmt.op) {
+            return self.call(stmt, text);
+        }
+        let exact = self.plan.job.from.dialect.can.cycles_in_exact_path && self.is_call(&stmt.op);
+        let contour = self.plan.centre && self.exec.is_on_contour();
+        let before = self.exec.offset_in_force();
+        if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
+            return Ok(Err(refusal));
+        }
+        if !self.moved && self.exec.offset_in_force() != before {
+            self.start_in(before);
+        }
+        let contour = contour || self.plan.centre && self.exec.is_on_contour();
+        if self.events.is_empty() && !contour {
+            return Ok(Ok(()));
+        }
+        let (place, mut said) = self.place(stmt.span, text);
+        if let Op::Comment(remark) = &stmt.op {
+            said.remark = Some(Rc::from(&**remark));
+        }
+        if contour {
+            self.note_contour(stmt.span, place, &said);
+        }
+        if exact {
+            for event in &mut self.events {
+                event.state.path = Some(PathMode::ExactPath);
+            }
+        }
+        self.pass_on(contour, place, &said);
+        if contour && !self.exec.is_on_contour() {
+            self.held.clear();
+        }
+        self.deliver().map(Ok)
+    }
+
+    /// Passes on the events that were made; those of a contour may be of an earlier block.
+    fn pass_on(&mut self, contour: bool, place: Place, said: &Said) {
+        let mut events = std::mem::take(&mut self.events);
+        for event in events.drain(..) {
+            let held = self.held.iter().rev().find(|(span, ..)| contour && *span == event.span);
+            let (place, said) = held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
+            let act = Act::of(event, self.last, &self.exec, place);
+            self.moves(&act);
+            self.last = act.event.end;
+            let arc = matches!(act.event.kind, Kind::Arc { .. });
+            let reach = if arc && self.wants_reach { reach(&act, &self.exec) } else { None };
+            let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
+            let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
+            self.said.push_back(Said { reach, turned, ..said });
+            if let Some(clock) = &mut self.beside {
+                clock.push(act.clone());
+                clock.forget();
+            }
+            self.clock.push(act);
+        }
+        self.events = events;
+    }
+
+    /// Notes a block of a contour, and contours that the tool's centre is not followed along.
+    fn note_contour(&mut self, span: Span, place: Place, said: &Said) {
+        self.course.follows_centre |= self.exec.follows_centre();
+        let known = self.course.as_programmed.len();
+        let new = self.exec.as_programmed().get(known..).unwrap_or_default();
+        self.course.as_programmed.extend(new.iter().map(|left| (place.line, left.fault.clone())));
+        if self.held.len() >= MOST_HELD {
+            self.held.pop_front();
+        }
+        self.held.push_back((span, place, said.clone()));
+    }
+
+    /// Notes what a move depends on: whether it goes anywhere too.
+    fn moves(&mut self, act: &Act) {
+        if act.event.kind.moves().is_none() {
+            return;
+        }
+        self.moved = true;
+        match act.event.state.path {
+            None => self.course.corners.unsaid = true,
+            Some(PathMode::ExactStop | PathMode::ExactPath | PathMode::Distance) => {}
+            Some(_) => self.course.corners.open |= act.event.state.within[..2] == [0; 2],
+        }
+        for (moved, (from, to)) in self.course.moved.iter_mut().zip(act.from.iter().zip(&act.event.end)) {
+            *moved |= from != to;
+        }
+        let length = match self.exec.length_edge() {
+            Some((tool, edge)) => Length::Edge(tool, edge),
+            None => Length::Entry(self.exec.length_entry().unwrap_or(0)),
+        };
+        let depends = (self.exec.offset_in_force(), length);
+        if self.depends != Some(depends) {
+            self.depends = Some(depends);
+            self.course.offsets.insert(depends.0);
+            self.course.lengths.insert(depends.1);
+        }
+    }
+
+    /// Where a statement stands.
+    fn place(&mut self, span: Span, text: &[u8]) -> (Place, Said) {
+        let line = self.blocks.find(text, span.start);
+        let place = Place { line: line.map_or(0, |line| line.number), span };
+        let block = match line {
+            Some(line) if self.wants_blocks => Rc::clone(&line.text),
+            Some(_) | None => Rc::from(""),
+        };
+        (place, Said { block, ..Said::default() })
+    }
+
+    /// Whether a statement belongs to a cycle.
+    fn is_call(&self, op: &Op) -> bool {
+        match op.unwrapped() {
+            Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) | Op::EndCycle => true,
+            Op::Position(_) => self.exec.cycle_levels().is_some(),
+            _ => false,
+        }
+    }
+
+    /// Tells a statement of a cycle as it is called; its holes are made for the position alone.
+    fn call(&mut self, stmt: &Stmt, text: &[u8]) -> io::Result<Result<(), Diagnostic>> {
+        let (_, said) = self.place(stmt.span, text);
+        let holes = matches!(stmt.op.unwrapped(), Op::Hole(_) | Op::Pattern(_) | Op::Position(_));
+        if holes {
+            self.moved = true;
+            self.sink.called(stmt, &self.exec, &said.block)?;
+        }
+        if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
+            return Ok(Err(refusal));
+        }
+        self.events.clear();
+        self.last = self.exec.machine();
+        if !holes {
+            self.sink.called(stmt, &self.exec, &said.block)?;
+        }
+        Ok(Ok(()))
+    }
+
+    /// Hands over what has its time.
+    fn deliver(&mut self) -> io::Result<()> {
+        for timed in self.clock.certain() {
+            timed.start += self.plan.start_time;
+            let said = self.said.pop_front().unwrap_or_default();
+            self.sink.function(timed, &said)?;
+        }
+        self.clock.forget();
+        Ok(())
+    }
+
+    /// The end.
+    fn end(mut self) -> io::Result<Course> {
+        if self.errors == 0 {
+            if self.plan.centre && self.exec.is_on_contour() {
+                // The text ends on the contour.
+                self.exec.end_of_text(&mut self.events);
+                self.events.retain(|event| event.kind != Kind::TextEnd);
+                self.pass_on(true, Place::default(), &Said::default());
+            }
+            self.clock.finish();
+            self.deliver()?;
+        }
+        if self.wants_bounds {
+            let now = self.clock.now();
+            let (least, most) = match &self.beside {
+                Some(clock) => (now, clock.bounds().1.max(now)),
+                None => self.clock.bounds(),
+            };
+            self.course.bounds = Some([least, most]);
+        }
+        self.course.refused = self.errors > 0;
+        self.course.end = self.plan.start_time + self.clock.now();
+        Ok(self.course)
+    }
+
+    /// Looks through statements for what is to be told, or known before they are executed.
+    fn look(&mut self, stmts: &[Stmt]) {
+        for stmt in stmts {
+            self.course.skip_levels |= stmt.skip.map_or(0, |level| 1 << level);
+            let says = !matches!(stmt.op, Op::Blank | Op::Comment(_));
+            self.course.blocks += u64::from(!stmt.joined && says);
+            match &stmt.op {
+                Op::ProgramStop | Op::OptionalProgramStop => self.course.stops = true,
+                Op::OrientToolAxis(_) => self.course.turns_onto_planes = true,
+                Op::UseToolCentrePoint(on) => self.course.tip |= on,
+                Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => self.course.in_machine = true,
+                Op::StartCutterRadiusCompensation { .. } => self.course.compensates = true,
+                Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
+                _ => {}
+            }
+        }
+    }
+
+    /// Takes the control's own parameters of a cycle from the dictionary.
+    fn parameters(&mut self, kind: &CycleKind, span: Span) {
+        let (option, name, drill) = match kind {
+            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
+                (PECK_CLEARANCE, "clearance of peck drilling", true)
+            }
+            CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
+                (BREAK_LIFT, "lift of chip-breaking drilling", false)
+            }
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Bore { .. }
+            | CycleKind::Tap(_)
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => return,
+        };
+        let said = parameter(self.plan.job, option).and_then(|value| value.nanos(false));
+        match said.or(self.plan.parameters[usize::from(!drill)]) {
+            Some(nanos) => {
+                if drill {
+                    self.exec.set_peck_clearance(nanos);
+                } else {
+                    self.exec.set_break_lift(nanos);
+                }
+                let value = format!("{} mm", nanos as f64 / 1e9).into();
+                let fault = Fault::AssumedParameter { parameter: name.into(), value };
+                self.take(Diagnostic::new(fault, span));
+            }
+            None => {
+                let what = format!("an unknown {name}");
+                self.take(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span));
+            }
+        }
+    }
+
+    fn take_diagnostics(&mut self) {
+        for diagnostic in std::mem::take(&mut self.batch.diagnostics) {
+            self.take(diagnostic);
+        }
+    }
+
+    /// Takes what was found. An assumption that the machine's profile settles is none.
+    fn take(&mut self, mut diagnostic: Diagnostic) {
+        let job = self.plan.job;
+        match job.machines.answer(&diagnostic.fault, Told::Reader, &job.from, &job.to) {
+            Answer::Open => {}
+            Answer::Settled => return,
+            Answer::Denied(denied) => diagnostic.fault = denied,
+        }
+        self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
+        self.course.diagnostics.push(diagnostic);
+    }
+}
+
+/// The plain world: the machine's tables, zero where it states nothing, the dictionary's state at
+/// power-on.
+fn world(plan: &Plan) -> World {
+    let job = plan.job;
+    let fixed = fixed(job.from.dialect);
+    let value = |option| parameter(job, option).and_then(|value| value.nanos(false)).unwrap_or(0);
+    World {
+        external: [0; AXES],
+        seed: 0,
+        power_on: Modes { no_origin_shift: Some(true), ..fixed },
+        path: None,
+        start: [0; AXES],
+        peck_clearance: value(PECK_CLEARANCE),
+        backs_off: 0,
+        length_by_change: false,
+        zeroed_by_tool: false,
+        behaviours: job.from.behaviours(),
+        increments: job.from.fine_increments(),
+        optional_stop: false,
+        feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
+        compensation_again: job.from.dialect.caps.compensation_again,
+        arcs: job.from.arc_rule(),
+        refused_compensated: job.from.dialect.caps.refused_compensated,
+        break_lift: value(BREAK_LIFT),
+        orientation: 0,
+        bore_shift: Sideways::default(),
+        tables: plan.tables.clone(),
+        renaming: Renaming::default(),
+    }
+}

@@ -1,0 +1,225 @@
+//! The case study's JSON document: every function as a block, in two stages.
+//!
+//! Before processing, cycles and patterns are blocks with their parameters, and nothing has a time;
+//! after it they are the moves that they stand for, and every block has its time. Written block by
+//! block: the whole is never in memory. `schema/payload.schema.json` describes it.
+
+use std::io::{self, Write};
+
+use ncc_exec::{Attribute, Exec, Kind};
+use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::Stmt;
+use ncc_time::{Machine, Timed};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::columns::{Columns, Row, units};
+use super::drive::{Said, Sink};
+use super::parameters;
+
+/// The JSON Schema of the document and of the lines of its long form.
+pub const SCHEMA: &str = include_str!("../../schema/payload.schema.json");
+
+/// What stands at the top.
+#[derive(Clone, Debug, Serialize)]
+pub struct Header<'h> {
+    /// The program's name.
+    pub prog_name: &'h str,
+    /// The machine's name, as its profile has it.
+    pub machine_name: &'h str,
+    /// The name of the program's dialect.
+    pub dialect: &'h str,
+}
+
+/// A block. Positions are the program's, mm; rotary axes, degrees, where the program moves any.
+#[derive(Clone, Debug, Serialize)]
+struct Block<'b> {
+    gcode: &'b str,
+    function_name: &'b str,
+    x0: f64,
+    y0: f64,
+    z0: f64,
+    x1: f64,
+    y1: f64,
+    z1: f64,
+    #[serde(flatten)]
+    rotary: Option<Rotary>,
+    cut_offset: Option<u32>,
+    feed: f64,
+    speed: f64,
+    tool: i64,
+    dx: f64,
+    dy: f64,
+    dz: f64,
+    distance: f64,
+    time: f64,
+    timestamp: f64,
+    parameters: Map<String, Value>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Rotary {
+    a0: f64,
+    b0: f64,
+    c0: f64,
+    a1: f64,
+    b1: f64,
+    c1: f64,
+}
+
+/// Writes the document.
+pub struct Payload<'m, W: Write> {
+    machine: &'m Machine,
+    columns: Columns,
+    /// One block a line, and nothing around them.
+    lines: bool,
+    /// Whether times are told.
+    timed: bool,
+    any: bool,
+    /// Feed in force.
+    feed: f64,
+    out: W,
+}
+
+impl<'m, W: Write> Payload<'m, W> {
+    /// Writes what stands before the blocks.
+    pub fn new(
+        header: &Header,
+        machine: &'m Machine,
+        lines: bool,
+        timed: bool,
+        mut out: W,
+    ) -> io::Result<Payload<'m, W>> {
+        if lines {
+            serde_json::to_writer(&mut out, header)?;
+            out.write_all(b"\n")?;
+        } else {
+            out.write_all(b"{\n")?;
+            for (key, value) in [
+                ("prog_name", header.prog_name),
+                ("machine_name", header.machine_name),
+                ("dialect", header.dialect),
+            ] {
+                write!(out, "  \"{key}\": ")?;
+                serde_json::to_writer(&mut out, value)?;
+                out.write_all(b",\n")?;
+            }
+            out.write_all(b"  \"blocks\": [")?;
+        }
+        Ok(Payload { machine, columns: Columns::default(), lines, timed, any: false, feed: 0.0, out })
+    }
+
+    /// Writes what stands after the blocks.
+    pub fn finish(&mut self) -> io::Result<()> {
+        if !self.lines {
+            self.out.write_all(b"\n  ]\n}\n")?;
+        }
+        self.out.flush()
+    }
+
+    fn block(&mut self, block: &Block) -> io::Result<()> {
+        if !self.lines {
+            self.out.write_all(if self.any { b",\n    " } else { b"\n    " })?;
+        }
+        self.any = true;
+        serde_json::to_writer(&mut self.out, block)?;
+        if self.lines {
+            self.out.write_all(b"\n")?;
+        }
+        Ok(())
+    }
+}
+
+/// A block without times, between two points of the program.
+fn block<'b>(gcode: &'b str, row: &Row, from: &[Nanos; AXES], to: &[Nanos; AXES]) -> Block<'b> {
+    let [f, t] = [from, to].map(|p| p.map(|n| micro(units(n))));
+    let turns = Axis::ALL.into_iter().any(|a| a.is_rotary() && (f[a as usize], t[a as usize]) != (0.0, 0.0));
+    let rotary = Rotary { a0: f[3], b0: f[4], c0: f[5], a1: t[3], b1: t[4], c1: t[5] };
+    Block {
+        gcode,
+        function_name: row.name,
+        x0: f[0],
+        y0: f[1],
+        z0: f[2],
+        x1: t[0],
+        y1: t[1],
+        z1: t[2],
+        rotary: turns.then_some(rotary),
+        cut_offset: None,
+        feed: micro(row.feed),
+        speed: micro(row.speed),
+        tool: row.tool,
+        dx: micro(units(to[0] - from[0])),
+        dy: micro(units(to[1] - from[1])),
+        dz: micro(units(to[2] - from[2])),
+        distance: micro(row.distance),
+        time: 0.0,
+        timestamp: 0.0,
+        parameters: Map::new(),
+    }
+}
+
+impl<W: Write> Sink for Payload<'_, W> {
+    fn wants_blocks(&self) -> bool {
+        true
+    }
+
+    fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
+        let Some(row) = self.columns.row(timed, self.machine) else { return Ok(()) };
+        let act = &timed.act;
+        if let Kind::Attribute(Attribute::FeedRate(feed)) = &act.event.kind {
+            self.feed = units(*feed);
+        }
+        let mut block = block(&said.block, &row, &act.program_from, &act.program_to);
+        block.cut_offset = act.cut_offset;
+        if self.timed {
+            block.time = micro(timed.duration);
+            block.timestamp = micro(timed.end());
+        }
+        block.parameters = match &act.event.kind {
+            Kind::Arc { .. } => parameters::arc(act),
+            Kind::Dwell(seconds) => parameters::one("seconds", micro(units(*seconds)).into()),
+            Kind::Orient(angle) => parameters::one("angle", micro(units(*angle)).into()),
+            Kind::Output(written) => parameters::one("written", written.to_string().into()),
+            Kind::Alarm(_, text) | Kind::Message(text) => parameters::one("text", (&**text).into()),
+            Kind::Traverse
+            | Kind::Feed
+            | Kind::Probe { .. }
+            | Kind::Synchronised { .. }
+            | Kind::ToolChange
+            | Kind::Coolant
+            | Kind::MachineFunction(_)
+            | Kind::Data(_)
+            | Kind::Tilt(_)
+            | Kind::OrientToolAxis(_)
+            | Kind::ProgramStop
+            | Kind::OptionalProgramStop
+            | Kind::ProgramEnd
+            | Kind::BeginAgain
+            | Kind::TextEnd
+            | Kind::Attribute(_) => Map::new(),
+        };
+        self.block(&block)
+    }
+
+    fn called(&mut self, stmt: &Stmt, exec: &Exec, gcode: &str) -> io::Result<()> {
+        let (name, parameters) = parameters::of(&stmt.op, exec);
+        if let Some(feed) = parameters.get("f").and_then(Value::as_f64) {
+            self.feed = feed;
+        }
+        let row = self.columns.called(name, self.feed);
+        let here = exec.position();
+        let mut block = block(gcode, &row, &here, &here);
+        block.cut_offset = exec.length_entry();
+        block.parameters = parameters;
+        self.block(&block)
+    }
+}
+
+/// To six digits after the point, which is what is shown of anything.
+pub fn micro(value: f64) -> f64 {
+    let rounded = (value * 1e6).round() / 1e6;
+    // No minus zero.
+    if rounded == 0.0 { 0.0 } else { rounded }
+}

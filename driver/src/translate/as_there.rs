@@ -1,0 +1,280 @@
+//! A program that computes, said with what the target computes with: forms of control, functions, known facts, and
+//! variables.
+
+use std::collections::HashMap;
+
+use ncc_dialects::{
+    BORE_SHIFT, BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity,
+    SPINDLE_ANGLE, SystemRow,
+};
+use ncc_exec::world::Sideways;
+use ncc_ir::canon::Modes;
+use ncc_ir::computed::code_of;
+use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::open::open_variables;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::{self, Expr};
+use ncc_ir::program::valid::{deeper_calls, labels_twice};
+use ncc_ir::program::{Call, Op, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+use ncc_passes::arcs::centres_from_start;
+use ncc_passes::flow::{control_forms, expand_repeats};
+use ncc_passes::frames::{computed_frames, machine_cuts, spindle_points};
+use ncc_passes::holes::{computed_holes, planes_checked};
+use ncc_passes::modes::own_distance;
+use ncc_passes::support::known_facts::{self, Known};
+use ncc_passes::values::variables::{self, Digits, Renamed};
+use ncc_passes::values::{alarm_numbers, arithmetic, exact_comparisons, message_values, unit_in_force};
+use ncc_passes::watch::ran_whole;
+use ncc_passes::{Target, leave_out_output, output_elsewhere};
+
+use crate::job::Job;
+
+/// A number as it is typed.
+fn decimal(num: Num) -> String {
+    let digits = format!("{:0>width$}", num.mantissa.unsigned_abs(), width = usize::from(num.scale) + 1);
+    let (whole, behind) = digits.split_at(digits.len() - usize::from(num.scale));
+    let sign = if num.mantissa < 0 { "-" } else { "" };
+    if behind.is_empty() { format!("{sign}{whole}") } else { format!("{sign}{whole}.{behind}") }
+}
+
+/// Has the output set at its start what the user states that variables hold there, which the program reads before it
+/// sets them.
+pub fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    if job.values.is_empty() {
+        return found;
+    }
+    let open = open_variables(program);
+    let Some(main) = program.procedures.first_mut() else { return found };
+    let at = main.body.first().map_or(Span::default(), |first| first.span);
+    let mut sets = Vec::new();
+    for (var, read) in open {
+        let name = var.name();
+        let Some((_, value)) = job.values.iter().find(|(own, _)| job.given.is_name(own, &name)) else {
+            continue;
+        };
+        let parameter = format!("variable {name} at the start").into();
+        let shown = decimal(*value).into();
+        found.push(Diagnostic::new(Fault::AssumedParameter { parameter, value: shown }, read));
+        sets.push(Stmt::new(at, Op::Assign(expr::Target::Var(var), Expr::Num(*value))));
+    }
+    let at = behind_the_modes(&main.body);
+    main.body.splice(at..at, sets);
+    ran_whole("values-at-start", program);
+    found
+}
+
+/// The place of the first block that does more than state modes.
+fn behind_the_modes(body: &[Stmt]) -> usize {
+    let states = |stmt: &Stmt| {
+        let plain = matches!(
+            stmt.op,
+            Op::UseLengthUnits(_)
+                | Op::SetDistanceMode(_)
+                | Op::SelectPlane(_)
+                | Op::SetFeedMode(_)
+                | Op::SetReturnLevel(_)
+                | Op::SetOriginOffsets(_)
+                | Op::EndCycle
+                | Op::StopCutterRadiusCompensation
+                | Op::UseToolLengthOffset(Expr::Num(_))
+                | Op::Comment(_)
+                | Op::Blank
+        );
+        plain && stmt.skip.is_none()
+    };
+    let first = body.iter().position(|stmt| !states(stmt)).unwrap_or(body.len());
+    (0..=first).rev().find(|at| body.get(*at).is_none_or(|stmt| !stmt.joined)).unwrap_or(0)
+}
+
+/// Digits after the point to which computed positions are rounded: the target's, in mm.
+pub fn decimals(job: &Job) -> u8 {
+    job.to.dialect.numbers(Quantity::Length).decimals
+}
+
+/// Jumps of the source to labels that stand several times; calls of the written program that go deeper within one
+/// another than the target takes, or than each such control does.
+pub fn calls_and_jumps(job: &Job, [source, program]: [&Program; 2], found: &mut Vec<Diagnostic>) {
+    found.extend(labels_twice(source));
+    // A control that counts calls of macros counts them apart.
+    let apart = job.to.call_depth(MACRO_DEPTH).is_some();
+    for (option, macros) in [(CALL_DEPTH, false), (MACRO_DEPTH, true)] {
+        let Some([most, sure]) = job.to.call_depth(option) else { continue };
+        let counts: fn(&Call) -> bool = match (macros, apart) {
+            (true, _) => |call| !call.shared,
+            (false, true) => |call| call.shared,
+            (false, false) => |_| true,
+        };
+        let beyond = |limit: u32| deeper_calls(program, limit as usize, counts);
+        let fault = match (beyond(most), beyond(sure)) {
+            (Some((depth, name, span)), _) => {
+                let (name, depth) = (name.into(), depth as u32);
+                Diagnostic::new(Fault::CallsDeeper { name, depth, most, macros }, span)
+            }
+            (None, Some((depth, _, span))) => {
+                Diagnostic::new(Fault::CallDepth { depth: depth as u32, sure, macros }, span)
+            }
+            (None, None) => continue,
+        };
+        found.push(fault);
+    }
+}
+
+/// Says the alarms of a program as the target has them, and leaves out what it has no device for.
+pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
+    let caps = job.to.caps();
+    leave_out_output(program, &caps, found);
+    ran_whole("leave-out-output", program);
+    let opens = caps.computes.as_ref().is_some_and(|there| there.output_opened);
+    if job.from.dialect.id != job.to.dialect.id {
+        found.extend(output_elsewhere(program, opens));
+    }
+    let Some(there) = caps.computes else { return };
+    let Some(alarms) = &there.alarms else { return };
+    alarm_numbers::in_its_characters(program, alarms, found);
+    ran_whole("alarm-texts", program);
+    if job.from.dialect.id != job.to.dialect.id {
+        alarm_numbers::run(program, alarms, there.has(Said::CallOf), found);
+        ran_whole("alarm-numbers", program);
+    }
+}
+
+/// Says a program so. `stands` is what holds where it begins. What holds in it, and which variables became which,
+/// comes back.
+pub fn say(
+    job: &Job,
+    program: &mut Program,
+    there: &Computes,
+    stands: &Tracker,
+    found: &mut Vec<Diagnostic>,
+) -> (Known, Renamed) {
+    let mut known = Known::default();
+    let (from, to) = (job.from.dialect, job.to.dialect);
+    let mut entry = stands.clone();
+    entry.modes = entry.modes.or(program.assumed);
+    if from.id != to.id && !there.has(Said::CodeOf) {
+        known_facts::put_back(program, &entry, there);
+        ran_whole("codes-put-back", program);
+    }
+    for procedure in &mut program.procedures {
+        code_of::without_alarms(&mut procedure.body, &|control| there.says_number(control));
+    }
+    ran_whole("codes-without-alarms", program);
+    expand_repeats::where_it_computes(program, &job.to.caps(), found);
+    ran_whole("expand-repeats", program);
+    machine_cuts::read(program, &entry, &job.to.caps(), found);
+    ran_whole("machine-cuts", program);
+    let lengths = to.numbers(Quantity::Length);
+    if let Some(alarm) = there.planes_alarm {
+        planes_checked::run(program, alarm, lengths.decimals);
+        ran_whole("planes-checked", program);
+    }
+    computed_holes::run(program, &job.to.caps(), found);
+    ran_whole("computed-holes", program);
+    exact_comparisons::run(program, there, found);
+    ran_whole("exact-comparisons", program);
+    if let Some(digits) = there.values_in_full {
+        message_values::run(program, digits, found);
+        ran_whole("message-values", program);
+    }
+    control_forms::run(program, there);
+    ran_whole("control-forms", program);
+    arithmetic::run(program, there, from.formula.tolerance(), found);
+    ran_whole("arithmetic", program);
+    // Its own words are left as they are, where they say by themselves where they lead.
+    let own = to.program.o_words && from.id == to.id;
+    let computes = job.from.caps().computes.unwrap_or_default();
+    if there.restates && !own || computed_frames::behind_control(program) {
+        known = known_facts::run(program, &entry, from.id != to.id);
+        ran_whole("known-facts", program);
+    } else if computes.blocks != there.blocks {
+        // Words of another language lead to stretches of its blocks; what they say stays as it is.
+        known = known_facts::run(&mut program.clone(), &entry, true);
+        // Where a target's words have no mode of their own, the mode behind one that has is said anew.
+        let measures = job.from.caps().word_distance && !job.to.caps().word_distance;
+        if measures && !own_distance::places(program, &known).is_empty() {
+            known = known_facts::run(program, &entry, true);
+            ran_whole("known-facts", program);
+        }
+    }
+    centres_from_start::run(program, &job.to.caps());
+    ran_whole("centres-from-start", program);
+    let rows = || to.system.iter().filter(|row| row.counts(&job.to));
+    spindle_points::run(program, &|asked| rows().flat_map(SystemRow::says).any(|(said, _)| said == *asked));
+    ran_whole("spindle-points", program);
+    if from.id != to.id {
+        unit_in_force::run(program, there);
+        ran_whole("unit-in-force", program);
+    }
+    if computes.calls != there.calls {
+        found.extend(there.too_deep(program));
+    }
+    let inch = lengths.increment_inch.unwrap_or(lengths.increment);
+    let both = |row: &CodeRow| row.dwell.iter().any(|word| word.quantity == Quantity::Milliseconds);
+    let seconds = to.code.iter().any(both).then(|| to.numbers(Quantity::Seconds).increment);
+    let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch], seconds };
+    let renamed = variables::run(program, &computes, there, digits, found);
+    ran_whole("variables", program);
+    (known, renamed)
+}
+
+/// The modes that are in force where stretches of blocks begin in a program with subprograms, where no word counts in
+/// another one than its block's; `at` is what holds where the program begins.
+pub fn stands(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
+    if program.procedures.len() < 2 {
+        return HashMap::new();
+    }
+    let mut entry = at.clone();
+    entry.modes = entry.modes.or(program.assumed);
+    let known = known_facts::run(&mut program.clone(), &entry, false);
+    if own_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
+}
+
+/// The target as the passes see it.
+pub fn target(job: &Job) -> Target {
+    let caps = job.to.caps();
+    Target {
+        caps,
+        decimals: decimals(job),
+        peck_clearance: parameter(job, PECK_CLEARANCE),
+        break_lift: parameter(job, BREAK_LIFT),
+        bore_shift: bore_shift(job),
+        orientation: orientation(job),
+        compensating: job.compensating(),
+        given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
+        // What is asked for by name is done in the source's numbers.
+        ..Target::default()
+    }
+}
+
+/// How the two controls take corners that no program speaks of, where that is not the same.
+pub fn path_at_start(job: &Job) -> Option<Diagnostic> {
+    let [from, to] =
+        [&job.from, &job.to].map(|side| side.dialect.power_on.path.as_ref().map(|fact| fact.value));
+    let (from, to) = (from?, to?);
+    let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
+    let stated = job.from.length(PATH_TOLERANCE).is_some_and(|within| within.mantissa > 0);
+    (job.between_controls() && from != to && !stated).then(|| Diagnostic::new(fault, Span::default()))
+}
+
+/// Which way the source's control takes a tool off the wall of a bore, as far as it is stated.
+pub fn bore_shift(job: &Job) -> Option<Sideways> {
+    let stated = job.from.get(BORE_SHIFT);
+    Sideways::ALL.iter().find(|(name, _)| *name == stated).map(|(_, direction)| *direction)
+}
+
+/// The angle at which the source's control stops the spindle, as far as it is stated.
+pub fn orientation(job: &Job) -> Option<Num> {
+    job.from
+        .length(SPINDLE_ANGLE)
+        .filter(|_| job.from.is_chosen(SPINDLE_ANGLE))
+        .map(|angle| Num { unit: Unit::Degree, ..angle })
+}
+
+/// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
+pub fn parameter(job: &Job, option: &str) -> Option<Num> {
+    job.from.length(option)
+}

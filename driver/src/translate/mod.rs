@@ -1,0 +1,102 @@
+//! The pipeline: read, bring within the target's capabilities, write, read back, compare.
+//!
+//! A program streams through in pieces of whole lines until its first call, label or loop, and is
+//! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
+//! difference; the caller decides where a released output goes.
+
+pub mod alone;
+pub mod as_there;
+pub mod difference;
+pub mod heading;
+pub mod judge;
+pub mod rewrite;
+pub mod split;
+pub mod tools_by_name;
+mod translation;
+
+pub use as_there::{bore_shift, orientation, parameter};
+
+use std::io;
+
+use ncc_ir::canon::Modes;
+use ncc_ir::source::Span;
+
+use self::translation::Translation;
+use crate::job::{Job, Outcome};
+use crate::provenance::trace::{Asked, Recorded, Trace};
+use crate::questions::{self, Policy};
+use crate::source::Readable;
+use crate::source::chunks::{Chunk, Chunks};
+
+/// After so many errors, reading more of the program would help nobody.
+const ENOUGH_ERRORS: usize = 200;
+
+/// Translates a program.
+///
+/// # Errors
+/// Reading the source or writing the anonymous file of the output failed. What is wrong with the
+/// program itself is in the outcome.
+pub fn translate(job: &Job, source: &mut dyn Readable) -> io::Result<Outcome> {
+    Ok(translate_keeping(job, source)?.0)
+}
+
+/// Translates a program, and keeps what is asked of where the output comes from; the record only where a
+/// map is asked for and the output was verified.
+///
+/// # Errors
+/// As of [`translate`]; an output of which the map is asked and that is longer than 4 GiB.
+pub fn translate_recording(
+    job: &Job,
+    asked: Asked,
+    source: &mut dyn Readable,
+) -> io::Result<(Outcome, Option<Recorded>)> {
+    let (outcome, _, record) = run(job, asked, source)?;
+    Ok((outcome, record))
+}
+
+/// Translates a program; tells also which assumed facts the output does not state itself.
+pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Outcome, Modes)> {
+    let (outcome, inherited, _) = run(job, Asked::default(), source)?;
+    Ok((outcome, inherited))
+}
+
+fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
+    let mut chunks = Chunks::new(source);
+    let mut translation = Translation::new(job);
+    translation.record(asked);
+    loop {
+        match chunks.take()? {
+            Chunk::Lines(base, range) => {
+                if let Some(annotator) = &mut translation.annotator {
+                    annotator.source(chunks.text(range.clone()), base)?;
+                }
+                translation.piece(chunks.text(range), base)?;
+            }
+            Chunk::TooLong(start, end) => {
+                translation.reader.too_long(Span::new(start, end), &mut translation.batch)
+            }
+            Chunk::End => break,
+        }
+        if translation.errors >= ENOUGH_ERRORS {
+            break;
+        }
+    }
+    translation.end()?;
+    let (hash, bytes) = match (chunks.finish(), &job.called) {
+        // The source is what calls the others.
+        (_, Some(called)) => (called.sha256, called.bytes),
+        (own, None) => own,
+    };
+    let questions = match job.questions {
+        Policy::Skip => Vec::new(),
+        Policy::Ask | Policy::Assume => {
+            questions::find(job, source, &translation.diagnostics, translation.errors == 0)?
+        }
+    };
+    translation.answer(questions);
+    let inherited = translation.inherited(&translation.batch.assumed);
+    let record = translation.trace.take();
+    let outcome = translation.outcome(hash, bytes);
+    let record = record.filter(|_| outcome.release.is_ok()).map(Trace::finish).transpose()?;
+    Ok((outcome, inherited, record))
+}

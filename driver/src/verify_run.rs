@@ -1,0 +1,692 @@
+//! Verification of a translation as it streams by: source and emitted text are executed in the same
+//! worlds and under the same block-skip settings, and their events compared.
+
+pub mod facts;
+pub mod forks;
+pub mod twice;
+pub mod whole;
+pub mod with_facts;
+pub mod worlds;
+
+pub use facts::stops_differ;
+use facts::{Other, done_by_target, looked_at, tries_facts};
+use twice::Outliving;
+use with_facts::MOST_WITH_FACT;
+pub use worlds::worlds_of;
+
+use ncc_dialects::{BREAK_LIFT, Dialect, PECK_CLEARANCE, Quantity, Settings};
+use ncc_exec::verify::{self, Comparison, Difference, Pair, Resolution};
+use ncc_exec::{Event, Exec};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::alarms::Alarms;
+use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::computed::computes::Said;
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
+use ncc_ir::expr::Function;
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::{Op, ProgramName, Stmt};
+use ncc_ir::source::Span;
+use ncc_passes::values::variables::Fineness;
+
+use crate::job::given::Given;
+use crate::job::{Job, Verified};
+use crate::translate::difference;
+use crate::translate::{bore_shift, orientation, parameter};
+
+/// Generated worlds in which every program is executed.
+pub const WORLDS: u32 = 2;
+
+/// Highest level of block skip: a tenth is a Sinumerik's `/1`.
+const MOST_LEVELS: u8 = 10;
+
+/// Levels of block skip of which every setting is tried; of more, only pairs.
+const ALL_SETTINGS: u32 = 6;
+
+/// Why a verification ends early.
+#[derive(Debug)]
+pub enum Stop {
+    /// The source cannot be executed.
+    Source(Diagnostic),
+    /// The output is not the same program, or cannot be read back: a fault of the compiler.
+    Target(Diagnostic),
+}
+
+/// One world under one setting of the block-skip switches.
+#[derive(Clone)]
+pub struct Run {
+    /// The seed of its world.
+    seed: u32,
+    /// Levels that are on in the source: bit n is level n.
+    skip: u16,
+    source: Exec,
+    target: Exec,
+    source_events: Vec<Event>,
+    target_events: Vec<Event>,
+    comparison: Comparison,
+    /// Both controls are in one state, with nothing left to compare.
+    level: bool,
+    /// The one fact that is another one than usual, of a run that shows whether it matters.
+    other: Option<Other>,
+    /// How many events of the usual run's source, and target, it has taken of those that are not compared yet.
+    taken: [usize; 2],
+}
+
+/// A verification in progress.
+pub struct Verifier {
+    reader: Reader,
+    /// Whether the program is called by another.
+    as_called: bool,
+    /// Decisions of the source that have been told to go one way alone.
+    answered: Vec<Span>,
+    batch: Batch,
+    runs: Vec<Run>,
+    /// Runs of the first world in which one open fact is another one than usual.
+    others: Vec<Run>,
+    /// Open facts of the source's control, the target's, a bit each, that are looked at.
+    open: [u64; 2],
+    /// Whether the switch for optional stops makes a difference on either control.
+    optional_stop: bool,
+    /// Facts that were found to make another cut, each where it does.
+    matters: Vec<(Other, Span)>,
+    /// Facts that were not tried to the program's end, each where the program came to it.
+    untried: Vec<(Other, Span)>,
+    /// Events and steps for which a fact is tried.
+    reach: [u64; 2],
+    /// Events of the sets of values, where the program cannot be executed without them.
+    events_of_sets: u64,
+    levels: u16,
+    /// Whether the target's machine has numbers of its own: then controls are never in one state.
+    renamed: bool,
+    /// Whether the pairs of events are kept: then no move passes for both sides by being executed once.
+    watched: bool,
+    /// The target knows one level only: the source's are on or off together.
+    one_level: bool,
+    start: [Option<Nanos>; AXES],
+    stood: bool,
+    /// What the target's control always begins with, and the source's does not.
+    own_facts: Modes,
+    /// What variables may be given.
+    given: Given,
+    /// What the target computes with.
+    functions: Vec<Function>,
+    /// Whether its comparisons find real numbers equal that are nearly so.
+    near: bool,
+    /// To which digits its lengths are rounded.
+    fineness: Fineness,
+    /// Last place of the source that was executed, for differences without an event.
+    last: Span,
+    /// Variables that the source reads before it sets them, where both sides compute.
+    outliving: Vec<Outliving>,
+    /// What the source takes for granted of its start so far.
+    assumed: Modes,
+    /// What was not executed, or with values that were made up.
+    notes: Vec<Diagnostic>,
+}
+
+/// Facts that hold at power-on of every such control.
+pub fn fixed(dialect: &Dialect) -> Modes {
+    let p = &dialect.power_on;
+    Modes {
+        motion: p.motion.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        distance: p.distance.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        units: p.units.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        plane: p.plane.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        feed_mode: p.feed_mode.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        return_level: p.return_level.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        work_offset: p.work_offset.as_ref().filter(|f| f.always).map(|f| f.value),
+        length_offset: p.length_offset.as_ref().filter(|f| f.always).map(|f| f.value),
+        no_origin_shift: p.no_origin_shift.as_ref().filter(|f| f.always).map(|f| f.value),
+    }
+}
+
+/// How a control says alarms.
+pub fn alarms_of(settings: &Settings) -> Option<Alarms> {
+    settings.caps().computes.and_then(|computes| computes.alarms.clone())
+}
+
+/// Whether a control writes to devices.
+pub fn writes(settings: &Settings) -> bool {
+    settings.dialect.can.everything
+        || settings.caps().computes.is_some_and(|computes| computes.has(Said::Output))
+}
+
+/// What a dialect's numbers resolve.
+pub fn resolution(settings: &Settings) -> Resolution {
+    let numbers = |q| settings.dialect.numbers(q);
+    let (length, feed) = (numbers(Quantity::Length), numbers(Quantity::Feed));
+    Resolution {
+        mm: length.decimals,
+        inch: length.decimals_inch.unwrap_or(length.decimals),
+        degree: numbers(Quantity::Angle).decimals,
+        feed: feed.decimals,
+        feed_inch: feed.decimals_inch.unwrap_or(feed.decimals),
+        second: numbers(Quantity::Seconds).decimals.max(3),
+        speed: numbers(Quantity::Speed).decimals,
+    }
+}
+
+/// To which digits the target's lengths are rounded, those that are written and those that are computed.
+fn fineness(job: &Job) -> Fineness {
+    let rules = job.to.dialect.numbers(Quantity::Length);
+    let computed = [rules.increment, rules.increment_inch.unwrap_or(rules.increment)];
+    Fineness {
+        written: [rules.decimals, rules.decimals_inch.unwrap_or(rules.decimals)],
+        computed: job.to.dialect.formula.rounds.then_some(computed),
+    }
+}
+
+/// What the target's control always begins with, as far as the source's has no such fact.
+fn own_facts(job: &Job) -> Modes {
+    let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
+    Modes {
+        motion: to.motion.filter(|_| from.motion.is_none()),
+        distance: to.distance.filter(|_| from.distance.is_none()),
+        units: to.units.filter(|_| from.units.is_none()),
+        plane: to.plane.filter(|_| from.plane.is_none()),
+        feed_mode: to.feed_mode.filter(|_| from.feed_mode.is_none()),
+        return_level: to.return_level.filter(|_| from.return_level.is_none()),
+        work_offset: to.work_offset.filter(|_| from.work_offset.is_none()),
+        length_offset: to.length_offset.filter(|_| from.length_offset.is_none()),
+        no_origin_shift: to.no_origin_shift.filter(|_| from.no_origin_shift.is_none()),
+    }
+}
+
+impl Verifier {
+    pub(crate) fn new(job: &Job) -> Verifier {
+        let renaming = job.renaming();
+        let mut finest = resolution(&job.to);
+        if job.works_compensation_out() {
+            // Both sides compute, in coordinates of their own: a millionth is what they have in common.
+            (finest.mm, finest.inch) = (finest.mm.min(6), finest.inch.min(7));
+        }
+        let runs = (1..=WORLDS)
+            .map(|seed| {
+                let [source, target] = worlds_of(job, seed);
+                let mut comparison = Comparison::new(finest, source.start);
+                comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
+                comparison.see(ncc_exec::Seen::by(&job.to.dialect.caps));
+                comparison.say_alarms(alarms_of(&job.to));
+                if stops_differ(job) {
+                    comparison.optional_stops();
+                }
+                Run {
+                    seed,
+                    skip: 0,
+                    comparison,
+                    source: Exec::new(&source, 0),
+                    target: Exec::new(&target, 0),
+                    source_events: Vec::new(),
+                    target_events: Vec::new(),
+                    level: false,
+                    other: None,
+                    taken: [0; 2],
+                }
+            })
+            .collect();
+        let mut runs: Vec<Run> = runs;
+        if job.from.dialect.can.flat || job.to.dialect.can.flat {
+            runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::without_blocks);
+        }
+        if job.works_compensation_out() {
+            let rules = job.compensating().rules;
+            runs.iter_mut().for_each(|run| run.source.compute_compensation(rules));
+        }
+        if job.between_controls() {
+            runs.iter_mut()
+                .flat_map(|run| [&mut run.source, &mut run.target])
+                .for_each(Exec::between_controls);
+        }
+        if !job.to.dialect.caps.messages {
+            // Their loss is a verdict of its own, that stops unless it is allowed.
+            let stops = job.to.dialect.caps.stop_messages;
+            runs.iter_mut().for_each(|run| run.source.mute(stops));
+        }
+        if !writes(&job.to) {
+            runs.iter_mut().for_each(|run| run.source.without_output());
+        }
+        // Nobody has put other values in the messages of a program that is executed.
+        let in_full = job.to.caps().computes.and_then(|there| there.values_in_full);
+        if let Some(digits) = in_full.filter(|_| job.passes.is_empty()) {
+            runs.iter_mut().for_each(|run| run.source.values_in_full(digits));
+        }
+        Verifier {
+            reader: facts::reader_of_output(job),
+            as_called: false,
+            answered: Vec::new(),
+            batch: Batch::default(),
+            runs,
+            others: Vec::new(),
+            open: looked_at(job),
+            optional_stop: stops_differ(job),
+            matters: Vec::new(),
+            untried: Vec::new(),
+            reach: MOST_WITH_FACT,
+            events_of_sets: 0,
+            levels: 0,
+            renamed: !renaming.is_empty(),
+            watched: false,
+            one_level: job.to.dialect.caps.skip_levels <= 1,
+            start: job.start,
+            stood: false,
+            own_facts: own_facts(job),
+            given: job.given.clone(),
+            fineness: fineness(job),
+            near: job.to.caps().computes.is_some_and(|computes| computes.near),
+            functions: job.to.caps().computes.map(|computes| computes.functions.clone()).unwrap_or_default(),
+            last: Span::default(),
+            outliving: Vec::new(),
+            assumed: Modes::default(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Keeps the pairs of events of the first world, with every block-skip switch off.
+    pub fn watch(&mut self) {
+        self.watched = true;
+        if let Some(run) = self.runs.first_mut() {
+            run.comparison.keep_pairs(true);
+        }
+    }
+
+    /// The pairs found since this was last asked, and the place in the text before which no further
+    /// ones are found; `None` is its end.
+    pub fn take_pairs(&mut self) -> (Vec<Pair>, Option<u32>) {
+        let Some(run) = self.runs.first_mut() else { return (Vec::new(), None) };
+        (run.comparison.take_pairs(), run.target_events.first().map(|event| event.span.start))
+    }
+
+    /// Reads the head of the output, which opens its frame; it makes no events.
+    pub fn head(&mut self, text: &[u8]) -> Result<(), Stop> {
+        self.reader.read(text, 0, &mut self.batch);
+        self.batch.name = ProgramName::default();
+        let silent = |s: &Stmt| matches!(s.op, Op::Comment(_) | Op::Blank);
+        if !self.batch.stmts.iter().all(silent) {
+            let fault =
+                Fault::NotTheSame { difference: "the head of the output is more than a comment".into() };
+            return Err(Stop::Target(Diagnostic::new(fault, self.last)));
+        }
+        self.batch.stmts.clear();
+        self.read_back(&Modes::default())
+    }
+
+    /// The source control's parameters of cycles are taken for granted of both controls.
+    fn take_parameters(&mut self, job: &Job) {
+        let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
+        let (clearance, lift) = (value(PECK_CLEARANCE), value(BREAK_LIFT));
+        for exec in
+            self.runs.iter_mut().chain(&mut self.others).flat_map(|run| [&mut run.source, &mut run.target])
+        {
+            if let Some(clearance) = clearance {
+                exec.set_peck_clearance(clearance);
+            }
+            if let Some(lift) = lift {
+                exec.set_break_lift(lift);
+            }
+            if let Some(direction) = bore_shift(job) {
+                exec.set_bore_shift(direction);
+            }
+            if let Some(angle) = orientation(job).and_then(|angle| angle.nanos(false)) {
+                exec.set_orientation(angle);
+            }
+        }
+    }
+
+    /// What the passes have taken for granted of both controls, and patterns that they have folded:
+    /// their holes are where the source writes them to half a unit of its own last digit.
+    pub fn take(&mut self, found: &[Diagnostic], job: &Job) {
+        let mut parameters = false;
+        for diagnostic in found {
+            match diagnostic.fault {
+                Fault::AssumedParameter { .. } => parameters = true,
+                Fault::PatternFolded { digits, inch, .. } | Fault::MachineCutFolded { digits, inch } => {
+                    let all = self.runs.iter_mut().chain(&mut self.others);
+                    all.for_each(|run| run.comparison.rounded(digits, inch));
+                }
+                _ => {}
+            }
+        }
+        if parameters {
+            self.take_parameters(job);
+        }
+    }
+
+    /// Executes further statements of the source's main procedure.
+    pub fn source(&mut self, stmts: &[Stmt], assumed: &Modes) -> Result<(), Stop> {
+        self.prepare(stmts, assumed);
+        self.run_source(stmts)
+    }
+
+    fn run_source(&mut self, stmts: &[Stmt]) -> Result<(), Stop> {
+        for run in &mut self.runs {
+            for stmt in stmts {
+                run.source.step(stmt, &mut run.source_events).map_err(Stop::Source)?;
+            }
+        }
+        self.others_source(stmts);
+        if let Some(stmt) = stmts.last() {
+            self.last = stmt.span;
+        }
+        Ok(())
+    }
+
+    /// A piece of which the text is to say the source's statements one by one: executes and compares
+    /// both. Plain moves that are read back as they were said are executed once by controls in one
+    /// state, because both do the same.
+    pub fn piece(
+        &mut self,
+        stmts: &[Stmt],
+        assumed: &Modes,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+    ) -> Result<(), Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        if !self.same_plain(stmts) {
+            self.source(stmts, assumed)?;
+            return self.target_read(inherited);
+        }
+        let absolute = |run: &Run| run.source.counts_absolute() && run.target.counts_absolute();
+        let absolute =
+            self.stood && self.runs.iter().all(absolute) && !stmts.iter().any(verify::counts_from_there);
+        match absolute {
+            true => self.assume(assumed),
+            false => self.prepare(stmts, assumed),
+        }
+        self.read_back(inherited)?;
+        let alike = |run: &Run| absolute || run.source.counts_alike(&run.target, stmts);
+        let agree = |run: &Run| run.source.agrees(&run.target) && alike(run);
+        if !self.runs.iter().all(agree) {
+            // This piece is the first to rely on something that only one of them has.
+            self.run_source(stmts)?;
+            return self.target_step();
+        }
+        for run in &mut self.runs {
+            let events = run.source.pass(stmts).map_err(Stop::Source)?;
+            run.target.follow(&run.source);
+            run.target.has_moved(stmts);
+            run.comparison.pass(events, run.source.machine());
+        }
+        self.batch.stmts.clear();
+        if let Some(stmt) = stmts.last() {
+            self.last = stmt.span;
+        }
+        Ok(())
+    }
+
+    /// Reads a further piece of emitted text back, executes it and compares. `inherited` are the
+    /// assumed facts that the text does not state itself.
+    pub fn target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        self.target_read(inherited)
+    }
+
+    fn target_read(&mut self, inherited: &Modes) -> Result<(), Stop> {
+        self.read_back(inherited)?;
+        self.target_step()
+    }
+
+    /// Executes what was read back, and compares.
+    fn target_step(&mut self) -> Result<(), Stop> {
+        let found = levels(&self.batch.stmts);
+        self.fork_for_target(&[found]);
+        self.fork_for_facts();
+        self.usual_target()?;
+        self.others_step(false)?;
+        for run in &mut self.runs {
+            run.comparison
+                .advance(&mut run.source_events, &mut run.target_events, false)
+                .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
+            let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
+            run.level = nothing_left && !self.renamed && !self.watched && run.source.agrees(&run.target);
+        }
+        self.drop_same();
+        self.batch.stmts.clear();
+        Ok(())
+    }
+
+    /// Executes what was read back with the usual facts.
+    fn usual_target(&mut self) -> Result<(), Stop> {
+        for run in &mut self.runs {
+            for stmt in &self.batch.stmts {
+                let stepped = run.target.step(stmt, &mut run.target_events);
+                stepped.map_err(|d| {
+                    facts::stopped(&d, run.source_events.get(run.target_events.len()), self.last)
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the text just read says plain moves as they were said, and all controls are level.
+    fn same_plain(&self, said: &[Stmt]) -> bool {
+        let read = &self.batch.stmts;
+        self.others.is_empty()
+            && self.runs.iter().all(|run| run.level)
+            && said.len() == read.len()
+            && said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b))
+    }
+
+    /// Ends a program that was streamed to its end.
+    pub fn finish(&mut self) -> Result<(), Stop> {
+        let mut rest = Batch::default();
+        self.reader.finish(&mut rest);
+        self.batch.stmts.append(&mut rest.stmts);
+        self.batch.diagnostics.append(&mut rest.diagnostics);
+        self.read_back(&Modes::default())?;
+        self.fork_for_facts();
+        self.usual_target()?;
+        for run in &mut self.runs {
+            run.source.no_open_corner().map_err(Stop::Source)?;
+            run.source.end_of_text(&mut run.source_events);
+            run.target.end_of_text(&mut run.target_events);
+        }
+        self.others_step(true)?;
+        for run in &mut self.runs {
+            run.comparison
+                .advance(&mut run.source_events, &mut run.target_events, true)
+                .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
+        }
+        self.compare_next_runs();
+        Ok(())
+    }
+
+    /// What was covered.
+    pub fn covered(&self) -> Verified {
+        Verified {
+            worlds: WORLDS,
+            skip_settings: self.runs.len() as u32 / WORLDS,
+            events: self.runs.iter().map(|r| r.comparison.events).sum::<u64>() + self.events_of_sets,
+        }
+    }
+
+    /// Levels of block skip that occur, if not every setting of them was tried.
+    pub fn sampled(&self) -> Option<u8> {
+        let levels = self.levels.count_ones();
+        let all = !self.one_level && levels <= ALL_SETTINGS || levels <= 1;
+        (!all).then_some(levels as u8)
+    }
+
+    fn assume(&mut self, assumed: &Modes) {
+        self.assumed = *assumed;
+        self.runs.iter_mut().for_each(|run| run.source.assume(assumed));
+    }
+
+    fn prepare(&mut self, stmts: &[Stmt], assumed: &Modes) {
+        self.fork(levels(stmts));
+        self.fork_for_source(stmts);
+        self.begin(assumed);
+    }
+
+    /// Takes for granted what the source does; at the beginning all controls stand where it begins.
+    fn begin(&mut self, assumed: &Modes) {
+        self.assumed = *assumed;
+        for run in self.runs.iter_mut().chain(&mut self.others) {
+            run.source.assume(assumed);
+            if !self.stood {
+                run.source.stand_at(&self.start);
+                run.target.be_at(run.source.machine());
+                run.comparison.start_at(run.source.machine());
+            }
+        }
+        self.stood = true;
+    }
+
+    /// Adds the settings that a new level of block skip makes.
+    fn fork(&mut self, levels: u16) {
+        let new = levels & !self.levels;
+        for level in (1..=u32::from(MOST_LEVELS)).filter(|l| new & 1 << l != 0) {
+            let bit = 1u16 << level;
+            let first = self.levels == 0;
+            let all = self.levels;
+            self.levels |= bit;
+            if self.one_level && !first {
+                let all = self.runs.iter_mut().chain(&mut self.others);
+                for run in all.filter(|run| run.skip != 0) {
+                    run.skip |= bit;
+                    run.source.set_skip(run.skip);
+                }
+                continue;
+            }
+            let many = self.levels.count_ones() > ALL_SETTINGS;
+            let keeps = |skip: u16| !many || skip.count_ones() <= 1 || skip == all;
+            let target = |skip| if self.one_level { 1 << 1 } else { skip };
+            let further = |runs: &[Run]| -> Vec<Run> {
+                runs.iter().filter(|run| keeps(run.skip)).map(|run| run.skipping(bit, target)).collect()
+            };
+            let (further, mut others) = (further(&self.runs), further(&self.others));
+            others.retain(|run| tries_facts(run.skip, self.levels));
+            self.others.extend(others);
+            self.runs.extend(further);
+        }
+    }
+
+    /// Adds the settings of levels that the output has and the source has not. (A target with one
+    /// level has no further ones.)
+    fn fork_for_target(&mut self, levels: &[u16]) {
+        if !self.one_level {
+            self.fork(levels.iter().fold(0, |all, level| all | level));
+        }
+    }
+
+    /// Decisions that go one way alone, which has been told where they stand.
+    pub fn answered(&mut self, decisions: Vec<Span>) {
+        self.answered = decisions;
+    }
+
+    /// Takes the facts that the output inherits, and refuses what could not be read back.
+    fn read_back(&mut self, inherited: &Modes) -> Result<(), Stop> {
+        let own = self.batch.assumed;
+        if self.as_called && own.or(*inherited) != *inherited {
+            let what = match (own.units, inherited.units) {
+                (Some(_), None) => "units that a subprogram says behind its first label alone",
+                _ => "what its caller has in force, where this control begins otherwise",
+            };
+            let what = what.into();
+            return Err(Stop::Source(Diagnostic::new(Fault::CannotSay { what }, self.last)));
+        }
+        for run in self.runs.iter_mut().chain(&mut self.others) {
+            // What the text itself takes for granted goes before what it inherits.
+            run.target.assume(&own);
+            run.target.assume(inherited);
+        }
+        // A text that says nothing is read: whether nothing is what the source does, the events tell.
+        let fault =
+            |d: &&Diagnostic| d.fault.gravity() == Gravity::Error && !matches!(d.fault, Fault::EmptyProgram);
+        let error = self.batch.diagnostics.iter().find(fault);
+        if let Some(d) = error {
+            return Err(unreadable(d, self.last));
+        }
+        self.note_assumed();
+        Ok(())
+    }
+}
+
+/// Levels of block skip that occur.
+pub fn levels(stmts: &[Stmt]) -> u16 {
+    let mut found = 0;
+    for stmt in stmts {
+        found |= stmt.skip.map_or(0, |level| 1u16 << level.min(MOST_LEVELS));
+        if let Op::Control(control) = &stmt.op {
+            found |= control.bodies().fold(0, |found, body| found | levels(body));
+        }
+    }
+    found
+}
+
+fn unreadable(d: &Diagnostic, at: Span) -> Stop {
+    Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
+}
+
+/// A difference is a fault of the compiler, but where the source leaves open what the target cannot.
+fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> Stop {
+    let at = difference.source.as_ref().map_or(last, |event| event.span);
+    if let Some(behaviour) = done_by_target(difference) {
+        return Stop::Source(Diagnostic::new(Fault::DoneByTarget { behaviour }, at));
+    }
+    if let Some(fact) = unsaid {
+        return Stop::Source(Diagnostic::new(Fault::FactUnsaid { fact }, at));
+    }
+    let difference = difference::describe(difference).into();
+    Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ncc_dialects::builtin;
+
+    const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
+    const SECOND: &str = "X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n";
+
+    fn job() -> Job {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        Job::new(settings.clone(), settings, "piece.nc")
+    }
+
+    /// Verifies a first piece as it is, and a second one of which the output says something else.
+    fn second_piece(said: &str, written: &str) -> Result<Verifier, Stop> {
+        let job = job();
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut verifier = Verifier::new(&job);
+        let mut batch = Batch::default();
+        for (said, written) in [(FIRST, FIRST), (said, written)] {
+            reader.read(said.as_bytes(), 0, &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            verifier.piece(&stmts, &batch.assumed, written.as_bytes(), 0, &batch.assumed)?;
+        }
+        Ok(verifier)
+    }
+
+    #[test]
+    fn level_controls_make_the_same_events_once() {
+        let verifier = second_piece(SECOND, SECOND).expect("the same program");
+        assert!(verifier.runs.iter().all(|run| run.level && run.source.agrees(&run.target)));
+        // A tool change and three moves, then four moves, in each world.
+        assert_eq!(verifier.covered().events, u64::from(WORLDS) * 8);
+    }
+
+    #[test]
+    fn a_late_piece_that_says_something_else_is_seen() {
+        for (from, to) in [("Y10.", "Y10.001"), ("F200.", "F201."), ("G00 Z5.", "Z5."), ("X10.\n", "")] {
+            let written = SECOND.replacen(from, to, 1);
+            assert!(matches!(second_piece(SECOND, &written), Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+
+    /// Controls that are level may still have a fact from their world; the source alone takes it for granted.
+    #[test]
+    fn what_only_the_source_takes_for_granted_ends_the_level() {
+        let job = job();
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut verifier = Verifier::new(&job);
+        let mut batch = Batch::default();
+        let mut piece = |text: &str, verifier: &mut Verifier| {
+            reader.read(text.as_bytes(), 0, &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            verifier.piece(&stmts, &batch.assumed, text.as_bytes(), 0, &Modes::default())
+        };
+        piece("%\nO1\nG21 G17 G90 G40 G49 G80 G94\nM08\n", &mut verifier).expect("no move, no work offset");
+        assert!(verifier.runs.iter().any(|run| run.level));
+        assert!(matches!(piece("G01 X10. F100.\n", &mut verifier), Err(Stop::Target(_))));
+    }
+}

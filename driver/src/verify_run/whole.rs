@@ -1,0 +1,659 @@
+//! Programs that are kept whole: both are run from where they begin to their ends, against each other.
+//!
+//! What a program reads and has not set is given values, the same in both by the variables' names: made of the
+//! numbers of the program itself, so that its decisions go both ways, and nothing at all for local variables. With
+//! which values the source cannot be executed, it says nothing. Ways that were not gone are told.
+
+use ncc_exec::verify::Pair;
+use ncc_exec::{Event, Exec, Kind, Progress, Runner};
+use ncc_ir::canon::Modes;
+use ncc_ir::computed::open::{literals, open_variables};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Var;
+use ncc_ir::expr::value::Value;
+use ncc_ir::program::valid::{anything, not_called};
+use ncc_ir::program::{Procedure, Program, Type};
+use ncc_ir::source::Span;
+use ncc_passes::values::otherwise::{Taken, There, compares_nearly, otherwise, places};
+use ncc_passes::values::variables::Renamed;
+
+use super::facts::{Other, tries_facts};
+use super::forks::{Forks, Shown};
+use super::twice::outliving;
+use super::{Run, Stop, Verifier, different, levels, unreadable};
+use crate::job::given::Given as Stated;
+
+/// Events that are made on each side before they are compared.
+pub const PIECE: usize = 4096;
+
+/// Pieces of a source that are executed by itself, to see whether it can be.
+const MOST_PIECES: usize = 4096;
+
+/// Events of a run after which a program is taken for one without an end.
+const MOST_EVENTS: u64 = 50_000_000;
+
+/// Sets of values with which a program is run that reads what it has not set, in each world.
+const SETS: u32 = 200;
+
+/// Events of a run with such a set, and steps that it may do nothing.
+pub const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
+
+/// Sets of which one must come to the program's end; if none does, one of them is run as far as a program without
+/// variables of others is.
+const FEW_SETS: u32 = 8;
+
+/// Decisions that are told; of more, the first ones.
+const MOST_TOLD: usize = 20;
+
+/// Blocks of the output that are told, where it decides more than the source.
+const MOST_BLOCKS: usize = 3;
+
+/// What another program has left in a variable.
+const LEFT_THERE: f64 = -791.3;
+
+/// Places of which it is asked whether a difference is made there; behind them it is told at the end.
+const MOST_PLACES: usize = 64;
+
+/// Values that any variable may have.
+const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
+
+/// What may be taken for granted of a source's numbers, alone and together.
+const READINGS: [&[Taken]; 7] = [
+    &[Taken::Apart],
+    &[Taken::NotNegative],
+    &[Taken::Together],
+    &[Taken::Apart, Taken::NotNegative],
+    &[Taken::Apart, Taken::Together],
+    &[Taken::NotNegative, Taken::Together],
+    &[Taken::Apart, Taken::NotNegative, Taken::Together],
+];
+
+/// Values for what a program reads and has not set.
+pub struct Given<'g> {
+    open: Vec<(Var, Span)>,
+    /// Parameters of the main procedure, and what they hold: each has a value, which a call has converted.
+    parameters: Vec<(Var, Type)>,
+    /// What is stated of them.
+    stated: &'g Stated,
+    /// What is tried first: the numbers of the program, and those beside them.
+    pool: Vec<f64>,
+    /// What the output calls the source's variables.
+    renamed: Renamed,
+    /// The source of an output that computes, in the other [`READINGS`].
+    other_readings: [Option<Program>; READINGS.len()],
+    /// Whether the output's comparisons find equal what is nearly so, and the source's do not.
+    near: bool,
+}
+
+impl<'g> Given<'g> {
+    fn new(source: &Program, stated: &'g Stated) -> Given<'g> {
+        let open = open_variables(source);
+        let mut pool = FIRST.to_vec();
+        if !open.is_empty() {
+            let own = literals(source);
+            pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
+        }
+        let main = source.procedures.first().into_iter();
+        let parameters = main.flat_map(|main| {
+            let kinds = main.kinds.iter().copied().chain(std::iter::repeat(Type::Real));
+            main.parameters.iter().cloned().zip(kinds)
+        });
+        let parameters = parameters.collect();
+        Given {
+            open,
+            parameters,
+            stated,
+            pool,
+            renamed: Renamed::default(),
+            other_readings: [const { None }; READINGS.len()],
+            near: false,
+        }
+    }
+
+    /// The value of a variable in a set: in the first one, a local variable has none.
+    pub fn value(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
+        if !self.open.iter().any(|(open, _)| open == var) {
+            return None;
+        }
+        let parameter = self.parameters.iter().find(|(own, _)| own == var).map(|(_, kind)| *kind);
+        let local = matches!(var, Var::Local(_)) && parameter.is_none();
+        let name = var.name();
+        let hash = name.bytes().chain(seed.to_le_bytes()).chain(set.to_le_bytes());
+        let hash =
+            hash.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+        let hash = mixed(hash);
+        let converted = |value: f64| {
+            Value::Number(match parameter {
+                Some(Type::Int) => value.round(),
+                Some(Type::Bool) => f64::from(u8::from(value != 0.0)),
+                Some(Type::Real) | None => value,
+            })
+        };
+        if let Some(value) = self.stated.value(&name, set, hash) {
+            return Some(value.map_or(Value::Vacant, converted));
+        }
+        // In every second set all of them are given, else some are not.
+        if local && (set == 0 || set.is_multiple_of(2) && hash.is_multiple_of(4)) {
+            return Some(Value::Vacant);
+        }
+        let among = if set % 3 == 1 { FIRST.len() } else { self.pool.len() };
+        Some(converted(self.pool[(mixed(hash) >> 20) as usize % among]))
+    }
+}
+
+impl Given<'_> {
+    /// The value of one of the output's variables: that of the source's. What the source does not have, or leaves to
+    /// be set first, holds something there, where a control has no variables without a value.
+    pub fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
+        let source = self.renamed.source(var).unwrap_or(var);
+        let own = self.value(source, seed, set);
+        match var {
+            Var::Common(_) if own.is_none() && self.renamed.filled() => Some(Value::Number(LEFT_THERE)),
+            _ => own,
+        }
+    }
+}
+
+/// One of the sets of values, and how far a program is run with it: events, and steps that nothing comes of.
+#[derive(Clone, Copy)]
+pub struct Set {
+    pub(crate) number: u32,
+    pub(crate) most: u64,
+    pub(crate) idle: Option<u64>,
+}
+
+impl Set {
+    /// A set of which the run may be cut short: another one comes to the end.
+    fn short(number: u32) -> Set {
+        Set { number, most: MOST_OF_SET.0, idle: Some(MOST_OF_SET.1) }
+    }
+
+    /// A set with which the program is run as far as any is.
+    fn long(number: u32) -> Set {
+        Set { number, most: MOST_EVENTS, idle: None }
+    }
+}
+
+/// Where ways that were gone go, and pairs of events, if they are kept.
+pub type To<'t> = (&'t mut Gone, &'t mut dyn FnMut(&[Pair]));
+
+/// Ways that were gone, of both programs.
+#[derive(Default)]
+pub struct Gone {
+    source: Vec<u8>,
+    target: Vec<u8>,
+}
+
+/// How far a program came with any of the sets.
+struct Came {
+    /// To its end.
+    through: bool,
+    /// Which start, and the first set with it, with which it is longer than the run of a set may be.
+    goes_on: Option<(usize, u32)>,
+    /// Starts and sets that took a path which none before them had taken.
+    new_paths: Vec<(usize, u32)>,
+    /// Events that were the same on both sides.
+    events: u64,
+}
+
+/// What the target's control refuses of an arc that the source's has made: no pass knows the size of a computed one.
+fn target_arc(fault: &Fault) -> Option<Fault> {
+    match fault {
+        Fault::ArcEndOffCircle { radii, allowed } => {
+            Some(Fault::ArcRadiiDiffer { radii: *radii, allowed: *allowed })
+        }
+        Fault::ArcRadiusTooSmall => {
+            let what = "a computed radius below half the distance from start to end".into();
+            Some(Fault::CannotSay { what })
+        }
+        _ => None,
+    }
+}
+
+/// Bits well mixed (splitmix64).
+fn mixed(n: u64) -> u64 {
+    let n = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let n = (n ^ n >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let n = (n ^ n >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    n ^ n >> 31
+}
+
+/// Why a run ends before its end.
+pub enum Ended {
+    /// The source cannot be executed.
+    Source(Diagnostic),
+    /// The output does something else.
+    Target(Diagnostic),
+    /// It does, for what it takes for granted of the source's numbers is not so.
+    NotSo(Diagnostic),
+    /// It is long enough.
+    Enough(Span),
+}
+
+impl Verifier {
+    /// Ends a program of which the rest was kept whole: runs both rests against each other.
+    pub fn whole(&mut self, source: &Program, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
+        self.whole_telling((source, &Renamed::default()), text, base, inherited, &mut |_| {})
+    }
+
+    /// As [`Verifier::whole`]; pairs of events go to `pairs` as they are found, if they are kept.
+    /// Variables of the source may have other names in the text.
+    pub fn whole_telling(
+        &mut self,
+        (source, renamed): (&Program, &Renamed),
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Stop> {
+        for procedure in &source.procedures {
+            self.fork(levels(&procedure.body));
+            self.begin(&source.assumed);
+        }
+        let before: Vec<(u32, Exec)> = self.runs.iter().map(|run| (run.seed, run.source.clone())).collect();
+        let stated = std::mem::take(&mut self.given);
+        let mut given = Given::new(source, &stated);
+        for name in stated.names() {
+            if !given.open.iter().any(|(var, _)| stated.is_name(name, &var.name())) {
+                self.notes.push(Diagnostic::new(Fault::ValueNotRead { name: name.into() }, Span::default()));
+            }
+        }
+        given.renamed = renamed.clone();
+        let verdict = self.whole_compared(source, &mut given, text, base, inherited, pairs);
+        match verdict {
+            // A program that cannot be executed is told as that, whatever was made of it.
+            Err(Stop::Target(told)) => Err(alone(source, &given, before).unwrap_or(Stop::Target(told))),
+            Ok(()) | Err(Stop::Source(_)) => verdict,
+        }
+    }
+
+    fn whole_compared(
+        &mut self,
+        source: &Program,
+        given: &mut Given,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        self.reader.finish(&mut self.batch);
+        self.read_back(inherited)?;
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        let target = Program { procedures, ..Program::default() };
+        let found: Vec<u16> = target.procedures.iter().map(|p| levels(&p.body)).collect();
+        self.fork_for_target(&found);
+        let computes = anything(&target).is_some();
+        if !computes {
+            // It is what the source comes to with nothing given.
+            given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
+        }
+        if computes {
+            self.outliving = outliving(source, &given.renamed);
+            given.near = self.near && !compares_nearly(source);
+            let there = self.there(given);
+            given.other_readings = READINGS.map(|taken| otherwise(source, taken, there, u32::MAX));
+        }
+        let given = &*given;
+        let mut gone = Gone::default();
+        let mut starts = Vec::new();
+        let mut failed = None;
+        let mut runs = std::mem::take(&mut self.runs);
+        // What was streamed has been looked at.
+        runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::ask_anew);
+        let mut carried = std::mem::take(&mut self.others);
+        for other in &mut carried {
+            let usual = runs.iter().find(|run| (run.seed, run.skip) == (other.seed, other.skip));
+            usual.into_iter().for_each(|usual| other.catch_up(usual));
+        }
+        let first = runs.first().map(|run| run.seed);
+        let wanted = runs.first().map(|run| self.facts_of(run, source)).unwrap_or_default();
+        let (mut met, mut shown, mut left, mut apart) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for run in &mut runs {
+            let mut forks = (Some(run.seed) == first).then(|| {
+                let tries = |other: &Other| tries_facts(run.skip, self.levels) || !met.contains(other);
+                let known = |other: &Other| shown.iter().any(|shown: &Shown| shown.other == *other);
+                let wanted = wanted.iter().copied().filter(|other| tries(other) && !known(other));
+                let mut forks = Forks::new(wanted.collect(), self.reach);
+                let own = |other: &&Run| (other.seed, other.skip) == (run.seed, run.skip);
+                for other in carried.iter().filter(own) {
+                    forks.carry(other.clone());
+                }
+                forks
+            });
+            let start = (!given.open.is_empty() && run.skip == 0 || forks.is_some()).then(|| run.clone());
+            let sides = [source, &target];
+            let ended = self.run_against(run, sides, given, Set::long(0), (&mut gone, pairs), forks.as_mut());
+            match ended {
+                Ok(()) => {}
+                // With other values it may be executed.
+                Err(Ended::Source(fault)) if !given.open.is_empty() => failed = failed.or(Some(fault)),
+                Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
+                Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+                Err(Ended::Enough(at)) => {
+                    let fault = Fault::NoEnd { steps: MOST_EVENTS };
+                    return Err(Stop::Source(Diagnostic::new(fault, at)));
+                }
+            }
+            if let (Some(mut forks), Some(start)) = (forks, &start) {
+                let unseen = forks.unseen(run);
+                if !unseen.is_empty() {
+                    apart.push((start.clone(), unseen));
+                }
+                met.append(&mut forks.met);
+                shown.append(&mut forks.shown);
+                left.append(&mut forks.left);
+            }
+            starts.extend(start.filter(|start| !given.open.is_empty() && start.skip == 0));
+        }
+        self.runs = runs;
+        self.compare_next_runs();
+        let sides = [source, &target];
+        let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
+        if failed.is_some() {
+            self.events_of_sets += came.events;
+        }
+        for Shown { other, ended, run } in shown {
+            self.judge(ended, other, &run)?;
+        }
+        self.untried.append(&mut left);
+        for (start, facts) in apart {
+            self.run_apart(&start, 0, sides, given, facts)?;
+        }
+        for (start, set) in came.new_paths {
+            self.whole_with_facts(&starts[start], set, sides, given)?;
+        }
+        if let (false, Some((start, set))) = (came.through, came.goes_on) {
+            // Only a run that comes to its end shows that the program has one.
+            let mut run = starts[start].clone();
+            run.comparison.keep_pairs(false);
+            let to: To = (&mut gone, &mut |_| {});
+            match self.run_against(&mut run, sides, given, Set::long(set), to, None) {
+                Ok(()) => failed = None,
+                Err(Ended::Enough(at)) => {
+                    let fault = Fault::NoEnd { steps: MOST_EVENTS };
+                    return Err(Stop::Source(Diagnostic::new(fault, at)));
+                }
+                Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
+                Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+            }
+        }
+        if let Some(fault) = failed.filter(|_| !came.through) {
+            return Err(Stop::Source(fault));
+        }
+        for procedure in not_called(source).into_iter().filter_map(|at| source.procedures.get(at)) {
+            let at = procedure.body.first().map_or(self.last, |stmt| stmt.span);
+            let name = procedure.name.as_ref().into();
+            self.notes.push(Diagnostic::new(Fault::NotCalled { name }, at));
+        }
+        if computes {
+            self.tell(source, (&target, text, base), given, &gone);
+        }
+        Ok(())
+    }
+
+    /// Runs both programs with sets of values, until every way of both was gone.
+    fn with_sets(
+        &self,
+        starts: &[Run],
+        sides: [&Program; 2],
+        given: &Given,
+        through: bool,
+        gone: &mut Gone,
+    ) -> Result<Came, Stop> {
+        let mut came = Came { through, goes_on: None, new_paths: Vec::new(), events: 0 };
+        let [a, b] = sides.map(Runner::new);
+        for set in 1..=SETS {
+            let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
+            let endless = set > FEW_SETS && !came.through && came.goes_on.is_some();
+            if starts.is_empty() || endless || set > 2 && came.through && all() {
+                break;
+            }
+            for (at, start) in starts.iter().enumerate() {
+                let mut run = start.clone();
+                run.comparison.keep_pairs(false);
+                let (before, first) = ((gone.source.clone(), gone.target.clone()), !came.through);
+                let events = run.comparison.events;
+                let ended =
+                    self.run_against(&mut run, sides, given, Set::short(set), (gone, &mut |_| {}), None);
+                if matches!(ended, Ok(()) | Err(Ended::Enough(_))) {
+                    came.events += run.comparison.events - events;
+                    if first || before != (gone.source.clone(), gone.target.clone()) {
+                        came.new_paths.push((at, set));
+                    }
+                }
+                match ended {
+                    Ok(()) => came.through = true,
+                    Err(Ended::Enough(_)) => came.goes_on = came.goes_on.or(Some((at, set))),
+                    Err(Ended::Source(_)) => {}
+                    Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
+                    Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+                }
+            }
+        }
+        Ok(came)
+    }
+
+    /// Runs both programs from where they begin, with one set of values. A difference that is none where what was
+    /// taken for granted of the source's numbers is read the other way tells that they are not so; another one is the
+    /// output's.
+    fn run_against<'p>(
+        &self,
+        run: &mut Run,
+        [source, target]: [&'p Program; 2],
+        given: &Given,
+        set: Set,
+        to: To,
+        forks: Option<&mut Forks<'p>>,
+    ) -> Result<(), Ended> {
+        let start = given.other_readings.iter().any(Option::is_some).then(|| run.clone());
+        let ended = self.run_both(run, [source, target], given, set, to, forks);
+        let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
+        let same = |other: &Program| {
+            let mut run = start.clone();
+            run.comparison.keep_pairs(false);
+            let to: To = (&mut Gone::default(), &mut |_| {});
+            let told = self.run_both(&mut run, [other, target], given, set, to, None);
+            // Both may end in what a control stops at.
+            match (&told, &ended) {
+                (Ok(()), _) => true,
+                (Err(Ended::Source(one)), Err(Ended::Target(two))) => {
+                    matches!(two.fault, Fault::NotReadBack { code } if code == one.fault.code())
+                }
+                _ => false,
+            }
+        };
+        let mut read = given.other_readings.iter().zip(READINGS);
+        let Some((_, taken)) = read.find(|(other, _)| other.as_ref().is_some_and(same)) else {
+            return ended;
+        };
+        // The first place with which the output is the source in that reading.
+        let there = self.there(given);
+        let at = places(source, taken, there)
+            .into_iter()
+            .take(MOST_PLACES)
+            .find(|at| otherwise(source, taken, there, at.start).is_some_and(|other| same(&other)));
+        let what = taken[0].otherwise().into();
+        Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, at.unwrap_or(self.last))))
+    }
+
+    fn there(&self, given: &Given) -> There<'_> {
+        There { functions: &self.functions, fineness: self.fineness, near: given.near }
+    }
+
+    /// Runs both programs from where they begin.
+    pub fn run_both<'p>(
+        &self,
+        run: &mut Run,
+        sides: [&'p Program; 2],
+        given: &Given,
+        set: Set,
+        (gone, pairs): To,
+        mut forks: Option<&mut Forks<'p>>,
+    ) -> Result<(), Ended> {
+        let mut runners = sides.map(Runner::new);
+        runners[0].give(&mut |var| given.value(var, run.seed, set.number));
+        runners[1].give(&mut |var| given.value_there(var, run.seed, set.number));
+        if let Some(most) = set.idle {
+            runners.iter_mut().for_each(|runner| runner.limit_idle(most));
+        }
+        if let Some(forks) = &mut forks {
+            forks.begin(&runners, self.last);
+        }
+        let first = run.comparison.events;
+        let mut done = [false; 2];
+        let ended = loop {
+            match self.run_side(0, run, &mut runners, &mut done, forks.as_deref_mut()) {
+                Ok(()) => {}
+                Err(fault) => break Err(Ended::Source(fault)),
+            }
+            match self.run_side(1, run, &mut runners, &mut done, forks.as_deref_mut()) {
+                Ok(()) => {}
+                // What is read back has not failed: the user has stopped ncc.
+                Err(Diagnostic { fault: fault @ Fault::Interrupted { .. }, .. }) => {
+                    break Err(Ended::Source(Diagnostic::new(fault, runners[0].here())));
+                }
+                Err(fault) => {
+                    let place = run.source_events.get(run.target_events.len());
+                    break Err(match (target_arc(&fault.fault), place) {
+                        (Some(refused), Some(Event { kind: Kind::Arc { .. }, span, .. })) => {
+                            Ended::NotSo(Diagnostic::new(refused, *span))
+                        }
+                        _ => Ended::target(unreadable(&fault, self.last)),
+                    });
+                }
+            }
+            let over = done == [true; 2];
+            if run.comparison.events - first > set.most {
+                break Err(Ended::Enough(runners[0].here()));
+            }
+            if over {
+                if let Err(fault) = run.source.no_open_corner() {
+                    break Err(Ended::Source(fault));
+                }
+                run.source.end_of_text(&mut run.source_events);
+                run.target.end_of_text(&mut run.target_events);
+            }
+            // Where one side is done and the other goes on, that must be going nowhere.
+            let advanced = self.advance_run(run, over);
+            if self.watched && set.number == 0 {
+                pairs(&run.comparison.take_pairs());
+            }
+            let ahead = run.source_events.len().max(run.target_events.len()) >= PIECE;
+            let advanced = match advanced {
+                Ok(()) if !over && ahead => self.advance_run(run, true),
+                advanced => advanced,
+            };
+            match advanced {
+                Err(stop) => break Err(Ended::target(stop)),
+                Ok(()) if over => break Ok(()),
+                Ok(()) => {}
+            }
+            if let Some(forks) = &mut forks {
+                forks.look(run, &runners, self);
+            }
+        };
+        if let (Some(forks), Ok(()) | Err(Ended::Source(_) | Ended::Enough(_))) = (forks, &ended) {
+            forks.finish(self);
+        }
+        runners[0].add_taken(&mut gone.source);
+        runners[1].add_taken(&mut gone.target);
+        ended
+    }
+
+    /// Runs one side until there is something to compare.
+    fn run_side<'p>(
+        &self,
+        side: usize,
+        run: &mut Run,
+        runners: &mut [Runner<'p>; 2],
+        done: &mut [bool; 2],
+        forks: Option<&mut Forks<'p>>,
+    ) -> Result<(), Diagnostic> {
+        if done[side] {
+            return Ok(());
+        }
+        let came = match forks {
+            Some(forks) => forks.run_side(side, run, runners, *done, self.last)?,
+            None => {
+                let (exec, events) = run.side(side);
+                runners[side].run(exec, PIECE, events)?
+            }
+        };
+        done[side] = came == Progress::Done;
+        Ok(())
+    }
+
+    pub(crate) fn advance_run(&self, run: &mut Run, over: bool) -> Result<(), Stop> {
+        let advanced = run.comparison.advance(&mut run.source_events, &mut run.target_events, over);
+        advanced.map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))
+    }
+
+    /// Tells what was given values, and which ways were not gone.
+    fn tell(
+        &mut self,
+        source: &Program,
+        (target, text, base): (&Program, &[u8], u32),
+        given: &Given,
+        gone: &Gone,
+    ) {
+        for (var, span) in given.open.iter().filter(|(var, _)| !given.stated.says(&var.name())) {
+            let fault = Fault::VariableGiven { name: var.name().into() };
+            self.notes.push(Diagnostic::new(fault, *span));
+        }
+        let ways = |taken: u8| Fault::NotTaken { holds: taken & 1 == 0, fails: taken & 2 == 0 };
+        let mut untaken = Runner::new(source).untaken(&gone.source);
+        let open = untaken.len();
+        untaken.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
+        // The output has none of these.
+        let answered = open - untaken.len();
+        let of_target = Runner::new(target).untaken(&gone.target);
+        let told = untaken.iter().take(MOST_TOLD);
+        self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
+        if of_target.len() > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
+            // The output decides what the source does not, or in several places what the source does in one.
+            let blocks = of_target
+                .iter()
+                .take(MOST_BLOCKS)
+                .map(|(span, _)| block_at(text, span.start.saturating_sub(base)));
+            let blocks = blocks.collect::<Vec<_>>().join(", ").into();
+            self.notes.push(Diagnostic::new(Fault::OutputNotTaken { blocks }, self.last));
+        }
+    }
+}
+
+/// The block that something stands in.
+fn block_at(text: &[u8], at: u32) -> String {
+    let (before, behind) = text.split_at((at as usize).min(text.len()));
+    let begins = before.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
+    let ends = behind.iter().position(|b| *b == b'\n').map_or(text.len(), |at| before.len() + at);
+    String::from_utf8_lossy(&text[begins..ends]).trim().to_owned()
+}
+
+impl Ended {
+    pub(crate) fn target(stop: Stop) -> Ended {
+        match stop {
+            Stop::Source(fault) => Ended::Source(fault),
+            Stop::Target(fault) => Ended::Target(fault),
+        }
+    }
+}
+
+/// Why the source cannot be executed by itself, if it cannot be.
+fn alone(source: &Program, given: &Given, starts: Vec<(u32, Exec)>) -> Option<Stop> {
+    let mut events = Vec::new();
+    for (seed, mut exec) in starts {
+        let mut runner = Runner::new(source);
+        runner.give(&mut |var| given.value(var, seed, 0));
+        for _ in 0..MOST_PIECES {
+            match runner.run(&mut exec, PIECE, &mut events) {
+                Err(fault) => return Some(Stop::Source(fault)),
+                Ok(Progress::Done) => break,
+                Ok(Progress::More) => events.clear(),
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,72 @@
+//! The worlds in which source and output are executed: the same machine, as each of the two controls has it.
+
+use std::collections::BTreeMap;
+
+use ncc_exec::named_tool;
+use ncc_exec::world::World;
+use ncc_ir::canon::Modes;
+
+use super::fixed;
+use crate::job::Job;
+
+/// The world of a seed, as the source's control and as the target's has it.
+pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
+    let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
+    let renaming = job.renaming();
+    let own_entries = match (&renaming.tools, &job.machines.from) {
+        (Some(_), Some(machine)) => machine.tables().edge_entries,
+        (None, _) | (_, None) => BTreeMap::new(),
+    };
+    let mut source = World::generate(seed, &from).with_external();
+    source.behaviours = job.source_behaviours();
+    source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    source.compensation_again = job.from.dialect.caps.compensation_again;
+    source.arcs = job.from.arc_rule();
+    source.refused_compensated = job.from.dialect.caps.refused_compensated;
+    source.tables.edge_entries = own_entries;
+    source.tables.radii = job.compensating().radii;
+    source.increments = job.from.fine_increments();
+    let mut target = World::generate(seed, &to).with_external();
+    target.increments = job.to.fine_increments();
+    target.behaviours = job.target_behaviours();
+    target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
+    // Between two controls it is refused; what else is written is read as the source has it.
+    target.compensation_again = source.compensation_again;
+    target.arcs = job.to.arc_rule();
+    target.refused_compensated = job.to.dialect.caps.refused_compensated;
+    target.tables.edge_entries.clone_from(&renaming.edge_entries);
+    target.renaming = renaming;
+    // Where tools are put in by hand on one side, the operator sets the zero of Z by each.
+    source.zeroed_by_tool = job.from.dialect.can.change_by_hand || job.to.dialect.can.change_by_hand;
+    target.zeroed_by_tool = source.zeroed_by_tool;
+    let named = &target.renaming.tool_names;
+    source.tables.named_lengths =
+        named.iter().map(|(n, name)| (named_tool(name), target.edge_length(i64::from(*n), 1))).collect();
+    source.tables.named_entries = named
+        .iter()
+        .map(|(n, name)| (named_tool(name), target.entry_number(target.edge_entry(*n))))
+        .collect();
+    // A control without a word for it takes corners in its one way.
+    let caps = &job.to.dialect.caps;
+    let path = caps.only_path.filter(|mode| !caps.says_path(*mode));
+    (source.path, target.path) = (path, path);
+    same_at_power_on(&source, &mut target, &from, &to);
+    [source, target]
+}
+
+/// What neither program says stays what it was before it, by whatever number: where numbers differ, the
+/// target's work offset and length entry at power-on get numbers that no program has, for the source's.
+fn same_at_power_on(source: &World, target: &mut World, from: &Modes, to: &Modes) {
+    if let (Some(map), Some(own), None, None) =
+        (&mut target.renaming.offsets, source.power_on.work_offset, from.work_offset, to.work_offset)
+    {
+        map.insert(u16::MAX, own);
+        target.power_on.work_offset = Some(u16::MAX);
+    }
+    if let (Some(map), Some(own), None, None) =
+        (&mut target.renaming.entries, source.power_on.length_offset, from.length_offset, to.length_offset)
+    {
+        map.insert(u32::MAX, own);
+        target.power_on.length_offset = Some(u32::MAX);
+    }
+}

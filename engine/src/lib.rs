@@ -1,0 +1,60 @@
+//! The engine: the compiler of ncc for a page in a browser, and for programs in other languages.
+//!
+//! It is given files by name, does one request, and gives outputs back by name. Nothing is read from a disk or printed.
+//!
+//! ```
+//! use ncc_engine::Engine;
+//!
+//! let mut engine = Engine::default();
+//! engine.put("part.nc", b"G21 G90 G17 G40\nG00 Z50.\nG00 X10. Y5.\nM30\n".to_vec());
+//! let code = engine.run(r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "siemens" }"#);
+//! assert_eq!(code, 0, "{:?}", engine.output("messages").map(String::from_utf8_lossy));
+//! assert!(engine.output("output").is_some_and(|text| text.ends_with(b"M30\n")));
+//! ```
+//!
+//! [`request`] has the form of a request, `verbs` does it, and [`interface`] are the same steps as five C functions.
+//! The codes are the exit codes of the command line. Not here: any work of the compiler (`ncc_driver`).
+
+#[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
+pub mod interface;
+pub mod request;
+mod verbs;
+
+use std::collections::BTreeMap;
+
+/// Files by their names, and what the last request has made.
+#[derive(Debug, Default)]
+pub struct Engine {
+    files: BTreeMap<String, Vec<u8>>,
+    outputs: Vec<(&'static str, Vec<u8>)>,
+}
+
+impl Engine {
+    /// Keeps a file, in the place of another of its name.
+    pub fn put(&mut self, name: &str, bytes: Vec<u8>) {
+        self.files.insert(name.to_owned(), bytes);
+    }
+
+    /// Does a request, which is JSON ([`request::Request`]); its outputs take the place of those of the one before. The
+    /// code is an exit code of the command line: 0 is done.
+    pub fn run(&mut self, request: &str) -> u8 {
+        let (code, outputs) = verbs::run(request, &self.files);
+        self.outputs = outputs;
+        code
+    }
+
+    /// An output of the last request: `output`, `messages`, `report`, `findings`, `times`, `document`.
+    pub fn output(&self, name: &str) -> Option<&[u8]> {
+        self.outputs.iter().find(|(own, _)| *own == name).map(|(_, bytes)| bytes.as_slice())
+    }
+
+    /// All outputs of the last request, with their names.
+    pub fn outputs(&self) -> impl Iterator<Item = (&'static str, &[u8])> {
+        self.outputs.iter().map(|(name, bytes)| (*name, bytes.as_slice()))
+    }
+
+    /// Lets go of all files and outputs.
+    pub fn clear(&mut self) {
+        *self = Engine::default();
+    }
+}

@@ -1,0 +1,131 @@
+//! What an engine is asked for: a JSON object.
+//!
+//! ```json
+//! { "verb": "translate", "file": "part.nc", "from": "haas", "to": "siemens", "to_option": { "path_tolerance": "0.02" } }
+//! ```
+//!
+//! Names and values are those of the command line's options. A field that a verb does not need is an error, so that none
+//! is without effect in silence.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// A request.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "verb", rename_all = "kebab-case")]
+pub enum Request {
+    /// Translates a program. Outputs: `output` if it is released, `report`, `messages`.
+    Translate(Translate),
+    /// Checks a program. Outputs: `findings` (the document of `ncc check --format json`), `messages`.
+    Check(One),
+    /// Executes a program with a clock. Outputs: `times` (the document of `ncc time --as payload`), `messages`.
+    Time(One),
+    /// Compares what two programs do. Outputs: `document` (as of `ncc diff --format json`), `messages`.
+    Diff(Two),
+    /// Compares them as strictly as a translation is verified. Outputs: `document` (the certificate), `messages`.
+    Verify(Two),
+    /// Explains a message. Output: `output`, the page.
+    Explain {
+        /// Its code: `NC0107`.
+        code: String,
+    },
+    /// Lists the dialects. Output: `document`, a list of objects with `id` and `title`.
+    Dialects,
+}
+
+/// A program and how it is read.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct One {
+    /// The name of its file.
+    pub file: String,
+    /// Its dialect; without, or with `auto`, it is recognised, or its machine's.
+    #[serde(default)]
+    pub from: Option<String>,
+    /// The machine's profile: the name of one that comes with ncc, or of a file.
+    #[serde(default)]
+    pub machine: Option<String>,
+    /// Choices where the dictionary leaves a question open.
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// Its units at power-on.
+    #[serde(default)]
+    pub units: Option<Units>,
+}
+
+/// Two programs.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Two {
+    /// The first one, or the source.
+    pub a: One,
+    /// The second one, or the output.
+    pub b: One,
+    /// How far lengths may be apart, mm: `0.01`.
+    #[serde(default)]
+    pub tolerance: Option<String>,
+}
+
+/// A translation.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Translate {
+    /// The name of the source's file. The other files are programs that it may call.
+    pub file: String,
+    /// Its dialect; without, or with `auto`, it is recognised, or its machine's.
+    #[serde(default)]
+    pub from: Option<String>,
+    /// The dialect of the output; without, that of the machine.
+    #[serde(default)]
+    pub to: Option<String>,
+    /// The machine that the program was written for.
+    #[serde(default)]
+    pub machine_from: Option<String>,
+    /// The machine to translate for.
+    #[serde(default)]
+    pub machine_to: Option<String>,
+    /// Choices where the source's dictionary leaves a question open.
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// Choices where the target's dictionary does.
+    #[serde(default)]
+    pub to_option: BTreeMap<String, String>,
+    /// The source's units at power-on.
+    #[serde(default)]
+    pub units: Option<Units>,
+    /// Values of variables that the program reads and never sets: `"_td": "0.25"`.
+    #[serde(default)]
+    pub value: BTreeMap<String, String>,
+    /// Passes that the program goes through first.
+    #[serde(default)]
+    pub pass: Vec<String>,
+    /// Program number of the output.
+    #[serde(default)]
+    pub program_number: Option<u32>,
+    /// Verdicts that would stop and shall not: `dropped`.
+    #[serde(default)]
+    pub allow: Vec<String>,
+    /// Verdicts that would not stop and shall.
+    #[serde(default)]
+    pub deny: Vec<String>,
+    /// Whether open questions are answered with ncc's own readings.
+    #[serde(default)]
+    pub assume: bool,
+    /// Whether it is left out that the output is verified; it says so then.
+    #[serde(default)]
+    pub no_verify: bool,
+    /// Whether the comment at the top is left out.
+    #[serde(default)]
+    pub no_head: bool,
+}
+
+/// The unit of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Units {
+    /// Millimetres.
+    Mm,
+    /// Inches.
+    Inch,
+}

@@ -1,0 +1,356 @@
+//! Requests done: each verb is a few calls of the driver, and outputs by name.
+
+use std::collections::BTreeMap;
+use std::io::{self, Cursor};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use codespan_reporting::term::termcolor::Buffer;
+use ncc_backends::Layout;
+use ncc_dialects::{Dialect, Settings};
+use ncc_driver::check::{self, told};
+use ncc_driver::guess::recognise;
+use ncc_driver::job::Job;
+use ncc_driver::job::given::{self, Given};
+use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::questions::Policy;
+use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::render::{About, explain, report, tell};
+use ncc_driver::review::diff::tell::Account;
+use ncc_driver::review::diff::{json, motion};
+use ncc_driver::review::stream::Course;
+use ncc_driver::review::verify::document::{Call, Document, Word};
+use ncc_driver::review::verify::pair;
+use ncc_driver::side::Side;
+use ncc_driver::source::called::{Library, gather};
+use ncc_driver::source::{Source, not_milling};
+use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
+use ncc_driver::time::payload::{Header, Payload};
+use ncc_driver::translate::{rewrite, tools_by_name, translate};
+use ncc_ir::canon::Units;
+use ncc_ir::diag::Verdict;
+use ncc_machines::Profile;
+use ncc_machines::reading::Side as Whose;
+use ncc_time::Model;
+
+use crate::request::{self, One, Request, Translate, Two};
+
+/// Outputs by their names.
+pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
+
+type Files = BTreeMap<String, Vec<u8>>;
+
+/// Does a request.
+pub(crate) fn run(request: &str, files: &Files) -> (u8, Outputs) {
+    let mut messages = Buffer::no_color();
+    let done = match serde_json::from_str(request) {
+        Ok(request) => verb(&request, files, &mut messages),
+        Err(error) => Err(Problem::usage(
+            format!("the request cannot be read: {error}"),
+            "it is a JSON object with a verb: { \"verb\": \"translate\", \"file\": \"part.nc\", … }",
+        )),
+    };
+    let (exit, mut outputs) = done.unwrap_or_else(|problem| {
+        // Into memory everything can be written.
+        let _ = problem.print(&mut messages, false);
+        (problem.exit, Vec::new())
+    });
+    outputs.push(("messages", messages.into_inner()));
+    (exit as u8, outputs)
+}
+
+fn verb(request: &Request, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    match request {
+        Request::Translate(asked) => translated(asked, files, messages),
+        Request::Check(one) => checked(one, files, messages),
+        Request::Time(one) => timed(one, files, messages),
+        Request::Diff(two) => differ(two, files, messages),
+        Request::Verify(two) => verified(two, files, messages),
+        Request::Explain { code } => match explain::page(code) {
+            Some(page) => Ok((Exit::Done, vec![("output", page.as_bytes().to_vec())])),
+            None => Err(Problem::usage(format!("there is no message {code}"), "codes look like NC0107")),
+        },
+        Request::Dialects => {
+            let all: Vec<_> = ncc_dialects::builtins()
+                .map(|dialect| serde_json::json!({ "id": dialect.id, "title": dialect.title }))
+                .collect();
+            Ok((Exit::Done, vec![("document", serde_json::to_vec_pretty(&all).unwrap_or_default())]))
+        }
+    }
+}
+
+/// Called programs among the files of an engine, all in one folder.
+struct InMemory<'f>(&'f Files);
+
+impl Library for InMemory<'_> {
+    fn list(&self, _folder: &Path) -> Vec<PathBuf> {
+        self.0.keys().map(PathBuf::from).collect()
+    }
+
+    fn bytes(&self, path: &Path) -> Option<u64> {
+        self.0.get(path.to_str()?).map(|text| text.len() as u64)
+    }
+
+    fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>> {
+        let text = path.to_str().and_then(|name| self.0.get(name)).ok_or(io::ErrorKind::NotFound)?;
+        Ok(text[..text.len().min(usize::try_from(most).unwrap_or(usize::MAX))].to_vec())
+    }
+}
+
+/// A file as a source; one that is for no mill is refused.
+fn open(name: &str, files: &Files) -> Result<Source, Problem> {
+    let text = files.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
+    let mut source = Source::of(Cursor::new(text.clone()), name);
+    match not_milling::refusal(&mut source, false)? {
+        Some(refusal) => Err(Problem {
+            exit: Exit::Refused,
+            message: format!("{name}: {}", refusal.reason()),
+            help: vec!["ncc is for milling programs".to_owned()],
+        }),
+        None => Ok(source),
+    }
+}
+
+/// A machine's profile by the name of one that comes with ncc, or of a file.
+fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Profile>>, Problem> {
+    let Some(name) = name else { return Ok(None) };
+    if let Some(profile) = ncc_machines::find(name) {
+        return Ok(Some(Arc::new(profile.clone())));
+    }
+    let text = files.get(name).and_then(|text| std::str::from_utf8(text).ok());
+    let text =
+        text.ok_or_else(|| Problem::usage(format!("there is no machine `{name}`"), "put its profile"))?;
+    let profile = Profile::parse(text, &ncc_dialects::builtin);
+    profile.map(|profile| Some(Arc::new(profile))).map_err(|wrong| {
+        Problem::usage(
+            format!("the profile {name} has {} errors", wrong.len()),
+            "ncc machines test shows them",
+        )
+    })
+}
+
+/// A dialect by its name; of no name and of `auto`, none.
+fn named(id: Option<&str>) -> Result<Option<&'static Dialect>, Problem> {
+    let dialect = |id| {
+        let ids: Vec<&str> = ncc_dialects::builtin_ids().collect();
+        let none = || {
+            Problem::usage(format!("there is no dialect `{id}`"), format!("there are: {}", ids.join(", ")))
+        };
+        ncc_dialects::builtin(id).ok_or_else(none)
+    };
+    id.filter(|id| *id != "auto").map(dialect).transpose()
+}
+
+/// The dialect of a source, with what was chosen of it; and others that explain it as well.
+fn settings(
+    source: &mut Source,
+    from: Option<&str>,
+    machines: &Machines,
+    options: &BTreeMap<String, String>,
+    units: Option<request::Units>,
+) -> Result<(Settings, Vec<&'static Dialect>), Problem> {
+    let own = named(from)?.or(machines.from.as_ref().map(|profile| profile.dialect));
+    let (dialect, rivals) = match own {
+        Some(dialect) => (dialect, Vec::new()),
+        None => {
+            let all: Vec<_> = ncc_dialects::builtins().collect();
+            let found = recognise(source, &all)?;
+            (found.dialect, found.rivals)
+        }
+    };
+    let mut settings = choose(machines.settings(Whose::From, dialect), &pairs(options))?;
+    state_units(&mut settings, units.map(unit))?;
+    Ok((settings, rivals))
+}
+
+fn pairs(options: &BTreeMap<String, String>) -> Vec<(String, String)> {
+    options.iter().map(|(name, value)| (name.clone(), value.clone())).collect()
+}
+
+fn unit(units: request::Units) -> Units {
+    match units {
+        request::Units::Mm => Units::Mm,
+        request::Units::Inch => Units::Inch,
+    }
+}
+
+fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
+    let verdict = |name: &String| {
+        let found = Verdict::ALL.into_iter().find(|verdict| verdict.name() == name);
+        found
+            .ok_or_else(|| Problem::usage(format!("there is no verdict `{name}`"), "such as dropped, manual"))
+    };
+    names.iter().map(verdict).collect()
+}
+
+fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("translate", &asked.file, &e);
+    let mut source = open(&asked.file, files)?;
+    let machines = Machines {
+        from: profile(asked.machine_from.as_deref(), files)?,
+        to: profile(asked.machine_to.as_deref(), files)?,
+    };
+    let to = named(asked.to.as_deref())?.or(machines.to.as_ref().map(|profile| profile.dialect));
+    let to = to.ok_or_else(|| Problem::usage("translate into what?", "\"to\": \"siemens\""))?;
+    let to = choose(machines.settings(Whose::To, to), &pairs(&asked.to_option))?;
+    let (from, rivals) =
+        settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, asked.units)?;
+    let crlf = source.is_crlf()?;
+    gather(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
+    let (mut given, mut values) = (Given::default(), Vec::new());
+    for (name, value) in &asked.value {
+        let wrong = |why| Problem::usage(format!("the value of {name}: {why}"), "\"_td\": \"0.25\"");
+        let (name, value) = given::value(&format!("{name}={value}")).map_err(wrong)?;
+        given.put(&name, value);
+        values.push((name, value));
+    }
+    let pass = |name: &String| {
+        let none = || Problem::usage(format!("there is no pass `{name}`"), "`ncc passes` lists them");
+        rewrite::pass(name).ok_or_else(none)
+    };
+    let mut job = Job {
+        layout: Layout { numbering: machines.numbering(), crlf },
+        machines,
+        passes: asked.pass.iter().map(pass).collect::<Result<_, _>>()?,
+        verify: !asked.no_verify,
+        head: !asked.no_head,
+        given,
+        values,
+        program_number: asked.program_number,
+        called: source.called.clone(),
+        rivals,
+        questions: if asked.assume { Policy::Assume } else { Policy::Ask },
+        allow: verdicts(&asked.allow)?,
+        deny: verdicts(&asked.deny)?,
+        ..Job::new(from, to, &source.name)
+    };
+    tools_by_name::number(&mut job, &mut source.file).map_err(cannot)?;
+    source.rewind()?;
+    let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;
+    let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
+    tell(messages, &mut about, &outcome, Loudness::Usual).map_err(cannot)?;
+    let mut told = Vec::new();
+    report::write(&mut told, &mut about, &outcome).map_err(cannot)?;
+    let mut outputs = vec![("report", told)];
+    if outcome.release.is_ok() {
+        outputs.insert(0, ("output", outcome.output.to_vec().map_err(cannot)?));
+    }
+    Ok((Exit::of(outcome.release), outputs))
+}
+
+/// A program that is executed.
+fn side(one: &One, files: &Files) -> Result<Side, Problem> {
+    let mut source = open(&one.file, files)?;
+    let profile = profile(one.machine.as_deref(), files)?;
+    let machines = Machines { from: profile.clone(), to: profile };
+    let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
+    // What a profile states of its control holds for programs in that control's language.
+    let own = machines.from.as_ref().is_some_and(|profile| profile.dialect.id == from.dialect.id);
+    gather(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
+    source.rewind()?;
+    let mut side = Side::of(source, from, if own { machines } else { Machines::default() }, None);
+    side.job.rivals = rivals;
+    Ok(side)
+}
+
+fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("read", &one.file, &e);
+    let profile = profile(one.machine.as_deref(), files)?;
+    let Side { mut source, job } = side(one, files)?;
+    let limits = check::limits(profile.as_deref(), None);
+    let course = check::drive::drive(&job, limits, 0, &mut source).map_err(cannot)?;
+    let program = told::tell(&told::Graded::default(), &job, &mut source, course).map_err(cannot)?;
+    let found = program.has_findings();
+    check::text::write(messages, &program, Loudness::Usual).map_err(cannot)?;
+    let mut findings = Vec::new();
+    check::json::write(&mut findings, vec![program]).map_err(cannot)?;
+    Ok((if found { Exit::Refused } else { Exit::Done }, vec![("findings", findings)]))
+}
+
+fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
+    let profile = profile(one.machine.as_deref(), files)?;
+    let Side { mut source, job } = side(one, files)?;
+    let model = Model::default();
+    let (machine, _) = profile.as_deref().map(Profile::machine).unwrap_or_default().assumed(model);
+    let plan = Plan {
+        job: &job,
+        machine: machine.clone(),
+        tables: profile.as_deref().map(Profile::tables).unwrap_or_default(),
+        parameters: [None; 2],
+        model,
+        skip: 0,
+        start_time: 0.0,
+        stage: Stage::After,
+        centre: true,
+    };
+    let title = profile.as_deref().map_or("", |profile| &profile.schema.title);
+    let header = Header { prog_name: &one.file, machine_name: title, dialect: &job.from.dialect.id };
+    let mut times = Vec::new();
+    let mut sink = Payload::new(&header, &machine, false, true, &mut times).map_err(cannot)?;
+    let course = drive(&plan, &mut source, &mut sink, &mut Unwatched).map_err(cannot)?;
+    sink.finish().map_err(cannot)?;
+    let shown = source.shown.clone();
+    let mut about = About { job: &job, name: &shown, source: &mut source.file };
+    human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
+    match course.refused {
+        true => Ok((Exit::Refused, Vec::new())),
+        false => Ok((Exit::Done, vec![("times", times)])),
+    }
+}
+
+/// Both programs of a comparison, and how far lengths may be apart.
+fn sides(two: &Two, files: &Files) -> Result<([Side; 2], Option<i64>), Problem> {
+    let wrong = || Problem::usage("the tolerance is no length in mm", "\"tolerance\": \"0.01\"");
+    let tolerance =
+        two.tolerance.as_deref().map(|text| given::decimal(text).ok_or_else(wrong)).transpose()?;
+    Ok(([side(&two.a, files)?, side(&two.b, files)?], tolerance))
+}
+
+/// Tells what keeps programs from being compared.
+fn not_compared(messages: &mut Buffer, sides: &mut [Side; 2], courses: &[Course; 2]) -> io::Result<()> {
+    for (side, course) in sides.iter_mut().zip(courses).filter(|(_, course)| course.refused) {
+        let shown = side.source.shown.clone();
+        let mut about = About { job: &side.job, name: &shown, source: &mut side.source.file };
+        human::print(messages, &mut about, &course.diagnostics, Loudness::Usual)?;
+    }
+    Ok(())
+}
+
+fn differ(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("compare", "the programs", &e);
+    let (mut sides, tolerance) = sides(two, files)?;
+    let found = motion::motion(&mut sides, tolerance).map_err(cannot)?;
+    if found.refused() {
+        not_compared(messages, &mut sides, &found.courses).map_err(cannot)?;
+        return Ok((Exit::NotCompared, Vec::new()));
+    }
+    let account = Account::of(&found, &mut sides).map_err(cannot)?;
+    let mut document = Vec::new();
+    json::write(&mut document, &account).map_err(cannot)?;
+    Ok((if account.equal { Exit::Done } else { Exit::Refused }, vec![("document", document)]))
+}
+
+fn verified(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("compare", "the programs", &e);
+    let (mut sides, tolerance) = sides(two, files)?;
+    let found = pair::compare(&mut sides, tolerance.unwrap_or_default()).map_err(cannot)?;
+    not_compared(messages, &mut sides, &found.courses).map_err(cannot)?;
+    let call = Call {
+        files: [two.a.file.clone(), two.b.file.clone()],
+        machines: [two.a.machine.clone(), two.b.machine.clone()],
+        tolerance,
+        ..Call::default()
+    };
+    let document = Document::of(&found, &mut sides, &call).map_err(cannot)?;
+    let exit = match document.verdict() {
+        Word::Equal | Word::EqualWithinTolerance => Exit::Done,
+        Word::Different => Exit::Refused,
+        Word::NotCompared => Exit::NotCompared,
+    };
+    let mut text = serde_json::to_vec_pretty(&document).unwrap_or_default();
+    text.push(b'\n');
+    Ok((exit, vec![("document", text)]))
+}
