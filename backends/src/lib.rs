@@ -8,6 +8,7 @@
 
 pub mod canon;
 mod characters;
+mod common;
 pub mod ir;
 mod origin;
 pub mod siemens;

@@ -8,7 +8,7 @@ use ncc_driver::job::given::{Given, decimal};
 use ncc_driver::problem::Problem;
 use ncc_driver::render::human::Loudness;
 use ncc_ir::expr::num::Nanos;
-use ncc_timeline::{Model, ToolChangeOn};
+use ncc_time::{Model, ToolChangeOn};
 
 use crate::args::{Eol, Start, pair, start};
 use crate::files;

@@ -33,7 +33,7 @@ use ncc_ir::canon::Units;
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
-use ncc_timeline::Model;
+use ncc_time::Model;
 
 use crate::request::{self, One, Request, Translate, Two};
 

@@ -15,7 +15,7 @@ use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
 use crate::Batch;
-use crate::word::facts::Know;
+use crate::common::known::Know;
 
 /// Takes a fact for granted. Gives what is to be reported: the value, if not every such control
 /// has it so.

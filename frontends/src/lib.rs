@@ -7,6 +7,7 @@
 
 mod begins;
 pub mod canon;
+mod common;
 mod corners;
 pub mod ir;
 pub mod pieces;
@@ -114,8 +115,8 @@ pub enum Flow {
 /// none.
 pub fn flow(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
     match settings.dialect.family {
-        Family::Word => word::jumps::jumps(settings, text, found),
-        Family::Sinumerik => siemens::jumps::jumps(text, found),
+        Family::Word => word::text::jumps::jumps(settings, text, found),
+        Family::Sinumerik => siemens::text::jumps::jumps(text, found),
         Family::Canon | Family::Ir => {}
     }
 }
@@ -140,15 +141,15 @@ pub enum Word<'t> {
 /// not. It stops at what is no word. Lines of families without a dictionary of words have none.
 pub fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
     match dialect.family {
-        Family::Word => word::words::words(dialect, line, found),
-        Family::Sinumerik => siemens::words::words(line, found),
+        Family::Word => word::text::words::words(dialect, line, found),
+        Family::Sinumerik => siemens::text::words::words(line, found),
         Family::Canon | Family::Ir => {}
     }
 }
 
 /// A literal for people: `0.1 mm`.
 pub fn spell(num: Num) -> String {
-    word::number::spell(num)
+    common::number::spell(num)
 }
 
 /// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after

@@ -107,11 +107,11 @@ impl Lines {
                     }
                     () => {
                         self.opened |= !text.is_empty();
-                        word::pieces::pieces(dialect, line, pieces)
+                        word::text::pieces::pieces(dialect, line, pieces)
                     }
                 }
             }
-            Family::Sinumerik => siemens::pieces::line(line, &mut self.closed, pieces),
+            Family::Sinumerik => siemens::text::pieces::line(line, &mut self.closed, pieces),
             Family::Canon | Family::Ir => LineIs::Unread,
         };
         // Nothing may be lost.

@@ -6,7 +6,7 @@ use ncc_dialects::Dialect;
 use ncc_exec::world::Tables;
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_timeline::{AxisFacts, Machine, ToolChangeOn};
+use ncc_time::{AxisFacts, Machine, ToolChangeOn};
 
 use crate::check::check;
 use crate::fact::Fact;

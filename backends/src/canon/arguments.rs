@@ -11,7 +11,7 @@ use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 use super::Writer;
-use super::text::decimal;
+use crate::common::quoted::decimal;
 
 pub(super) fn units(u: Units) -> &'static [u8] {
     match u {

@@ -9,7 +9,6 @@
 
 mod arguments;
 pub mod rs274;
-pub(crate) mod text;
 
 use ncc_dialects::{Quantity, Settings};
 use ncc_ir::canon::{
@@ -22,7 +21,7 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Poin
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use self::text::{quote, whole};
+use crate::common::quoted::{quote, whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
 

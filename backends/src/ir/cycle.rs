@@ -7,7 +7,7 @@ use ncc_ir::program::{Coord, Pitch};
 
 use super::expr::expr;
 use super::op::{coord, plane, point, put, return_level, turn};
-use crate::canon::text::whole;
+use crate::common::quoted::whole;
 
 /// What a kind of cycle says, in brackets if there is anything.
 fn details(words: &[(&str, Option<&Expr>)], out: &mut Vec<u8>) {

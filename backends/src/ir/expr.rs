@@ -3,7 +3,7 @@
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 
-use crate::canon::text::{decimal, quote, whole};
+use crate::common::quoted::{decimal, quote, whole};
 
 /// How tightly the operands of an expression hold together; what holds less needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -6,7 +6,7 @@ use ncc_ir::program::{CutterRadius, Data, DataMode, Reference, ReferencePoint, T
 use super::expr::expr;
 use super::frame::words;
 use super::op::{point, put};
-use crate::canon::text::whole;
+use crate::common::quoted::whole;
 
 /// A point of the machine, the axes that go there, and by way of which point.
 pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {

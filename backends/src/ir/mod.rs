@@ -17,7 +17,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Stmt, Type};
 use ncc_ir::source::Span;
 
-use crate::canon::text::{quote, whole};
+use crate::common::quoted::{quote, whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
 

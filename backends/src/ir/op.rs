@@ -13,7 +13,7 @@ use super::expr::{expr, sizes, target, var};
 use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
 use super::polar::{polar_move, pole, rotary_ways};
-use crate::canon::text::{quote, whole};
+use crate::common::quoted::{quote, whole};
 
 /// Writes what a statement does; of a control statement what stands before its body.
 pub(super) fn op(op: &Op, out: &mut Vec<u8>) {

@@ -15,8 +15,7 @@ use ncc_ir::source::Span;
 use ncc_passes::support::known_facts::has_bare_holes;
 
 use super::{Sink, Writer};
-use crate::word::formula::cannot_compute;
-use crate::word::modes::cannot;
+use crate::common::fault::{cannot, cannot_compute};
 
 /// The last of the arithmetic parameters that every control has: R0 to R99 (PGA, arithmetic parameters).
 const LAST_EVERYWHERE: u32 = 99;

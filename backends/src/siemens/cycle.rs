@@ -16,10 +16,11 @@ use ncc_ir::source::Span;
 use ncc_ir::track::InForce;
 
 use super::{Modal, Sink, Writer, call_text};
-use crate::word::block::{Need, Part, Rank};
-use crate::word::codes::Letter;
-use crate::word::modes::{Inserted, cannot};
-use crate::word::number;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Letter;
+use crate::common::fault::cannot;
+use crate::common::number;
+use crate::common::setting::Inserted;
 
 /// Values of the unit of a pitch: millimetres a turn, inches a turn.
 const PITCH_IN_MM: &str = "1";

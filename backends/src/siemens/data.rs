@@ -12,7 +12,7 @@ use ncc_ir::program::{Data, DataMode, Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer, digits};
-use crate::word::modes::cannot;
+use crate::common::fault::cannot;
 
 /// Work offsets that every machine has: G54 to G57.
 const FACTORY_OFFSETS: u16 = 4;

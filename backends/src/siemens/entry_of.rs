@@ -13,8 +13,8 @@ use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
-use crate::word::entry_of::number_of;
-use crate::word::modes::cannot;
+use crate::common::entry::number_of;
+use crate::common::fault::cannot;
 
 impl Writer {
     /// Such a statement as the control says it.

@@ -7,8 +7,9 @@ use ncc_ir::program::{Frame, FrameStep};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
-use crate::word::block::{Need, Rank};
-use crate::word::modes::{Inserted, cannot};
+use crate::common::block::{Need, Rank};
+use crate::common::fault::cannot;
+use crate::common::setting::Inserted;
 
 /// Axes that can be scaled and mirrored.
 const LINEAR: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];

@@ -1,6 +1,6 @@
 //! The back-end of the Sinumerik's own language.
 //!
-//! Blocks of letters and numbers are written as in every other dialect (`crate::word`); this room
+//! Blocks of letters and numbers are written as in every other dialect, by a writer of `crate::word` within; this room
 //! has what is said in another form: cycles and patterns called with arguments, frames, arcs by
 //! name, edges of tools, messages, labels and units. Codes, names and the order of arguments come
 //! from the dictionary. What it has no word for is a fault at the statement, never silent.
@@ -33,17 +33,18 @@ use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 
-use crate::origin::Trace;
-use crate::word;
-use crate::word::Sink;
-use crate::word::block::{Need, Part, Rank};
-use crate::word::codes::Letter;
-use crate::word::modes::cannot;
-use crate::word::number::{self, Format, Shaped};
-use crate::{Form, Layout};
 use computing::Computing;
 use names::Names;
 use variable::Variables;
+
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Letter;
+use crate::common::fault::{cannot, unwritable};
+use crate::common::number::{Format, Shaped};
+use crate::common::{Sink, number};
+use crate::origin::Trace;
+use crate::word::Writer as WordWriter;
+use crate::{Form, Layout};
 
 /// Whether the text has a cycle in force for the blocks that follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +100,7 @@ impl Standing {
 /// Writes a program in the Sinumerik's language.
 #[derive(Clone, Debug)]
 pub struct Writer {
-    words: word::Writer,
+    words: WordWriter,
     dialect: &'static Dialect,
     /// Whether a tool change makes edge 1 active.
     edge_with_tool: bool,
@@ -145,7 +146,7 @@ impl Writer {
             dialect: settings.dialect,
             edge_with_tool: settings.get("edge_after_change") == "1",
             inch_machine: settings.get("feed_unit") == "inch",
-            words: word::Writer::new(settings, layout),
+            words: WordWriter::new(settings, layout),
             standing: Standing::START,
             stale: false,
             inches: false,
@@ -455,7 +456,7 @@ impl Writer {
     fn near(&self, nanos: Nanos, letter: &Letter, unit: Unit) -> Result<String, Fault> {
         let n = number::from_nanos(nanos, &letter.format, unit);
         let shaped = number::shape(n, &letter.format);
-        Ok(digits(shaped.map_err(|why| word::statement::unwritable(why, letter.letter, n))?))
+        Ok(digits(shaped.map_err(|why| unwritable(why, letter.letter, n))?))
     }
 
     /// Tells once that a call rests on a row that nobody confirms.

@@ -8,10 +8,11 @@ use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Op, Point, Shape,
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer, digits};
-use crate::word::block::{Need, Part, Rank};
-use crate::word::codes::Code;
-use crate::word::modes::{Inserted, cannot};
-use crate::word::number;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Code;
+use crate::common::fault::cannot;
+use crate::common::number;
+use crate::common::setting::Inserted;
 
 /// Words of an arc besides its end point, ready to be written.
 type Words = Vec<String>;

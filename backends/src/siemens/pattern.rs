@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 
 use super::cycle::Arguments;
 use super::{Modal, Sink, Writer};
-use crate::word::modes::cannot;
+use crate::common::fault::cannot;
 
 /// A full turn.
 const TURN: Nanos = 360 * ONE;

@@ -7,10 +7,11 @@ use ncc_ir::program::{Centre, Coord, Op, Polar, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
 use super::{Modal, Sink, Writer, digits};
-use crate::word::block::{Need, Rank};
-use crate::word::codes::Code;
-use crate::word::modes::{Inserted, cannot};
-use crate::word::number;
+use crate::common::block::{Need, Rank};
+use crate::common::codes::Code;
+use crate::common::fault::cannot;
+use crate::common::number;
+use crate::common::setting::Inserted;
 
 impl Writer {
     /// A pole, in a block of its own.

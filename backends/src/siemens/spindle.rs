@@ -8,9 +8,9 @@ use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
-use crate::word::block::{Need, Part, Rank};
-use crate::word::codes::Code;
-use crate::word::modes::Setting;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Code;
+use crate::common::setting::Setting;
 
 /// One code for two statements.
 #[derive(Clone, Copy, Debug)]

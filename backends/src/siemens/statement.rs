@@ -6,10 +6,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
-use super::{Modal, Sink, Writer};
-use crate::word::block::{Need, Part, Rank};
-use crate::word::modes::cannot;
 use ncc_ir::expr::Expr;
+
+use super::{Modal, Sink, Writer};
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 /// Longest text of a message.
 pub(super) const LONGEST_MESSAGE: usize = 200;

@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 use ncc_passes::retract;
 
 use super::{Sink, Writer};
-use crate::word::modes::cannot;
+use crate::common::fault::cannot;
 
 /// A plane, and how the tool is turned onto it in the same block.
 #[derive(Clone, Copy, Debug)]

@@ -11,8 +11,8 @@ use ncc_ir::program::{Point, Stmt};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
-use crate::word::block::{Need, Part, Rank};
-use crate::word::modes::cannot;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 impl Writer {
     pub(super) fn change_tool(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {

@@ -10,8 +10,8 @@ use ncc_ir::track::Tracker;
 use super::names::Name;
 use super::{Modal, Sink, Standing, Writer};
 use crate::Head;
-use crate::word::block::{Need, Part, Rank};
-use crate::word::modes::cannot;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 /// Most repetitions of a call.
 const MOST_TIMES: u32 = 9999;

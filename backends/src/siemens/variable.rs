@@ -21,8 +21,7 @@ use ncc_ir::source::Span;
 use super::statement::LONGEST_MESSAGE;
 use super::unit::tell;
 use super::{Modal, Sink, Writer};
-use crate::word::formula::cannot_compute;
-use crate::word::modes::cannot;
+use crate::common::fault::{cannot, cannot_compute};
 
 /// Digits behind the point that a real number has in a message, zeros at their end left out.
 const DIGITS: u8 = 9;

@@ -16,9 +16,10 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::modes::cannot;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 impl Writer {
     /// Writes a change to the tool that is selected.

@@ -6,10 +6,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
 
-use super::block::Part;
-use super::codes::Letter;
-use super::modes::cannot;
-use super::{Sink, Writer, number};
+use super::Writer;
+use crate::common::block::Part;
+use crate::common::codes::Letter;
+use crate::common::fault::cannot;
+use crate::common::{Sink, number};
 
 impl Writer {
     /// Makes the word; the move that follows takes it into its block.

@@ -13,11 +13,13 @@ use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern,
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::{Code, CycleCode, Letter};
-use super::modes::{Inserted, Setting, cannot};
-use super::number::{self, Worth};
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::{Code, CycleCode, Letter};
+use crate::common::fault::cannot;
+use crate::common::number::Worth;
+use crate::common::setting::{Inserted, Setting};
+use crate::common::{Sink, number};
 
 /// A cycle that the program has in force.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Values put into the control's tables: a code with the words that say which table and which entry.
 
-use ncc_dialects::{DataKind, DataRow, RADIUS_DATA};
+use ncc_dialects::{DataKind, RADIUS_DATA};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
@@ -9,27 +9,15 @@ use ncc_ir::expr::{Expr, Node, Target, Var};
 use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::{Code, Letter};
-use super::formula::rounding;
-use super::modes::{Inserted, cannot};
-use super::number::Worth;
-use super::{Sink, Writer};
-
-/// A table that values are put into.
-#[derive(Clone, Debug)]
-pub(crate) struct DataCode {
-    pub row: &'static DataRow,
-    pub code: Code,
-    /// Letter and number that say which table.
-    pub select: (u8, u32),
-    /// Letter of the entry.
-    pub entry: u8,
-    /// The word that turns a work offset.
-    pub turn: Option<Letter>,
-    /// Words of values of tools.
-    pub values: Vec<(ToolValue, Letter)>,
-}
+use super::Writer;
+use super::macros::formula::rounding;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::{Code, Letter};
+use crate::common::data::DataCode;
+use crate::common::fault::cannot;
+use crate::common::number::Worth;
+use crate::common::setting::Inserted;
 
 impl Writer {
     /// Puts values into a table, in a block of its own.

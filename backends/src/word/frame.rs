@@ -5,9 +5,10 @@ use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use super::modes::cannot;
-use super::{Sink, Writer};
+use super::Writer;
 use crate::Head;
+use crate::common::Sink;
+use crate::common::fault::cannot;
 
 /// Number of a program whose source has none.
 const FIRST_PROGRAM: u32 = 1;

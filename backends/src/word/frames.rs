@@ -7,10 +7,12 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, FrameSlot, Slot};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::{Code, Letter};
-use super::modes::{Inserted, cannot};
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::{Code, Letter};
+use crate::common::fault::cannot;
+use crate::common::setting::Inserted;
 
 impl Writer {
     /// Fills a slot.

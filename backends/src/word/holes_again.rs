@@ -7,8 +7,9 @@ use ncc_ir::canon::{Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op, Stmt};
 
-use super::block::Part;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::Part;
 
 impl Writer {
     /// The letter of repetitions, where the dictionary alone says it.

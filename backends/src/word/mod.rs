@@ -6,37 +6,22 @@
 //!
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
-mod alarm;
-pub(crate) mod block;
 mod by_hand;
-mod call_of;
-mod code_of;
-pub(crate) mod codes;
-pub(crate) mod comment;
-mod comparisons;
-mod computing;
 mod corner;
 mod cycles;
 mod data;
-pub(crate) mod entry_of;
-mod force;
-pub(crate) mod formula;
 mod frame;
 mod frames;
 mod holes_again;
-mod jump_of;
-mod modal_call;
-pub(crate) mod modes;
-pub(crate) mod motion;
-pub(crate) mod number;
-mod o_words;
-mod output;
+mod macros;
+mod modes;
+mod motion;
 mod plain;
 mod polar;
 mod repeat;
-pub(crate) mod spindle;
+mod spindle;
 mod start;
-pub(crate) mod statement;
+mod statement;
 mod thread;
 
 use std::collections::BTreeMap;
@@ -49,30 +34,20 @@ use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
+use cycles::Held;
+use start::Preamble;
+
+use crate::common::Sink;
+use crate::common::block::{Block, Need};
+use crate::common::codes::Codes;
+use crate::common::comment::Comments;
+use crate::common::fault::cannot_compute;
+use crate::common::force::InForce;
 use crate::origin::Trace;
 use crate::{Form, Layout, Numbering, ToolChange};
-use block::{Block, Need};
-use codes::Codes;
-use comment::Comments;
-use cycles::Held;
-use force::InForce;
-use formula::cannot_compute;
-use start::Preamble;
 
 /// Highest block number (FANUC 16-C: N1 to N99999); numbering begins again after it.
 const HIGHEST_NUMBER: u32 = 99_999;
-
-/// Where a piece of the program goes.
-pub(crate) struct Sink<'a> {
-    pub(crate) out: &'a mut Vec<u8>,
-    pub(crate) diags: &'a mut Vec<Diagnostic>,
-}
-
-impl Sink<'_> {
-    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
-        self.diags.push(Diagnostic::new(fault, span));
-    }
-}
 
 /// Choices of the dictionary's options that decide how a word reads back.
 #[derive(Clone, Copy, Debug)]
@@ -141,24 +116,24 @@ pub struct Writer {
     /// The sense in which the spindle turned on the way into the thread at hand.
     pub(crate) turned_in: Option<Turn>,
     /// The next straight move is in machine coordinates, by this code.
-    machine: Option<codes::Code>,
+    machine: Option<crate::common::codes::Code>,
     /// The next straight move at feed is a probing one, by this code.
-    probe: Option<codes::ProbeCode>,
+    probe: Option<crate::common::codes::ProbeCode>,
     /// The next rapid straight move is one by a detour, by this code.
-    detour: Option<codes::Code>,
+    detour: Option<crate::common::codes::Code>,
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     told_corner: bool,
     /// Blocks that others repeat, or that are jumped to.
     pub(crate) labels: repeat::Labels,
     /// What is known of a program that computes.
-    computing: computing::Computing,
+    computing: macros::computing::Computing,
     /// Whether calls behind moves are being written, and how far.
-    at_moves: modal_call::AtMoves,
+    at_moves: macros::modal_call::AtMoves,
     /// Names of the variables of the procedure at hand, as they are spelt.
     pub(crate) variables: BTreeMap<Text, String>,
     /// What is known of its O words.
-    o_words: o_words::OWords,
+    o_words: macros::o_words::OWords,
     /// Whether the words of the statement at hand say their own distance mode, where others rely on the one in force.
     pub(crate) says_distance: bool,
     /// Whether the words of the plane's axes are radius and angle.
@@ -173,7 +148,7 @@ pub struct Writer {
     page: [u8; plain::PAGE],
     filled: usize,
     /// Codes whose meaning is not confirmed, as far as reported.
-    pub(crate) told_unsure: Vec<codes::Code>,
+    pub(crate) told_unsure: Vec<crate::common::codes::Code>,
     /// Whether it was reported that entry 0 of the length table is taken for none.
     told_no_length: bool,
     /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
@@ -244,10 +219,10 @@ impl Writer {
             corner: None,
             told_corner: false,
             labels: repeat::Labels::default(),
-            computing: computing::Computing::default(),
-            at_moves: modal_call::AtMoves::None,
+            computing: macros::computing::Computing::default(),
+            at_moves: macros::modal_call::AtMoves::None,
             variables: BTreeMap::new(),
-            o_words: o_words::OWords::default(),
+            o_words: macros::o_words::OWords::default(),
             says_distance: false,
             polar: false,
             tip: false,
@@ -288,7 +263,8 @@ impl Writer {
     /// A tool change stands in no block with a move, nor with a length that needs one.
     pub fn changes_apart(&mut self) {
         let edges = self.dialect.address.iter().any(|row| row.role == Role::ToolEdge);
-        let from = if edges { block::Rank::CycleEnd } else { block::Rank::Offset };
+        let from =
+            if edges { crate::common::block::Rank::CycleEnd } else { crate::common::block::Rank::Offset };
         self.block.apart = Some(from).filter(|_| !self.dialect.block.change_first);
     }
 
@@ -393,7 +369,7 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
-        let (before, jump) = jump_of::found(stmts);
+        let (before, jump) = macros::jump_of::found(stmts);
         for stmt in before {
             let before = self.open(stmt, sink);
             let written = match before {
@@ -546,7 +522,7 @@ impl Writer {
         if let Some(span) = self.offset_waits.take()
             && !self.block.has(Axis::Z.letter())
         {
-            sink.report(modes::cannot("a length offset in a block without Z"), span);
+            sink.report(crate::common::fault::cannot("a length offset in a block without Z"), span);
         }
         self.surface_with_speed(sink);
         let label = if empty { None } else { self.labels.waiting.take() };
@@ -588,7 +564,10 @@ impl Writer {
         }
         let most = self.dialect.block.longest_bare;
         if most > 0 && bare > most as usize {
-            sink.report(modes::cannot(format!("a block of more than {most} characters")), self.block.at);
+            sink.report(
+                crate::common::fault::cannot(format!("a block of more than {most} characters")),
+                self.block.at,
+            );
         }
     }
 

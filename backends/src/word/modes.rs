@@ -1,135 +1,21 @@
 //! Settings: units, plane, distance, feed mode, return level, work offset, and what is switched
 //! off. Written where the source says them, also if redundant.
 
-use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, SpindleMode, Units};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, SpindleMode, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::{Coord, FrameSlot, Op};
+use ncc_ir::program::Coord;
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::Code;
-use super::{Sink, Writer};
-
-/// A fault for what there is no word for.
-pub(crate) fn cannot(what: impl Into<Box<str>>) -> Fault {
-    Fault::CannotSay { what: what.into() }
-}
-
-/// A setting: a statement that moves nothing and stays in force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Setting {
-    Units(Units),
-    Distance(Distance),
-    Plane(Plane),
-    FeedMode(FeedMode),
-    Level(ReturnLevel),
-    Origin(u16),
-    NoShift,
-    NoCompensation,
-    NoLength,
-    NoCycle,
-    /// The speed counts turns a minute.
-    Turns,
-}
-
-impl Setting {
-    /// The setting that a statement is; cycle ends and cancelled length offsets count too.
-    pub(crate) fn of(op: &Op) -> Option<Setting> {
-        Some(match op {
-            Op::UseLengthUnits(u) => Setting::Units(*u),
-            Op::SetDistanceMode(d) => Setting::Distance(*d),
-            Op::SelectPlane(p) => Setting::Plane(*p),
-            Op::SetFeedMode(f) => Setting::FeedMode(*f),
-            Op::SetReturnLevel(l) => Setting::Level(*l),
-            Op::SetOriginOffsets(n) => Setting::Origin(*n),
-            Op::ClearFrame(FrameSlot::Shift) => Setting::NoShift,
-            Op::StopCutterRadiusCompensation => Setting::NoCompensation,
-            Op::UseToolLengthOffset(e) if e.literal().is_some_and(Num::is_zero) => Setting::NoLength,
-            Op::EndCycle => Setting::NoCycle,
-            Op::SetSpindleMode(SpindleMode::Turns) => Setting::Turns,
-            Op::ClearFrame(_)
-            | Op::UseToolLengthOffset(_)
-            | Op::UseToolLength(_)
-            | Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::SetFrame(_)
-            | Op::SetSlot(_)
-            | Op::SetPosition(_)
-            | Op::UseOriginShift(_)
-            | Op::UseToolCentrePoint(_)
-            | Op::OrientToolAxis(_)
-            | Op::UseMachineCoordinates { .. }
-            | Op::Probe(_)
-            | Op::Detour(_)
-            | Op::GoToReference(_)
-            | Op::SetData(_)
-            | Op::StartCutterRadiusCompensation { .. }
-            | Op::UseToolEdge { .. }
-            | Op::ArcForm(_)
-            | Op::SynchronisedFeed(_)
-            | Op::RepeatBlocks(_)
-            | Op::SetPole(_)
-            | Op::Polar(_)
-            | Op::SetMotionControlMode(_)
-            | Op::ExactStop
-            | Op::TurnRotaryAxes(_)
-            | Op::Corner { .. }
-            | Op::Advise(_)
-            | Op::SetFeedRate(_)
-            | Op::SetSpindleSpeed(_)
-            | Op::SetSpindleMode(_)
-            | Op::LimitSpindleSpeed(_)
-            | Op::OrientSpindle(_)
-            | Op::SelectTool(_)
-            | Op::SelectToolByName(_)
-            | Op::ChangeTool
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::MachineFunction(_)
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
-            | Op::StraightTraverse(_)
-            | Op::StraightFeed(_)
-            | Op::ArcFeed(_)
-            | Op::Position(_)
-            | Op::StartCycle(_)
-            | Op::Hole(_)
-            | Op::Pattern(_)
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
-            | Op::ProgramEnd
-            | Op::BeginAgain
-            | Op::Message(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::MessageOf(_)
-            | Op::Output(_)
-            | Op::Alarm(_)
-            | Op::Assign(..)
-            | Op::Declare(_)
-            | Op::Leave
-            | Op::NextTurn
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_) => return None,
-        })
-    }
-}
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Code;
+use crate::common::fault::cannot;
+use crate::common::setting::{Inserted, Setting};
 
 fn said(code: Option<Code>, what: &str) -> Result<Option<Code>, Fault> {
     code.map(Some).ok_or_else(|| cannot(what))
-}
-
-/// Codes that have to be put in before a statement can mean what it means.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Inserted {
-    distance: Option<Code>,
-    plane: Option<Code>,
 }
 
 impl Writer {

@@ -15,13 +15,14 @@ use ncc_ir::geometry::round::MOST_SHORT;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Reference, ReferencePoint, Stmt};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::Letter;
-use super::formula::cannot_compute;
-use super::modes::{Inserted, cannot};
-use super::number::{self, Shaped, Worth};
-use super::statement::{rounded, unwritable};
-use super::{Sink, Writer};
+use super::Writer;
+use super::statement::rounded;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Letter;
+use crate::common::fault::{cannot, cannot_compute, unwritable};
+use crate::common::number::{Shaped, Worth};
+use crate::common::setting::Inserted;
+use crate::common::{Sink, number};
 
 /// Words of an arc's centre or radius, ready to be written.
 type CentreWords = [Option<(u8, Worth)>; 3];

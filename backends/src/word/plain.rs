@@ -8,9 +8,10 @@ use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Move, Op, Stmt};
 
 use super::Writer;
-use super::codes::Code;
-use super::number::{self, LONGEST, ROOM};
 use crate::Numbering;
+use crate::common::codes::Code;
+use crate::common::number;
+use crate::common::number::{LONGEST, ROOM};
 
 /// Room for lines that have not been passed on.
 pub(crate) const PAGE: usize = 4096;

@@ -7,9 +7,10 @@ use ncc_ir::diag::Fault;
 use ncc_ir::geometry::polar;
 use ncc_ir::program::{Op, Polar, Stmt};
 
-use super::block::{Need, Part, Rank};
-use super::modes::cannot;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 impl Writer {
     /// Writes a move to a polar point.
@@ -24,7 +25,7 @@ impl Writer {
         let plane = polar.plane.known().or(self.force.plane);
         let plane =
             plane.ok_or_else(|| cannot("a point by radius and angle in a plane that is not known"))?;
-        let mut inserted = super::modes::Inserted::default();
+        let mut inserted = crate::common::setting::Inserted::default();
         self.need_plane(polar.plane, &mut inserted)?;
         self.admit_with(Need::new(Rank::Setting), inserted, sink)?;
         if !self.polar {

@@ -13,10 +13,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::modes::cannot;
-use super::{HIGHEST_NUMBER, Sink, Writer};
+use super::{HIGHEST_NUMBER, Writer};
 use crate::Numbering;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::cannot;
 
 /// Most passes of a repetition.
 const MOST_TIMES: u32 = 9999;

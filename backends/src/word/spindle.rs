@@ -8,10 +8,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::Code;
-use super::modes::cannot;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Code;
+use crate::common::fault::cannot;
 
 /// The option that says whose coordinate is the radius of a surface speed.
 const AXIS: &str = "surface_axis";

@@ -8,10 +8,11 @@ use ncc_ir::canon::{Axis, Distance, Fact, Modes, ReturnLevel, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
-use super::block::{Need, Part, Rank};
-use super::codes::Code;
-use super::modes::Setting;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::Code;
+use crate::common::setting::Setting;
 
 /// Most comment that waits for the safe start; more of it is written before.
 const MOST_HELD: usize = 1 << 16;

@@ -7,14 +7,15 @@ use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
-use super::formula::cannot_compute;
-use super::modal_call::AtMoves;
-use super::modes::{Setting, cannot};
-use super::number::{self, Shaped, Unwritable, Worth};
-use super::o_words::is_no_result_yet;
-use super::{Sink, Writer};
+use super::Writer;
+use super::macros::modal_call::AtMoves;
+use super::macros::o_words::is_no_result_yet;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
+use crate::common::fault::{cannot, cannot_compute, unwritable};
+use crate::common::number::{Shaped, Worth};
+use crate::common::setting::Setting;
+use crate::common::{Sink, number};
 
 impl Writer {
     /// Puts a statement into the block at hand, or into a new one if it does not fit.
@@ -644,16 +645,6 @@ fn milliseconds(seconds: &Expr) -> Option<&Expr> {
     match &**node {
         Node::Binary(Binary::Divide, a, by) if *by == Expr::int(1000) => Some(a),
         _ => None,
-    }
-}
-
-/// The fault of a number that cannot be written.
-pub(crate) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::expr::num::Num) -> Fault {
-    let word = number::spell(letter, n);
-    match why {
-        Unwritable::Range => Fault::TargetRange { word },
-        Unwritable::NotWhole => cannot(format!("{word}, which is not a whole number")),
-        Unwritable::Fineness => cannot(format!("{word}, which is too fine in a unit that is not known")),
     }
 }
 

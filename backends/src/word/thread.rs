@@ -9,11 +9,11 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Pitch, Synchronised};
 use ncc_ir::source::Span;
 
-use super::block::{Need, Part, Rank};
-use super::modes::{Inserted, cannot};
-use super::number;
-use super::statement::unwritable;
-use super::{Sink, Writer};
+use super::Writer;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::{cannot, unwritable};
+use crate::common::setting::Inserted;
+use crate::common::{Sink, number};
 
 impl Writer {
     /// Writes a move in step with the spindle.

@@ -123,10 +123,12 @@ pub(super) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: O
 
 impl Gathered {
     fn take(&mut self, path: PathBuf, below: PathBuf) {
-        // What is not there is found out when it is read.
-        match identity(&path) {
-            Some(own) if !self.seen.insert(own) => self.skip(path, Reason::Twice),
-            Some(_) | None => self.items.push(Item { path, below }),
+        // A missing file is reported when it is read.
+        let twice = identity(&path).is_some_and(|own| !self.seen.insert(own));
+        if twice {
+            self.skip(path, Reason::Twice);
+        } else {
+            self.items.push(Item { path, below });
         }
     }
 

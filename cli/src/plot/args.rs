@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use ncc_pictures::{Chart, View};
+use ncc_plot::{Chart, View};
 
 use crate::args::pair;
 use crate::setting::{Reading, Setting, Telling};

@@ -1,7 +1,7 @@
 //! `ncc plot`: what a program does over time and the way of its tool, as pictures.
 //!
 //! A program goes through the pipeline of `ncc time` into a record, which keeps what can be seen of
-//! it; from that a picture is drawn. Not here: drawing (ncc-pictures), timing (`time`).
+//! it; from that a picture is drawn. Not here: drawing (ncc-plot), timing (`time`).
 
 pub mod args;
 
@@ -13,8 +13,8 @@ use ncc_driver::job::Output;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::source::Source;
 use ncc_driver::time::drive::{Plan, Said, Sink};
-use ncc_pictures::{Listing, Page, Record, Undrawn, charts, report, view};
-use ncc_timeline::Timed;
+use ncc_plot::{Listing, Page, Record, charts, report, view};
+use ncc_time::Timed;
 
 use self::args::Plot;
 use crate::files::Destination;
@@ -46,7 +46,7 @@ impl Sink for Recorder {
 /// Runs the verb.
 ///
 /// # Errors
-/// Wrong usage, a file that cannot be read or written, or a picture that cannot be drawn. What is
+/// Wrong usage, a file that cannot be read or written, or a program without a way to draw. What is
 /// wrong with a program is told on `err`.
 pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
@@ -106,11 +106,7 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Resul
             help: vec!["without --view there are charts over time".to_owned()],
         });
     }
-    let picture = draw(args, form, &pages, &caption).map_err(|undrawn| Problem {
-        exit: Exit::Refused,
-        message: undrawn.to_string(),
-        help: Vec::new(),
-    })?;
+    let picture = draw(args, form, &pages, &caption);
     let mut output = Output::new();
     output.push(picture.as_bytes()).map_err(|e| Problem::file("write", "the picture", &e))?;
     destination.release(&mut output)?;
@@ -152,10 +148,10 @@ fn check(args: &Plot) -> Result<Form, Problem> {
     }
 }
 
-fn draw(args: &Plot, form: Form, pages: &[Page], caption: &str) -> Result<String, Undrawn> {
+fn draw(args: &Plot, form: Form, pages: &[Page], caption: &str) -> String {
     let records: Vec<&Record> = pages.iter().map(|page| &page.record).collect();
     match (form, args.view) {
-        (Form::Html, _) => Ok(report(pages, env!("CARGO_PKG_VERSION"))),
+        (Form::Html, _) => report(pages, env!("CARGO_PKG_VERSION")),
         (Form::Svg, Some(name)) => view(&records, name.view(), caption),
         (Form::Svg, None) => charts(&records, &args.charts(), caption),
     }

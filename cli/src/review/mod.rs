@@ -2,7 +2,7 @@
 //!
 //! `side` is a program named on the command line, `stream` executes it whole in given worlds, `feed`
 //! makes records of what it does. What is found is told by the verbs' own rooms; `cert` checks again what
-//! `verify` has certified. Not here: what a difference is (ncc-review).
+//! `verify` has certified. Not here: what a difference is (ncc-diff).
 
 pub mod cert;
 pub mod diff;

@@ -10,6 +10,7 @@ use std::path::Path;
 
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
+use ncc_diff::record::{Batch, Style};
 use ncc_driver::job::Output;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::questions;
@@ -19,7 +20,6 @@ use ncc_driver::review::words::{coolant, event, number, spindle};
 use ncc_driver::source::not_milling;
 use ncc_ir::canon::Spindle;
 use ncc_ir::program::Text;
-use ncc_review::record::{Batch, Style};
 
 use super::side::{Asked, open_one};
 use crate::args::pair;
@@ -133,7 +133,7 @@ fn listed(
 /// What is switched and set before an event.
 fn state(out: &mut dyn Write, last: Option<&Style>, now: &Style) -> io::Result<()> {
     let (is, was) = (&now.state, last.map(|last| &last.state));
-    let speed = |s: &ncc_review::record::Still| match s.spindle {
+    let speed = |s: &ncc_diff::record::Still| match s.spindle {
         Spindle::Stopped => (s.spindle, 0),
         Spindle::Clockwise | Spindle::Counterclockwise => (s.spindle, s.speed),
     };

@@ -3,7 +3,7 @@
 //! `drive` goes from the text to functions with times; each form of output is a sink that takes them
 //! one by one (`csv`, `payload`, `canon`, `tally` for the summaries). What is written goes to an
 //! anonymous file first, as a translation does, and is released when the whole program could be
-//! executed. Not here: models (ncc-timeline), machines (ncc-machines), pictures.
+//! executed. Not here: models (ncc-time), machines (ncc-machines), pictures.
 
 pub mod args;
 mod progress;
@@ -30,7 +30,7 @@ use ncc_ir::canon::Axis;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side;
-use ncc_timeline::{AssumedFact, Machine};
+use ncc_time::{AssumedFact, Machine};
 
 use self::args::{Form, Time};
 use self::progress::Progress;

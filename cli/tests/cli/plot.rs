@@ -114,7 +114,7 @@ fn charts_are_drawn_as_they_are_asked_for() {
     let folder = folder();
     let done = plot(folder.path(), &["good.cn", "--from", "mach9", "-q", "--chart", "tool,speed"]).exits(0);
     let at = |text: &str| done.out.find(text);
-    assert!(at("\nTool\n").unwrap() < at("\nSpindle (rev/min)\n").unwrap());
+    assert!(at(">Tool<").unwrap() < at(">Spindle (rev/min)<").unwrap());
     assert!(at("Position").is_none() && at("Feed").is_none());
 }
 

@@ -1,8 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
-    RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, FURTHER_POINT,
+    MACRO_DEPTH, RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;

@@ -3,12 +3,12 @@
 use std::io;
 use std::ops::ControlFlow;
 
+use ncc_diff::record::{Batch, Recorder, WORLDS};
 use ncc_exec::Exec;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Distance, Fact};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Point, Stmt};
-use ncc_review::record::{Batch, Recorder, WORLDS};
 
 use super::stream::{Course, Made, Stage, stream, worlds};
 use crate::side::Side;

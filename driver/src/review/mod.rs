@@ -1,7 +1,7 @@
 //! Two programs held side by side: what each does, executed in the same worlds.
 //!
 //! [`stream`] executes a program whole in given worlds, [`feed`] makes records of what it does; [`diff`] and [`verify`]
-//! compare two of them. Not here: what a difference is (`ncc_review`).
+//! compare two of them. Not here: what a difference is (`ncc_diff`).
 
 pub mod diff;
 pub mod feed;

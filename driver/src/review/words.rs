@@ -1,9 +1,9 @@
 //! Records in words: places, moves and what they are done with.
 
+use ncc_diff::record::{Length, Record, Style, What};
 use ncc_ir::canon::{AXES, Axis, Plane, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::Text;
-use ncc_review::record::{Length, Record, Style, What};
 
 /// Digits after the point of what is shown.
 const DIGITS: u8 = 4;

@@ -3,7 +3,7 @@
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_machines::Profile;
-use ncc_timeline::{AssumedFact, Fact, Model, WHOLE_PATH};
+use ncc_time::{AssumedFact, Fact, Model, WHOLE_PATH};
 
 use super::drive::{Course, Length, Plan};
 use super::duration::short;

@@ -6,7 +6,7 @@
 
 use std::io::{self, BufRead, Write};
 
-use ncc_timeline::Timed;
+use ncc_time::Timed;
 
 use super::drive::{Said, Sink};
 

@@ -4,7 +4,7 @@
 use ncc_exec::{Attribute, Kind, State};
 use ncc_ir::canon::{AXES, Spindle, SpindleMode};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_timeline::{Machine, Timed, path};
+use ncc_time::{Machine, Timed, path};
 
 /// What is beside a function in a table.
 #[derive(Clone, Copy, Debug, PartialEq)]

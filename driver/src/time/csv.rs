@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use ncc_ir::expr::num::Nanos;
-use ncc_timeline::{Machine, Timed};
+use ncc_time::{Machine, Timed};
 
 use super::columns::Columns;
 use super::drive::{Said, Sink};

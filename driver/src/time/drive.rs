@@ -22,8 +22,8 @@ use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
-use ncc_pictures::Turned;
-use ncc_timeline::{Act, Clock, Machine, Model, Place, Timed};
+use ncc_plot::Turned;
+use ncc_time::{Act, Clock, Machine, Model, Place, Timed};
 
 use super::blocks::Blocks;
 use super::reach::{Reach, reach, turned};

@@ -2,7 +2,7 @@
 //!
 //! [`csv`], [`payload`] and [`canon`] have every function with its time; [`tally`] sums them up for [`summary`];
 //! [`parameters`] counts what programs are judged by; [`assumed`] lists what the times rest on. Not here: the clock
-//! (`ncc_timeline`).
+//! (`ncc_time`).
 
 pub mod assumed;
 pub mod blocks;

@@ -7,7 +7,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::program::{Coord, Op, Pitch, Point};
-use ncc_timeline::Act;
+use ncc_time::Act;
 use serde_json::{Map, Value};
 
 use super::columns::units;

@@ -10,7 +10,7 @@ use ncc_exec::{Attribute, Exec, Kind};
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::Stmt;
-use ncc_timeline::{Machine, Timed};
+use ncc_time::{Machine, Timed};
 use serde::Serialize;
 use serde_json::{Map, Value};
 

@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use ncc_exec::{Exec, Kind};
 use ncc_ir::canon::{AXES, Turn};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_pictures::Turned;
-use ncc_timeline::Act;
+use ncc_plot::Turned;
+use ncc_time::Act;
 
 /// Least and greatest coordinate in X, Y and Z, nanos.
 pub type Reach = [[Nanos; 2]; 3];

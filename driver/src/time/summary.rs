@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::io;
 
-use ncc_timeline::Model;
+use ncc_time::Model;
 use serde::Serialize;
 
 use super::duration::{hms, short};

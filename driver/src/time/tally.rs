@@ -9,7 +9,7 @@ use std::io;
 use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::Spindle;
 use ncc_ir::expr::num::Nanos;
-use ncc_timeline::{Machine, Timed, ToolChangeOn, path};
+use ncc_time::{Machine, Timed, ToolChangeOn, path};
 use serde::Serialize;
 
 use super::columns::units;

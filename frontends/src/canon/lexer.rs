@@ -4,7 +4,7 @@ use logos::{Lexer, Logos};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Text;
 
-use super::text::unquote;
+use crate::common::quoted::unquote;
 
 /// Why a stretch of text is no word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

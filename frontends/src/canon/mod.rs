@@ -35,7 +35,6 @@
 mod lexer;
 mod lower;
 mod straight;
-pub(crate) mod text;
 
 use lalrpop_util::ParseError;
 use logos::Logos;

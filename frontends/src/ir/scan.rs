@@ -7,7 +7,7 @@ use ncc_ir::expr::system::System;
 use ncc_ir::program::Text;
 
 use super::lexer::{LexFault, Literal, Token};
-use crate::canon::text::unquote;
+use crate::common::quoted::unquote;
 
 /// A number with its unit.
 pub(super) fn number(lexer: &mut Lexer<'_, Token>) -> Result<Literal, LexFault> {

@@ -14,13 +14,13 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::source::Span;
 
-use super::formula::Typed;
 use super::lower::Lower;
-use super::polar::Pole;
+use super::moves::polar::Pole;
+use super::values::formula::Typed;
 use crate::Batch;
 use crate::begins::{self, Unsaid, report};
-use crate::word::facts::Know;
-use crate::word::number::unit_of;
+use crate::common::known::Know;
+use crate::common::number::unit_of;
 
 /// What axis words do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -258,7 +258,7 @@ impl<T: Copy + PartialEq> Only<T> {
 /// Facts as they are asked for. Each is reported once, where the program first relies on it.
 impl Lower {
     pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
-        self.again.use_fact(super::again::DISTANCE);
+        self.again.use_fact(crate::siemens::program::again::DISTANCE);
         self.inherited.rely(&self.state.distance, ModeName::Distance, at);
         if self.assume && self.state.distance.unsaid() {
             begins::distance(&mut self.state.distance, &self.settings.dialect.power_on, at, out);
@@ -267,7 +267,7 @@ impl Lower {
     }
 
     pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
-        self.again.use_fact(super::again::UNITS);
+        self.again.use_fact(crate::siemens::program::again::UNITS);
         self.inherited.rely(&self.state.units, ModeName::Units, at);
         if self.assume && self.state.units.unsaid() {
             begins::units(&mut self.state.units, &self.settings.dialect.power_on, at, out);
@@ -279,7 +279,7 @@ impl Lower {
     }
 
     pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
-        self.again.use_fact(super::again::PLANE);
+        self.again.use_fact(crate::siemens::program::again::PLANE);
         self.inherited.rely(&self.state.plane, ModeName::Plane, at);
         if self.assume && self.state.plane.unsaid() {
             begins::plane(&mut self.state.plane, &self.settings.dialect.power_on, at, out);
@@ -314,7 +314,7 @@ impl Lower {
 
     /// The unit of a feed. Under G70 and G71 it is that of the machine's basic system.
     pub(super) fn feed_unit(&mut self, at: Span, out: &mut Batch) -> Option<Unit> {
-        self.again.use_fact(super::again::SCALED);
+        self.again.use_fact(crate::siemens::program::again::SCALED);
         if !matches!(self.state.scaled, Know::Lost | Know::Open | Know::Callers) {
             self.rely_on_scaled(at);
         }
@@ -401,7 +401,7 @@ impl Lower {
     /// # Errors
     /// The program has not said it, and nothing may be taken for granted (reported).
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
-        self.again.use_fact(super::again::MOTION);
+        self.again.use_fact(crate::siemens::program::again::MOTION);
         match self.state.motion {
             Know::Lost | Know::Open | Know::Callers => Ok(None),
             Know::Said(motion) | Know::Taken(motion) => Ok(Some(motion)),

@@ -12,7 +12,7 @@ use ncc_ir::program::{Frame, FrameSlot, FrameStep, Op};
 use super::lower::Lower;
 use super::sort::{Code, Given, Words};
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 impl Lower {
     /// A frame, which stands alone in its block.

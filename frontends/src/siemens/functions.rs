@@ -10,17 +10,17 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
 
-use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::facts::{InForce, Motion};
 use super::lower::{Head, Lower};
+use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::sort::{Code, Words};
-use super::unit::Kind;
+use super::text::unit::Kind;
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
-use crate::word::functions::setting;
-use crate::word::number::unit_of;
-use crate::word::sort::{RANK_AFTER, RANK_WORDS, rank};
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+use crate::common::setting::setting;
+use crate::common::sort::{RANK_AFTER, RANK_WORDS, rank};
 
 /// The motion of a code or word.
 pub(super) fn motion_of(meaning: NameMeaning) -> Option<Motion> {

@@ -18,25 +18,25 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Coord, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::again::Again;
-use super::computing::Variables;
 use super::facts::{InForce, Motion, Only, Stand, State};
-use super::flow::{Closes, Flow};
-use super::formula::Typed;
-use super::parameters::Handed;
+use super::program::again::Again;
+use super::program::flow::{Closes, Flow};
+use super::program::parameters::Handed;
 use super::sort::Words;
 use super::speed::Surfaces;
-use super::tree::{Block, BlockNumber, Called, Item, Statement};
-use super::unit::Kind;
+use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
+use super::text::unit::Kind;
+use super::values::computing::Variables;
+use super::values::formula::Typed;
 use crate::begins::Inherited;
-use crate::word::Source;
-use crate::word::block::{Value, Word};
-use crate::word::code_of::Saved;
-use crate::word::facts::Know;
-use crate::word::fast::{self, Fast, FeedWord};
-use crate::word::lower::decode;
-use crate::word::number::unit_of;
-use crate::word::tilt::Met;
+use crate::common::fast::{Fast, FeedWord};
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+use crate::common::saved::Saved;
+use crate::common::switched::Met;
+use crate::common::text::decode;
+use crate::common::words::{Value, Word};
+use crate::common::{Source, fast};
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -514,7 +514,7 @@ impl Lower {
             return false;
         };
         // A slip of the pen is told as one, and not as a call.
-        if let Some(letter) = super::letters::letter_for_zero(src, head.span) {
+        if let Some(letter) = crate::siemens::text::letters::letter_for_zero(src, head.span) {
             self.fault(Fault::LetterOForZero, letter, out);
             return true;
         }

@@ -11,11 +11,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Alarm, Op, Piece, Text};
 use ncc_ir::source::Span;
 
-use super::formula::Kind;
 use super::lower::Lower;
-use super::tree::{Binary, Called, Expr as Tree, Unary};
+use super::text::tree::{Binary, Called, Expr as Tree, Unary};
+use super::values::formula::Kind;
 use crate::Batch;
-use crate::word::Source;
+use crate::common::Source;
 
 /// Digits of a real number in a message.
 const DIGITS: u8 = 9;

@@ -11,62 +11,39 @@
 //!
 //! Not here: what execution makes of a program, and everything about files.
 
-mod again;
-mod build;
-mod calls;
-mod computed_cycles;
-mod computing;
-mod control;
-mod corner;
 mod cycles;
-mod entry_of;
 mod facts;
-mod flow;
-mod formula;
 mod frames;
 mod functions;
-pub(crate) mod jumps;
-mod labels;
-mod letters;
 mod lower;
 mod message;
-mod motion;
-mod parameters;
-mod patterns;
-pub(crate) mod pieces;
-mod polar;
+mod moves;
+mod program;
 mod reader;
 mod sort;
 mod speed;
 mod spindles;
-mod synchronised;
 #[cfg(test)]
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;
-mod texts;
-mod threads;
-mod tilt;
-mod token;
-mod tree;
-mod unit;
-mod unmoved;
-pub(crate) mod words;
+pub(crate) mod text;
+mod values;
 
 pub use reader::Reader;
 
 use lalrpop_util::ParseError;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
-pub use token::is_key_word;
+pub use text::token::is_key_word;
 
-use token::{Refusal, Token, Tokens};
-use tree::Block;
-use unit::{Kind, Line};
+use text::token::{Refusal, Token, Tokens};
+use text::tree::Block;
+use text::unit::{Kind, Line};
 
 lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused)]
     grammar,
-    "/siemens/block.rs"
+    "/siemens/text/block.rs"
 );
 
 /// The faults of form of a whole text: lines that are neither blocks nor frames of units. Units that
@@ -79,7 +56,7 @@ pub fn form(text: &[u8]) -> Vec<Diagnostic> {
         at += line.len() as u32;
         let line = line.strip_suffix(b"\n").unwrap_or(line);
         let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let fault = match unit::line(line, base) {
+        let fault = match text::unit::line(line, base) {
             Ok(Line::Header(header)) => {
                 kind = header.kind;
                 None

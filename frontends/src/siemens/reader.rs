@@ -14,16 +14,16 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::calls::procedure_name;
 use super::facts::InForce;
-use super::letters::letter_for_zero;
 use super::lower::Lower;
 use super::parse;
-use super::tree::{Block, Statement};
-use super::unit::{self, Header, Kind, Line};
-use crate::word::Source;
-use crate::word::block::{Value, Word};
-use crate::word::plain;
+use super::program::calls::procedure_name;
+use super::text::letters::letter_for_zero;
+use super::text::tree::{Block, Statement};
+use super::text::unit;
+use super::text::unit::{Header, Kind, Line};
+use crate::common::words::{Value, Word};
+use crate::common::{Source, plain};
 use crate::{Batch, refused};
 
 /// Longest block of a dictionary that sets no limit, in bytes.

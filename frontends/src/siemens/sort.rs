@@ -10,14 +10,14 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
 
-use super::letters::letter_for_zero;
 use super::lower::Lower;
-use super::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
+use super::text::letters::letter_for_zero;
+use super::text::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
 use crate::Batch;
-use crate::word::Source;
-use crate::word::block::{Digits, Value as Number, Word};
-use crate::word::number::unit_of;
-use crate::word::sort::{RANK_MOTION, rank};
+use crate::common::Source;
+use crate::common::number::unit_of;
+use crate::common::sort::{RANK_MOTION, rank};
+use crate::common::words::{Digits, Value as Number, Word};
 
 /// A G or M code, or a word of several letters with a meaning.
 #[derive(Clone, Copy, Debug)]

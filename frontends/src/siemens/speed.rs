@@ -10,8 +10,8 @@ use ncc_ir::program::Op;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
+use crate::common::Source;
+use crate::common::known::Know;
 
 /// The option that says whose coordinate is the radius of a surface speed.
 const AXIS: &str = "surface_axis";

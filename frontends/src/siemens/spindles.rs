@@ -13,12 +13,12 @@ use ncc_ir::source::Span;
 
 use super::lower::Lower;
 use super::sort::Words;
-use super::tree::{Address, Called, Expr, Place, Value};
+use super::text::tree::{Address, Called, Expr, Place, Value};
 use crate::Batch;
-use crate::word::Source;
-use crate::word::facts::Know;
-use crate::word::lower::decode;
-use crate::word::number::unit_of;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+use crate::common::text::decode;
 
 /// The machine data that say which spindle the words without a number mean.
 const MASTER: &str = "MD 20090 SPIND_DEF_MASTER_SPIND";

@@ -13,11 +13,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::Value;
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::Value;
 
 impl Lower {
     /// Reads a block as a tool change by hand, if it is one.

@@ -12,12 +12,13 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
 
-use super::Source;
-use super::block::{Value, Word};
-use super::facts::{InForce, Know};
+use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Value, Word};
 
 impl Lower {
     /// A work offset of several that share a code.

@@ -15,11 +15,12 @@ use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Block, Value, Word};
 use super::lower::Lower;
 use super::sort::{Code, Words};
+use super::text::block::Block;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word};
 
 /// Tools as the text names them, from block to block.
 #[derive(Clone, Copy, Debug, Default)]

@@ -12,12 +12,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, FrameSlot, Op, Point, Slot};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::Value;
 use super::facts::{InForce, Kept};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
+use crate::common::Source;
+use crate::common::words::Value;
 
 const ROTATION: u8 = 1;
 const SCALE: u8 = 2;

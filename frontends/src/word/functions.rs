@@ -10,13 +10,17 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Block, Value, Word};
-use super::facts::{InForce, Kept, Know};
+use super::facts::{InForce, Kept};
 use super::frames::is_frame;
 use super::lower::Lower;
-use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words};
+use super::sort::{Code, Words};
+use super::text::block::Block;
 use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::setting::setting;
+use crate::common::sort::{RANK_AFTER, RANK_MOTION, RANK_WORDS};
+use crate::common::words::{Value, Word};
 
 impl Lower {
     /// The block's functions, in the order in which they happen.
@@ -501,23 +505,4 @@ impl Lower {
         }
         self.push(span, Op::UseToolLengthOffset(entry), out);
     }
-}
-
-/// The statement of a code that sets a fact and has no words of its own; `None` of any other.
-pub(crate) fn setting(meaning: Meaning) -> Option<Op> {
-    Some(match meaning {
-        Meaning::UseLengthUnits(units) => Op::UseLengthUnits(units),
-        Meaning::SelectPlane(plane) => Op::SelectPlane(plane),
-        Meaning::SetDistanceMode(distance) => Op::SetDistanceMode(distance),
-        Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
-        Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
-        Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
-        Meaning::UseOriginShift(on) => Op::UseOriginShift(on),
-        Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
-        Meaning::SetSpindleMode(mode) => Op::SetSpindleMode(mode),
-        Meaning::SetMotionControlMode(mode) => Op::SetMotionControlMode(Box::new(PathControl::plain(mode))),
-        Meaning::Advise(kind, Some(value)) => Op::Advise(Box::new(Advice { kind, value, amount: None })),
-        Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
-        _ => return None,
-    })
 }

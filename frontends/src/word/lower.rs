@@ -18,20 +18,22 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::Block;
-use super::compensation::RadiusNamed;
-use super::computing::Computes;
+use super::cycles::no_cycle::CyclesMet;
 use super::doubts::ToolsNamed;
-use super::facts::{InForce, Know, State};
-use super::fast::Fast;
-use super::no_cycle::CyclesMet;
+use super::facts::{InForce, State};
+use super::macros::computing::Computes;
+use super::moves::compensation::RadiusNamed;
+use super::moves::unmoved::Unmoved;
 use super::number::{CentreSeen, UnitsSeen};
-use super::o_words::ODecides;
+use super::o_code::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
-use super::tilt::Met;
-use super::unmoved::Unmoved;
+use super::text::block::Block;
 use crate::begins::Inherited;
+use crate::common::Source;
+use crate::common::fast::Fast;
+use crate::common::known::Know;
+use crate::common::switched::Met;
+use crate::common::text::decode;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -173,13 +175,13 @@ pub(super) struct Now {
     /// Whether a code has no statement of its own.
     pub(super) silent: bool,
     /// The word of a corner that stands behind a comma, until a move takes it.
-    pub(super) corner: Option<super::block::Word>,
+    pub(super) corner: Option<crate::common::words::Word>,
     /// Radius and angle of the block's end point by signs of their own, until a move takes them.
-    pub(super) polar: [Option<super::block::Word>; 2],
+    pub(super) polar: [Option<crate::common::words::Word>; 2],
     /// A program's name, until a call takes it.
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
-    pub(super) again: Option<super::again::Asked>,
+    pub(super) again: Option<crate::word::calls::again::Asked>,
     /// From what the words of a return count, where that is not the distance in force after the block.
     pub(super) return_distance: Option<Distance>,
 }
@@ -480,7 +482,7 @@ impl Lower {
             self.moved(&op);
         }
         if let Op::Call(call) = &op {
-            let name = (*call.name != *super::call_of::COMPUTED).then(|| call.name.clone());
+            let name = (*call.name != *crate::word::calls::call_of::COMPUTED).then(|| call.name.clone());
             self.inherited.call(name, self.state.unsaid());
         }
         let now = &mut self.now;
@@ -607,13 +609,5 @@ fn join_comments(comments: &[Span], src: Source) -> Option<Text> {
             let texts: Vec<Text> = many.iter().map(|&c| decode(src.bytes(c))).collect();
             Some(texts.join(" ").into())
         }
-    }
-}
-
-/// Text as UTF-8, else Latin-1; blanks at the end are no part of it.
-pub(crate) fn decode(bytes: &[u8]) -> Text {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.trim_end().into(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect::<String>().trim_end().into(),
     }
 }

@@ -1,9 +1,9 @@
 //! The reader of the word-address family: all dialects of letters and numbers, told apart by their
 //! dictionaries alone.
 //!
-//! A plain move goes from the line straight to its statement (`fast`). Any other line goes to the
-//! recogniser of plain blocks (`plain`), and to the lexer (`token`) and the grammar
-//! (`block.lalrpop`) if it is not one. Its words are then lowered to statements (`lower` and its
+//! A plain move goes from the line straight to its statement (`common::fast`). Any other line goes to the
+//! recogniser of plain blocks (`common::plain`), and to the lexer (`text::token`) and the grammar
+//! (`text/block.lalrpop`) if it is not one. Its words are then lowered to statements (`lower` and its
 //! neighbours) with what the program has said so far (`facts`).
 //!
 //! Reading never fails: a block with a fault gives diagnostics and no statements, and reading goes
@@ -11,90 +11,39 @@
 //!
 //! Not here: what execution makes of a program, and everything about files.
 
-mod again;
-pub(crate) mod block;
 mod by_hand;
-mod call;
-mod call_of;
-pub(crate) mod code_of;
-mod compensation;
-mod computing;
-mod control_set;
-mod corner;
-mod cycle;
+mod calls;
+mod cycles;
 mod data;
-mod detour;
 mod doubts;
-mod entry_of;
-pub(crate) mod facts;
-pub(crate) mod fast;
-mod formula;
-mod frame;
+mod facts;
+mod fast;
 mod frames;
-pub(crate) mod functions;
-mod jump_of;
-pub(crate) mod jumps;
-mod local_call;
-pub(crate) mod lower;
-mod machine;
-mod macro_call;
-mod modal_call;
-mod motion;
-mod no_cycle;
-pub(crate) mod number;
-mod o_alone;
-mod o_subs;
-mod o_words;
-mod output;
-mod parameters;
-mod pattern;
-pub(crate) mod pieces;
-pub(crate) mod plain;
-mod polar;
-mod probe;
-mod return_to;
-mod shown;
-pub(crate) mod sort;
+mod functions;
+mod lower;
+mod macros;
+mod moves;
+mod number;
+mod o_code;
+mod sort;
 mod spindle;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]
 mod tests;
-mod thread;
-pub(crate) mod tilt;
-pub(crate) mod token;
-mod unmoved;
-pub(crate) mod words;
+pub(crate) mod text;
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
 
-use crate::{Batch, refused};
-use block::Block;
-use frame::Frame;
 use lower::Lower;
-use o_alone::Alone;
-use token::Signs;
+use o_code::o_alone::Alone;
+use text::block::Block;
+use text::frame::Frame;
+use text::token::Signs;
 
-/// A piece of the source with the place of its first byte.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Source<'s> {
-    pub(crate) text: &'s [u8],
-    pub(crate) base: u32,
-}
-
-impl Source<'_> {
-    /// The bytes of a span.
-    pub(crate) fn bytes(&self, span: Span) -> &[u8] {
-        let at = |place: u32| place.saturating_sub(self.base) as usize;
-        self.text.get(at(span.start)..at(span.end)).unwrap_or_default()
-    }
-
-    /// The text of a span.
-    pub(crate) fn text(&self, span: Span) -> Box<str> {
-        String::from_utf8_lossy(self.bytes(span)).into()
-    }
-}
+use crate::common::Source;
+use crate::{Batch, refused};
 
 /// Longest block of a dialect that sets no limit, in bytes.
 const LONGEST: usize = 60_000;
@@ -111,7 +60,7 @@ pub struct Reader {
     /// Longest line of which the characters need not be counted.
     uncounted: usize,
     /// Text of blocks that may be executed again.
-    kept: again::Kept,
+    kept: calls::again::Kept,
 }
 
 impl Reader {
@@ -133,7 +82,7 @@ impl Reader {
             },
             lower: Lower::new(settings, assume),
             block: Block::default(),
-            kept: again::Kept::default(),
+            kept: calls::again::Kept::default(),
         }
     }
 
@@ -195,7 +144,7 @@ impl Reader {
                 continue;
             }
             if open
-                && let Some(end) = plain::read(text, at, base, &mut self.block.words)
+                && let Some(end) = crate::common::plain::read(text, at, base, &mut self.block.words)
                 && end - at <= self.uncounted
             {
                 self.plain_block(at, end, src, out);
@@ -275,7 +224,7 @@ impl Reader {
         loop {
             self.block.clear();
             let next = match self.flow(line) {
-                None => block::parse(line, from, base, self.signs, &mut self.block),
+                None => text::block::parse(line, from, base, self.signs, &mut self.block),
                 Some((start, end)) => {
                     let what = String::from_utf8_lossy(&line[start..end]).into();
                     let span = Span::new(base + start as u32, base + end as u32);

@@ -12,10 +12,11 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
 
-use super::Source;
-use super::block::{Digits, Value, Word};
-use super::facts::Know;
 use super::lower::Lower;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::number::{spell, unit_of};
+use crate::common::words::{Digits, Value, Word};
 use crate::{BareNumber, Batch};
 
 /// Units of a program as far as they matter to numbers whose unit is open.
@@ -298,29 +299,4 @@ impl Lower {
             }
         }
     }
-}
-
-/// The unit of a length.
-pub(crate) fn unit_of(units: Fact<Units>) -> Unit {
-    match units {
-        Fact::Known(Units::Mm) => Unit::Mm,
-        Fact::Known(Units::Inch) => Unit::Inch,
-        Fact::Entry => Unit::Entry,
-    }
-}
-
-/// A literal for people.
-pub(crate) fn spell(num: Num) -> String {
-    let sign = if num.mantissa < 0 { "-" } else { "" };
-    let digits = format!("{:0width$}", num.mantissa.unsigned_abs(), width = usize::from(num.scale) + 1);
-    let (whole, part) = digits.split_at(digits.len() - usize::from(num.scale));
-    let point = if part.is_empty() { "" } else { "." };
-    let unit = match num.unit {
-        Unit::One | Unit::Entry => "",
-        Unit::Mm => " mm",
-        Unit::Inch => " inch",
-        Unit::Degree => " degrees",
-        Unit::Second => " s",
-    };
-    format!("{sign}{whole}{point}{part}{unit}")
 }

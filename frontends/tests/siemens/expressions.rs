@@ -1,7 +1,7 @@
 //! Expressions: the manual's table of priorities, constants, variables, functions.
 
 use super::*;
-use crate::siemens::tree::{Item, Statement, Value};
+use crate::siemens::text::tree::{Item, Statement, Value};
 
 /// What stands behind `R1=`.
 fn value(text: &str) -> String {

@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::siemens::tree::{Item, Statement};
-use crate::word::plain;
+use crate::common::plain;
+use crate::siemens::text::tree::{Item, Statement};
 
 /// Pieces of lines.
 fn piece() -> impl Strategy<Value = String> {

@@ -10,7 +10,8 @@ mod pitfalls;
 mod show;
 mod statements;
 
-use super::{parse, unit};
+use super::parse;
+use super::text::unit;
 
 /// What a line says, or its fault with the very text that it points at.
 fn read(line: impl AsRef<[u8]>) -> String {

@@ -1,7 +1,7 @@
 //! A short rendering of syntax trees: expressions in full parentheses, names and texts as written.
 
-use super::super::tree::*;
-use crate::word::block::{Digits, Value as Number, Word};
+use crate::common::words::{Digits, Value as Number, Word};
+use crate::siemens::text::tree::*;
 use ncc_ir::source::Span;
 
 /// Renders one block; spans count from `base`.

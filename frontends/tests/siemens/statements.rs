@@ -1,7 +1,7 @@
 //! Every kind of statement.
 
 use super::*;
-use crate::siemens::unit::Line;
+use crate::siemens::text::unit::Line;
 
 #[test]
 fn heads_of_blocks() {

@@ -4,9 +4,10 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::word::block::{self, Block};
-use crate::word::plain;
-use crate::word::token::Signs;
+use crate::common::plain;
+use crate::word::text::block;
+use crate::word::text::block::Block;
+use crate::word::text::token::Signs;
 
 /// Something like a word.
 fn word() -> impl Strategy<Value = String> {

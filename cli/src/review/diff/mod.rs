@@ -2,7 +2,7 @@
 //!
 //! `motion` executes both and holds their events side by side, `text` compares blocks. `tell` puts
 //! what was found into words, which `plain`, `json` and `html` lay out; `git` is the driver for git. Not
-//! here: what counts as the same, and how streams come together again (ncc-review).
+//! here: what counts as the same, and how streams come together again (ncc-diff).
 
 mod edits;
 pub mod git;

@@ -4,12 +4,12 @@
 
 use std::io;
 
+use ncc_diff::change::Collector;
+use ncc_diff::measure::Measure;
+use ncc_diff::record::Batch;
+use ncc_diff::resync::{Rules, Tape, compare};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::num::Nanos;
-use ncc_review::change::Collector;
-use ncc_review::measure::Measure;
-use ncc_review::record::Batch;
-use ncc_review::resync::{Rules, Tape, compare};
 
 use crate::review::feed::{Settings, records};
 use crate::review::stream::{Course, clearances};

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
+use ncc_diff::change::{Change, Group};
+use ncc_diff::record::What;
 use ncc_ir::canon::{AXES, Axis, SpindleMode};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_review::change::{Change, Group};
-use ncc_review::record::What;
 
 use super::motion::Motion;
 use crate::render::source::{Lines, visible};

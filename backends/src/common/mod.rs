@@ -1,0 +1,35 @@
+//! What writers share: the block that is put together, the codes of a dictionary, numbers as a control
+//! writes them, what is in force in the text; and quoted texts of the two text forms.
+//!
+//! ```text
+//! Need { … }, Rank::Feed      block     where a word stands, and whether it fits into the block at hand
+//! 10.5 mm                     number    `10.5`, `10500`: by the dictionary's rules
+//! ```
+//!
+//! Not here: which statement is said how.
+
+pub(crate) mod block;
+pub(crate) mod codes;
+pub(crate) mod comment;
+pub(crate) mod data;
+pub(crate) mod entry;
+pub(crate) mod fault;
+pub(crate) mod force;
+pub(crate) mod number;
+pub(crate) mod quoted;
+pub(crate) mod setting;
+
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::source::Span;
+
+/// Where a piece of the program goes.
+pub(crate) struct Sink<'a> {
+    pub(crate) out: &'a mut Vec<u8>,
+    pub(crate) diags: &'a mut Vec<Diagnostic>,
+}
+
+impl Sink<'_> {
+    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
+        self.diags.push(Diagnostic::new(fault, span));
+    }
+}

@@ -1,0 +1,568 @@
+//! Statements of programs that compute: assignments, decisions, loops, jumps, and calls with arguments.
+//!
+//! Each stands in a block of its own. A block that is jumped to keeps its number; another one gets a number that no
+//! other block has. Loops have the number of their depth.
+//!
+//! Not here: expressions (`formula`), and which structures the target has (`computes`).
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use ncc_dialects::{ANGLE_RANGE, SystemRow};
+use ncc_ir::canon::{Distance, Modes, Units};
+use ncc_ir::computed::call_of::call_of;
+use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computes::LETTERS;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::units::Said;
+use ncc_ir::expr::{Expr, Function, Node, Target, Var};
+use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::formula::{arcs, literal, number_of};
+use super::modal_call::AtMoves;
+use crate::common::Sink;
+use crate::common::block::{Need, Part, Rank};
+use crate::common::fault::{cannot, cannot_compute};
+use crate::word::{HIGHEST_NUMBER, Writer};
+
+/// Most calls by one word.
+const MOST_TIMES: u32 = 9999;
+
+/// What of a program that computes the writer must know before its statements.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Computing {
+    /// Whether the program computes at all: then a call has its caller's variables, or its own.
+    variables: bool,
+    /// Whether a program that computes is written with its structure, here or by whom these words are for.
+    pub(in crate::word) kept: bool,
+    /// Whether lengths count mm wherever the text does not say what they count.
+    pub(in crate::word) metric: bool,
+    /// Parameters of procedures, by name.
+    parameters: BTreeMap<Text, Vec<Var>>,
+    /// Numbers of the blocks of the procedure at hand that are jumped to.
+    numbers: BTreeMap<Text, u32>,
+    /// Loops that are open.
+    open: u8,
+    /// Modes in force where stretches of blocks begin, by the places of their first statements.
+    stands: HashMap<u32, Modes>,
+    /// The distance mode of the program where the stretch at hand begins, if it is known.
+    pub(in crate::word) entry: Option<Distance>,
+    /// The distance mode that the text had before this writer put in another one.
+    pub(in crate::word) replaced: Option<Distance>,
+    /// Whether the distance mode is known of the program as a whole, and not of the text where it is read.
+    pub(in crate::word) unsaid: bool,
+    /// Values of the control's own, by their numbers.
+    pub(in crate::word) own: Vec<(u32, Expr)>,
+}
+
+impl Writer {
+    /// Takes what calls need to know of the procedures of a program that computes.
+    pub(crate) fn know(&mut self, program: &Program, stands: HashMap<u32, Modes>) {
+        let procedures = program.procedures.as_slice();
+        self.is_kept(stands);
+        self.computing.variables = true;
+        self.computing.metric = Said::by(program).only() == Some(Units::Mm);
+        self.computing.own = self
+            .dialect
+            .named_values()
+            .filter(|(row, ..)| row.counts(&self.settings))
+            .map(|(_, number, value)| (number, value))
+            .collect();
+        let known = procedures.iter().skip(1).map(|p| (p.name.clone(), p.parameters.clone()));
+        self.computing.parameters = known.collect();
+        if self.has_o_words() {
+            self.know_o_words(procedures);
+        }
+    }
+
+    /// A program that computes is written with its structure.
+    pub(crate) fn is_kept(&mut self, stands: HashMap<u32, Modes>) {
+        self.computing.kept = true;
+        self.know_modes(stands);
+    }
+
+    /// Takes which modes are in force where stretches of blocks begin.
+    pub(crate) fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
+        self.computing.stands = stands;
+    }
+
+    /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
+    /// source: the text states each that the source does, and no other.
+    pub(crate) fn stand(&mut self, stmt: &Stmt) {
+        let known = self.computing.stands.get(&stmt.span.start);
+        self.computing.entry = known.and_then(|known| known.distance);
+        let Some(known) = known else { return };
+        if self.preamble.is_some() {
+            return;
+        }
+        self.forgotten = false;
+        self.computing.unsaid = self.force.distance.is_none();
+        self.force.distance = self.force.distance.or(known.distance);
+        self.force.plane = self.force.plane.or(known.plane);
+        self.force.units = self.force.units.or(known.units);
+        self.tracker.modes.work_offset = self.tracker.modes.work_offset.or(known.work_offset);
+    }
+
+    /// Whether the program computes when it runs.
+    pub(in crate::word) fn computes(&self) -> bool {
+        self.computing.variables
+    }
+
+    /// Parameters of a procedure.
+    pub(in crate::word) fn parameters_of(&self, name: &str) -> Vec<Var> {
+        self.computing.parameters.get(name).cloned().unwrap_or_default()
+    }
+
+    /// Gives every block of a procedure that is jumped to its number.
+    pub(crate) fn number_jumps(&mut self, body: &[Stmt]) {
+        self.computing.numbers.clear();
+        self.computing.open = 0;
+        let mut found = Jumps::default();
+        found.body(body);
+        let mut next = found.numbers.last().copied().filter(|n| *n < 90_000).unwrap_or(0) / 10 * 10;
+        let mut seen = BTreeSet::new();
+        for (name, own) in &found.labels {
+            if !found.targets.contains(name) || self.computing.numbers.contains_key(name) {
+                continue;
+            }
+            let own = own.filter(|n| *n > 0 && seen.insert(*n));
+            let number = own.unwrap_or_else(|| {
+                let free = (next / 10 + 1..).map(|n| n * 10).chain(1..=HIGHEST_NUMBER);
+                let free = free.filter(|n| *n <= HIGHEST_NUMBER).find(|n| !found.numbers.contains(n));
+                next = free.unwrap_or(HIGHEST_NUMBER);
+                found.numbers.insert(next);
+                next
+            });
+            self.computing.numbers.insert(name.clone(), number);
+        }
+    }
+
+    /// Whether blocks are jumped to.
+    pub(crate) fn has_jumps(&self) -> bool {
+        !self.computing.numbers.is_empty()
+    }
+
+    /// Whether a block of this label is jumped to.
+    pub(crate) fn is_jumped_to(&self, op: &Op) -> bool {
+        matches!(op, Op::Label(name) if self.computing.numbers.contains_key(name))
+    }
+
+    /// A block that is jumped to begins; any other label is none.
+    pub(crate) fn jump_label(&mut self, name: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let Some(number) = self.computing.numbers.get(name).copied() else { return Ok(()) };
+        self.flow(stmt, sink)?;
+        self.labels.waiting = Some(number);
+        self.block.number = None;
+        self.forget();
+        Ok(())
+    }
+
+    /// The label of a block without words.
+    pub(crate) fn number_alone(&mut self, sink: &mut Sink) {
+        if !self.has_jumps() || !self.block.is_empty() {
+            return;
+        }
+        if let (Some(number), Some(letter)) = (self.labels.waiting.take(), self.dialect.block.number) {
+            self.block.text(Part::Label, &format!("{}{number}", char::from(letter as u8)));
+            self.block.number = None;
+            self.labels.bare = true;
+            self.flush(false, sink);
+            self.labels.bare = false;
+        }
+    }
+
+    /// What comes next goes another way: what waits is written, and the block is one of its own.
+    pub(in crate::word) fn flow(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        self.call_up_now(stmt, sink)?;
+        if !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        Ok(())
+    }
+
+    pub(in crate::word) fn statement_alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.has_o_words() && !self.block.is_empty() {
+            // It counts when what stands before it has been read.
+            self.flush(false, sink);
+            self.split = true;
+        }
+        self.admit(&Need::new(Rank::Alone), sink)?;
+        self.block.text(Part::Tail, text);
+        Ok(())
+    }
+
+    /// What is taken for granted of the machine where an expression stands.
+    pub(in crate::word) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
+        if arcs(e) {
+            self.rely(ANGLE_RANGE, span, sink);
+        }
+        let dialect = self.dialect;
+        if !e.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
+            return;
+        }
+        let told = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
+        for row in dialect.system.iter().filter(told) {
+            if !row.counts(&self.settings) {
+                continue;
+            }
+            let asks = |part: &Node| match part {
+                Node::Var(Var::System(system)) => row.says().any(|(says, _)| says == *system),
+                _ => false,
+            };
+            if !e.has(&asks) {
+                continue;
+            }
+            if !row.option.is_empty() {
+                self.rely(&row.option, span, sink);
+            }
+            if !row.assumes.is_empty() && !self.told_options.contains(&&*row.assumes) {
+                self.told_options.push(&row.assumes);
+                let parameter = row.assumes.as_str().into();
+                sink.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+            }
+        }
+    }
+
+    /// A value for a variable.
+    pub(crate) fn assign(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        if self.has_o_words()
+            && let Target::Var(var) = to
+            && self.o_result(var, value)?
+        {
+            return Ok(());
+        }
+        let text = self.assignment(to, value, span, sink)?;
+        // What another language sets when its block is over stands behind the block here.
+        if !self.has_o_words() && !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        self.statement_alone(&text, sink)
+    }
+
+    pub(in crate::word) fn assignment(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<String, Fault> {
+        self.spelling(None)?;
+        self.variable_changes(to, span, sink)?;
+        let value = match value {
+            // Where a value is no sum without brackets.
+            Expr::Node(_) if self.has_o_words() => self.behind(value, None, span, sink)?,
+            _ => self.expression(value, span, sink)?,
+        };
+        Ok(self.sets(&self.spelling(None)?.target(to)?, &value))
+    }
+
+    /// A text in which something is set to something.
+    pub(in crate::word) fn sets(&self, to: &str, value: &str) -> String {
+        let blank = if self.dialect.block.blanks { " " } else { "" };
+        format!("{to}{blank}={blank}{value}")
+    }
+
+    /// A variable gets another value: what was said with it is not what the same words would say now. A cycle that
+    /// is computed from it is called up before.
+    fn variable_changes(&mut self, to: &Target, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.held.as_ref().is_some_and(|held| held.reads(to)) {
+            return Ok(());
+        }
+        self.call_up_now(&Stmt::new(span, Op::Blank), sink)?;
+        if self.held.as_ref().is_some_and(|held| !held.in_text) {
+            return Err(cannot_compute("an assignment between a cycle with variables and its first hole"));
+        }
+        self.held = None;
+        Ok(())
+    }
+
+    /// A jump.
+    pub(crate) fn go_to(&mut self, label: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        self.spelling(None)?;
+        self.flow(stmt, sink)?;
+        let text = self.jump(label)?;
+        self.statement_alone(&text, sink)
+    }
+
+    /// The number of the block that a label is.
+    pub(in crate::word) fn number_of_label(&self, label: &str) -> Option<u32> {
+        self.computing.numbers.get(label).copied()
+    }
+
+    fn jump(&self, label: &str) -> Result<String, Fault> {
+        let number = self.computing.numbers.get(label);
+        let number = number.ok_or_else(|| Fault::LabelUnknown { name: label.into() })?;
+        let blank = if self.dialect.block.blanks { " " } else { "" };
+        Ok(format!("GOTO{blank}{number}"))
+    }
+
+    /// A decision or a loop.
+    pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        self.spelling(None)?;
+        let computes = self.dialect.caps.computes.as_ref();
+        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+            return self.entry_of_number(&entry, stmt, sink);
+        }
+        if self.has_o_words() {
+            return self.o_structure(control, stmt, sink);
+        }
+        if let Some(call) = call_of(control).filter(|_| self.dialect.program.macro_b) {
+            return self.computed_call(&call, stmt, sink);
+        }
+        if let Some(code) = code_of(control).filter(|_| self.dialect.program.macro_b) {
+            return self.code_of_variable(&code, stmt, sink);
+        }
+        match control {
+            Control::If { condition, then, otherwise } => match (&then[..], &otherwise[..]) {
+                ([Stmt { op: Op::Message(text), .. }, stop], []) => {
+                    self.stop_text = Some(text.clone());
+                    self.decide(condition, stop, stmt, sink)
+                }
+                ([only], []) => self.decide(condition, only, stmt, sink),
+                _ => Err(cannot_compute("a decision about more than one statement")),
+            },
+            Control::While { condition, body } => self.turns(Some(condition), body, stmt, sink),
+            Control::Loop { body } => self.turns(None, body, stmt, sink),
+            Control::Repeat { .. } => Err(cannot_compute("a loop that is repeated a number of times")),
+            Control::For { .. } => Err(cannot_compute("a loop that counts")),
+            Control::Until { .. } => Err(cannot_compute("a loop that is tested behind each turn")),
+        }
+    }
+
+    fn decide(&mut self, condition: &Expr, then: &Stmt, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let blank = if self.dialect.block.blanks { " " } else { "" };
+        let text = if let Op::Goto(label) = &then.op {
+            self.flow(stmt, sink)?;
+            let condition = self.condition(condition, stmt.span, sink)?;
+            format!("IF{blank}{condition}{blank}{}", self.jump(label)?)
+        } else if let Op::Assign(to, value) = &then.op {
+            let condition = self.condition(condition, stmt.span, sink)?;
+            let assignment = self.assignment(to, value, stmt.span, sink)?;
+            format!("IF{blank}{condition}{blank}THEN{blank}{assignment}")
+        } else if let Op::Alarm(alarm) = &then.op {
+            let condition = self.condition(condition, stmt.span, sink)?;
+            format!("IF{blank}{condition}{blank}THEN{blank}{}", self.alarm_setting(alarm, stmt, sink)?)
+        } else if let Op::ProgramStop = &then.op {
+            let condition = self.condition(condition, stmt.span, sink)?;
+            format!("IF{blank}{condition}{blank}THEN{blank}{}", self.stop_setting(stmt, sink)?)
+        } else {
+            return Err(cannot_compute("a decision about another statement"));
+        };
+        self.statement_alone(&text, sink)
+    }
+
+    fn turns(
+        &mut self,
+        condition: Option<&Expr>,
+        body: &[Stmt],
+        stmt: &Stmt,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        if self.computing.open >= self.dialect.formula.loops {
+            return Err(cannot_compute("a loop within so many others"));
+        }
+        if stmt.skip.is_some() {
+            return Err(cannot_compute("a loop that can be skipped"));
+        }
+        self.flow(stmt, sink)?;
+        let number = self.computing.open + 1;
+        let blank = if self.dialect.block.blanks { " " } else { "" };
+        let head = match condition {
+            Some(condition) => {
+                format!("WHILE{blank}{}{blank}DO{number}", self.condition(condition, stmt.span, sink)?)
+            }
+            None => format!("DO{number}"),
+        };
+        self.statement_alone(&head, sink)?;
+        let split = self.split;
+        self.flush(false, sink);
+        self.block_written(sink.out);
+        // Its beginning is come to from its end as well.
+        self.forget();
+        self.computing.open = number;
+        self.body(body, sink);
+        self.computing.open = number - 1;
+        self.open_block(&Stmt::new(stmt.span, Op::Blank));
+        self.split = split;
+        if let Some(trace) = &mut self.trace {
+            trace.enter(std::slice::from_ref(stmt));
+        }
+        self.forget();
+        self.statement_alone(&format!("END{number}"), sink)
+    }
+
+    /// Whether a program is called that has variables of its own.
+    pub(crate) fn calls_with_variables(&self, call: &Call) -> bool {
+        !call.arguments.is_empty() || self.computing.variables && !call.shared
+    }
+
+    /// A call with variables of its own.
+    pub(crate) fn macro_call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        self.spelling(None)?;
+        if self.has_o_words() {
+            return self.o_call(call, stmt, sink);
+        }
+        let words = match self.at_moves {
+            AtMoves::Begins => self.codes.calls_at_moves.map(|(call, _)| call),
+            AtMoves::None | AtMoves::Within => self.codes.macro_call,
+        };
+        let words = words.ok_or_else(|| cannot_compute("a call with arguments"))?;
+        self.flow(stmt, sink)?;
+        let number = self.program_number(&call.name)?;
+        let least = if self.dialect.program.padded_calls { self.dialect.program.number_digits } else { 0 };
+        let arguments = self.arguments(call, stmt.span, sink)?;
+        let mut need = Need::new(Rank::Alone).code(Some(words.code)).letter(words.number);
+        let count = match (call.times, words.count) {
+            (0, _) => return Err(cannot("a call that is made no times")),
+            (1, _) => None,
+            (2..=MOST_TIMES, Some(letter)) if self.dialect.formula.arguments_again => Some(letter),
+            (2..=MOST_TIMES, _) => {
+                return Err(cannot_compute("a call with variables of its own that is made several times"));
+            }
+            _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
+        };
+        if let Some(letter) = count {
+            need = need.letter(letter);
+        }
+        self.admit(&need, sink)?;
+        self.block.code(Part::Tail, &words.code);
+        self.block.digits(Part::Tail, words.number, &format!("{number:0least$}"));
+        if let Some(letter) = count {
+            self.block.digits(Part::Tail, letter, &call.times.to_string());
+        }
+        for (letter, text) in arguments {
+            self.block.digits(Part::Tail, letter, &text);
+        }
+        self.forget();
+        Ok(())
+    }
+
+    /// The words of a call's arguments.
+    fn arguments(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<Vec<(u8, String)>, Fault> {
+        let mut given: BTreeMap<u32, &Expr> = BTreeMap::new();
+        let parameters = self.computing.parameters.get(&call.name).cloned().unwrap_or_default();
+        if parameters.len() < call.arguments.len() {
+            return Err(cannot_compute("a call with more arguments than the program has parameters"));
+        }
+        for (parameter, value) in parameters.iter().zip(&call.arguments) {
+            let vacant = matches!(value, Expr::Node(node) if **node == Node::Vacant);
+            let number = number_of(parameter, &self.dialect.formula.prefix)?
+                .parse()
+                .ok()
+                .filter(|_| matches!(parameter, Var::Local(_)));
+            let number = number.ok_or_else(|| cannot_compute("an argument that is no local variable"))?;
+            if !vacant {
+                given.insert(number, value);
+            }
+        }
+        let places: Vec<u32> = given.keys().copied().collect();
+        let letters = letters_for(&places)
+            .ok_or_else(|| cannot_compute("arguments of which the variables have no letters"))?;
+        letters
+            .into_iter()
+            .filter_map(|(letter, place)| Some((letter, *given.get(&place)?)))
+            .map(|(letter, value)| Ok((letter, self.argument(letter, value, span, sink)?)))
+            .collect()
+    }
+
+    /// An argument; with a point, it counts what it says, whatever its letter.
+    fn argument(&mut self, letter: u8, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        let Some(n) = value.literal() else {
+            if rounds(value) {
+                // To which digits it would round there, no manual says.
+                return Err(cannot_compute("a rounding in an argument"));
+            }
+            return self.behind(value, None, span, sink);
+        };
+        let mut text = String::new();
+        literal(n, n.point || !b"DHMST".contains(&letter), &mut text);
+        Ok(text)
+    }
+}
+
+/// Whether anything in an expression is rounded to a whole number.
+fn rounds(e: &Expr) -> bool {
+    e.has(&|node| matches!(node, Node::Call(Function::Round, _)))
+}
+
+/// The letters by which these variables are given values, in their order: a letter each, or with `I`, `J` and `K` in
+/// further sets; `None` if there are no such letters.
+fn letters_for(places: &[u32]) -> Option<Vec<(u8, u32)>> {
+    let own = |place: &u32| LETTERS.iter().find(|(_, own)| own == place).copied();
+    if places.iter().all(|place| own(place).is_some()) {
+        return Some(LETTERS.iter().filter(|(_, own)| places.contains(own)).copied().collect());
+    }
+    let mut found: Vec<(u8, u32)> = Vec::new();
+    for place in places {
+        found.push(match place {
+            1..=3 => own(place)?,
+            4..=33 => (b"IJK"[(*place as usize - 4) % 3], *place),
+            _ => return None,
+        });
+    }
+    // Read again, they must be the same variables.
+    let (mut set, mut last) = (0, None);
+    let same = found.iter().filter(|(_, place)| *place > 3).all(|(letter, place)| {
+        let within = u32::from(letter - b'I');
+        set += u32::from(last.is_some_and(|last| within <= last));
+        last = Some(within);
+        4 + 3 * set + within == *place
+    });
+    same.then_some(found)
+}
+
+/// Labels and jumps of a procedure.
+#[derive(Default)]
+struct Jumps {
+    /// Labels, each with the number of its block.
+    labels: Vec<(Text, Option<u32>)>,
+    targets: BTreeSet<Text>,
+    numbers: BTreeSet<u32>,
+}
+
+impl Jumps {
+    fn body(&mut self, body: &[Stmt]) {
+        for stmt in body {
+            self.numbers.extend(stmt.number);
+            if let Op::Label(name) = &stmt.op {
+                self.labels.push((name.clone(), stmt.number));
+            } else if let Op::Goto(name) = &stmt.op {
+                self.targets.insert(name.clone());
+            } else if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| self.body(body));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spelt(places: &[u32]) -> Option<String> {
+        let letters = letters_for(places)?;
+        Some(letters.into_iter().map(|(letter, _)| char::from(letter)).collect())
+    }
+
+    #[test]
+    fn arguments_have_the_letters_that_name_their_variables() {
+        assert_eq!(spelt(&[1, 4, 5, 24]).as_deref(), Some("AIJX"));
+        assert_eq!(spelt(&[26, 24, 18]).as_deref(), Some("RXZ"));
+        // Tenth and twelfth have no letter of their own: further sets of I, J and K.
+        assert_eq!(spelt(&[4, 7, 10]).as_deref(), Some("III"));
+        assert_eq!(spelt(&[1, 4, 5, 6, 7, 8, 9, 10]).as_deref(), Some("AIJKIJKI"));
+        // A set of which nothing is given cannot be passed over.
+        assert_eq!(spelt(&[4, 10]), None);
+        assert_eq!(spelt(&[10]), None);
+        assert_eq!(spelt(&[4, 8, 12]), None);
+        assert_eq!(spelt(&[34]), None);
+    }
+}

@@ -1,0 +1,21 @@
+//! Programs that compute: expressions, assignments, jumps, calls, and computed numbers in the place of
+//! codes and of entries in tables; in the macro language and in O words.
+//!
+//! ```text
+//! #1 = #2 * 2                an assignment
+//! o100 if [#1 GT 5]          a branch in O words
+//! ```
+//!
+//! Not here: passes that bring expressions within the target's capabilities.
+
+pub(super) mod alarm;
+pub(super) mod call_of;
+pub(super) mod code_of;
+pub(super) mod comparisons;
+pub(super) mod computing;
+pub(super) mod entry_of;
+pub(super) mod formula;
+pub(super) mod jump_of;
+pub(super) mod modal_call;
+pub(super) mod o_words;
+pub(super) mod output;

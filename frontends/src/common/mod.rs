@@ -1,0 +1,43 @@
+//! What readers share: words with exact numbers, the recognisers of plain blocks, what is known of the
+//! facts that a program sets; and quoted texts of the two text forms.
+//!
+//! ```text
+//! N10 G1 X10.5 F200      plain::read    four words with their digits and spans
+//! X10.5 Y3.              fast::line     the statement of a plain move, without words
+//! ```
+//!
+//! Not here: what a word means, and what one reader alone needs.
+
+pub(crate) mod fast;
+pub(crate) mod known;
+pub(crate) mod number;
+pub(crate) mod plain;
+pub(crate) mod quoted;
+pub(crate) mod saved;
+pub(crate) mod setting;
+pub(crate) mod sort;
+pub(crate) mod switched;
+pub(crate) mod text;
+pub(crate) mod words;
+
+use ncc_ir::source::Span;
+
+/// A piece of the source with the place of its first byte.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source<'s> {
+    pub(crate) text: &'s [u8],
+    pub(crate) base: u32,
+}
+
+impl Source<'_> {
+    /// The bytes of a span.
+    pub(crate) fn bytes(&self, span: Span) -> &[u8] {
+        let at = |place: u32| place.saturating_sub(self.base) as usize;
+        self.text.get(at(span.start)..at(span.end)).unwrap_or_default()
+    }
+
+    /// The text of a span.
+    pub(crate) fn text(&self, span: Span) -> Box<str> {
+        String::from_utf8_lossy(self.bytes(span)).into()
+    }
+}

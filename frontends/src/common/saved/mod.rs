@@ -1,0 +1,49 @@
+//! Codes in force that a text saves in variables and puts back, and numbers that it computes codes and
+//! places of tables from.
+//!
+//! Each reader notes them as it goes (`rows`, `numbers`, `back`). [`ways`] looks at the whole text when it
+//! has been read.
+
+pub(crate) mod ways;
+
+use ncc_dialects::SystemRow;
+use ncc_ir::expr::Var;
+use ncc_ir::program::Text;
+use ncc_ir::source::Span;
+
+/// What the text saves of the modes in force and puts back.
+#[derive(Debug, Default)]
+pub(crate) struct Saved {
+    /// Variables that are given the code in force of a group, each in its program, in the order of the text.
+    pub(crate) rows: Vec<(Text, Var, &'static SystemRow)>,
+    /// Variables that are given a whole number, in the same way.
+    pub(crate) numbers: Vec<(Text, Var, i64)>,
+    /// Where such codes are, and what tells the group.
+    pub(crate) back: Vec<(Span, Told)>,
+}
+
+/// What tells which group a code is of.
+#[derive(Debug)]
+pub(crate) enum Told {
+    /// A variable that has the code in force of it.
+    Saved(&'static SystemRow, Var),
+    /// The range of its number.
+    Range,
+    /// The same, of a place of a table, by what that is called.
+    Entry(&'static str),
+}
+
+impl Saved {
+    /// A place of a table has a computed number.
+    pub(crate) fn entry(&mut self, at: Span, name: &'static str) {
+        self.back.push((at, Told::Entry(name)));
+    }
+}
+
+/// Why a code is refused.
+pub(crate) const ANY: &str = "code whose number may be anything: on a way to it, its variable has neither that of a code in force \
+                   nor one of a known range";
+
+/// Why a place of a table is refused.
+pub(crate) const ANY_PLACE: &str = "place of the control's tables whose number may be anything: on a way to it, its variable has \
+                              no whole number of a known range in which all are places of one table";

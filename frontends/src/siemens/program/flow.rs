@@ -1,0 +1,666 @@
+//! Lowering of the program's own flow: loops, alternatives, labels and jumps.
+//!
+//! A structure is one statement when it has ended; what stands in it is taken out of the statements before. Where
+//! a program can come to from elsewhere (a label that a jump names, the head and the end of a loop) every fact is lost,
+//! as behind a call. Behind an alternative, what both branches leave is known.
+//!
+//! A jump looks for its label in its direction, the nearest first, and labels may stand there twice. Which label is
+//! meant is found when the program has been read; labels of one name then get names of their own.
+//!
+//! Refused by name: jumps that are computed, jumps to the start of a subprogram, structures that a switch may skip,
+//! and a modal cycle or rounding that differs between a jump and its label.
+
+use std::collections::HashSet;
+
+use ncc_ir::computed::code_of::code_of;
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::{Binary, Expr, Function, Node, Target as Into, Var};
+use ncc_ir::program::{Control, Op, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::labels::{InPlace, Label, Pending, marked, resolve};
+use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::siemens::facts::{Motion, State};
+use crate::siemens::lower::{Head, Lower};
+use crate::siemens::text::tree;
+use crate::siemens::text::tree::{Expr as Tree, Jump, Place, Target};
+use crate::siemens::text::unit;
+use crate::siemens::values::formula::{Kind, Typed, may_be_one, reads, several};
+
+/// What the text says of jumps, and the structures that are open.
+#[derive(Debug, Default)]
+pub(in crate::siemens) struct Flow {
+    /// Labels and block numbers that jumps name.
+    targets: HashSet<Text>,
+    labels: Vec<Label>,
+    jumps: Vec<Pending>,
+    open: Vec<Open>,
+    /// The first feed within them that relied on what feeds count in where a loop begins.
+    pub(in crate::siemens) relied: Option<Span>,
+    /// Whether what was read last cannot be left towards what follows.
+    pub(in crate::siemens) over: bool,
+    /// Whether an end of the program has been read.
+    pub(in crate::siemens) has_end: bool,
+}
+
+/// A structure that has not ended.
+#[derive(Debug)]
+struct Open {
+    what: What,
+    /// Where its body begins in the statements.
+    at: usize,
+    head: Span,
+    number: Option<u32>,
+    comment: Option<Box<Text>>,
+    found: InPlace,
+    /// Whether feeds count in the units in force, where it begins: so they do in every turn, if they do at its end.
+    scaled: Know<bool>,
+}
+
+#[derive(Debug)]
+enum What {
+    /// With its other branch, what was read before that, and what is in force where the branches begin or ended.
+    If {
+        condition: Expr,
+        then: Option<Vec<Stmt>>,
+        other: Box<(State, Option<Motion>)>,
+    },
+    Loop,
+    While(Expr),
+    For {
+        variable: Var,
+        from: Expr,
+        to: Expr,
+    },
+    Until,
+}
+
+/// Which structure a word closes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::siemens) enum Closes {
+    If,
+    Loop,
+    While,
+    For,
+    Until,
+}
+
+impl Closes {
+    const fn word(self) -> &'static str {
+        match self {
+            Closes::If => "ENDIF",
+            Closes::Loop => "ENDLOOP",
+            Closes::While => "ENDWHILE",
+            Closes::For => "ENDFOR",
+            Closes::Until => "UNTIL",
+        }
+    }
+}
+
+impl What {
+    const fn closed_by(&self) -> Closes {
+        match self {
+            What::If { .. } => Closes::If,
+            What::Loop => Closes::Loop,
+            What::While(_) => Closes::While,
+            What::For { .. } => Closes::For,
+            What::Until => Closes::Until,
+        }
+    }
+
+    const fn word(&self) -> &'static str {
+        match self {
+            What::If { .. } => "IF",
+            What::Loop => "LOOP",
+            What::While(_) => "WHILE",
+            What::For { .. } => "FOR",
+            What::Until => "REPEAT",
+        }
+    }
+}
+
+/// The name by which jumps know a block number.
+fn numbered(number: u32) -> Text {
+    format!("N{number}").into()
+}
+
+/// Looks for what jumps of a text name, by the bytes alone.
+fn named(text: &[u8], targets: &mut HashSet<Text>) {
+    for at in memchr::memchr2_iter(b'G', b'g', text) {
+        let Some(rest) = text.get(at + 1..).filter(|rest| rest.len() > 3) else { continue };
+        if !rest[..3].eq_ignore_ascii_case(b"OTO") {
+            continue;
+        }
+        let rest = &rest[3..];
+        let rest = match rest.first().map(u8::to_ascii_uppercase) {
+            Some(b'F' | b'B' | b'C') => &rest[1..],
+            _ => rest,
+        };
+        let blanks = rest.iter().take_while(|b| matches!(b, b' ' | b'\t' | b'"' | b'&')).count();
+        let rest = &rest[blanks..];
+        let word = |text: &[u8]| -> String {
+            let end = text.iter().position(|b| !(b.is_ascii_alphanumeric() || *b == b'_'));
+            String::from_utf8_lossy(&text[..end.unwrap_or(text.len())]).to_ascii_uppercase()
+        };
+        let name = match rest.first() {
+            Some(b':') => word(&rest[1..]).parse().ok().map(numbered),
+            _ => {
+                let name = word(rest);
+                match name.strip_prefix('N').map(str::parse) {
+                    Some(Ok(number)) => Some(numbered(number)),
+                    _ => Some(name.into()),
+                }
+            }
+        };
+        targets.extend(name.filter(|name| !name.is_empty()));
+    }
+}
+
+impl Lower {
+    /// Looks through text that is to be read for where its jumps go.
+    pub(in crate::siemens) fn look_ahead(&mut self, text: &[u8], out: &mut Batch) {
+        let before = self.flow.targets.len();
+        named(text, &mut self.flow.targets);
+        if self.flow.targets.len() != before {
+            out.whole = true;
+            self.refresh();
+        }
+    }
+
+    /// Whether blocks may stand behind the end of the program that are executed.
+    pub(in crate::siemens) fn goes_on(&self) -> bool {
+        !self.flow.targets.is_empty() || !self.flow.open.is_empty()
+    }
+
+    /// Whether a block number may be gone to.
+    pub(in crate::siemens) fn has_targets(&self) -> bool {
+        !self.flow.targets.is_empty()
+    }
+
+    fn in_place(&self) -> InPlace {
+        InPlace { cycle: self.state.cycle.clone(), rounding: self.rounding }
+    }
+
+    /// Facts that no block has said are those of the program's begin: from here on that could not be seen.
+    fn settle(&mut self, at: Span, out: &mut Batch) {
+        if !self.assume || self.sub.is_some() {
+            return;
+        }
+        self.units(at, out);
+        if self.called {
+            // Of all else it has what its caller has in force.
+            return;
+        }
+        self.distance(at, out);
+        self.plane(at, out);
+        self.rely_on_frames(true, at, out);
+        self.rely_on_feed_mode(at, out);
+        let _ = self.motion(at, out);
+    }
+
+    /// Control may come here from elsewhere.
+    fn lose(&mut self, at: Span, src: Source, out: &mut Batch) {
+        self.no_idle_tap(at, src, out);
+        self.no_stale_offset(at, out);
+        self.settle(at, out);
+        self.leave_motion_before(at, out);
+        self.motion_goes_on(&[self.state.motion], out);
+        let cycle = std::mem::take(&mut self.state.cycle);
+        self.state = State::lost(cycle);
+        self.stand.forget();
+        self.again.use_all();
+        self.forget_texts();
+        // Behind a cycle, what was in force before it is still not known where it was not told.
+        self.cycled &= self.moved.is_none();
+        self.moved = None;
+    }
+
+    /// A block that a jump names, by its number or its label.
+    pub(in crate::siemens) fn arrive(
+        &mut self,
+        name: Option<&str>,
+        number: Option<u32>,
+        at: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let number = number.map(numbered).filter(|number| self.flow.targets.contains(number));
+        let named = name.filter(|name| self.flow.targets.contains(*name)).map(Text::from);
+        if number.is_none() && named.is_none() {
+            if let Some(name) = name {
+                self.flow.labels.push(Label { name: name.into(), at: at.start, found: None });
+            }
+            return;
+        }
+        self.lose(at, src, out);
+        self.flow.over = false;
+        out.whole = true;
+        let found = self.in_place();
+        if let Some(name) = number {
+            let start = self.now.span.start;
+            self.flow.labels.push(Label { name: name.clone(), at: start, found: Some(found.clone()) });
+            self.push(Span::new(start, start), Op::Label(name), out);
+        }
+        if let Some(name) = name {
+            let found = named.is_some().then_some(found);
+            self.flow.labels.push(Label { name: name.into(), at: at.start, found });
+        }
+    }
+
+    /// The jumps of a block, in their order.
+    pub(in crate::siemens) fn jumps(&mut self, jumps: &[Jump], src: Source, out: &mut Batch) {
+        for jump in jumps {
+            out.whole = true;
+            let Some(op) = self.jump(jump, src, out) else { continue };
+            match &jump.condition {
+                None => {
+                    self.flow.over |= !self.skipped() && self.flow.open.is_empty();
+                    self.push(jump.span, op, out);
+                }
+                Some(condition) => {
+                    let Some(condition) = self.condition(condition, src, out) else { continue };
+                    let (place, typed) =
+                        (self.exprs.len(), Typed { expr: condition.clone(), kind: Kind::Bool });
+                    self.exprs.insert(place, typed);
+                    let then = vec![Stmt::new(jump.span, op)];
+                    let control = Control::If { condition, then, otherwise: Vec::new() };
+                    self.push(jump.span, Op::Control(Box::new(control)), out);
+                }
+            }
+        }
+        if !jumps.is_empty() {
+            self.no_word_reads_what_is_set(src, out);
+        }
+    }
+
+    /// A jump without its condition; its label is found at the end.
+    fn jump(&mut self, jump: &Jump, src: Source, out: &mut Batch) -> Option<Op> {
+        let name: Text = match &jump.target {
+            None if self.sub.is_some() || self.unit == Some(unit::Kind::Sub) => {
+                self.not_supported("GOTOS", "jump to the start of a subprogram", jump.span, out);
+                return None;
+            }
+            None => {
+                self.idle_tap_ends("GOTOS", jump.span, out);
+                self.leave_motion(jump.span, out);
+                self.flow.has_end = true;
+                return Some(Op::BeginAgain);
+            }
+            Some(Target::Number(number)) => numbered(number.value),
+            Some(Target::Named(Tree::Place(Place { address: tree::Address::Name(name), index, .. })))
+                if index.is_empty()
+                    && !self.variables.contains_key(&*src.text(*name).to_ascii_uppercase()) =>
+            {
+                src.text(*name).to_ascii_uppercase().into()
+            }
+            Some(Target::Named(Tree::Text(span))) => {
+                crate::siemens::values::texts::unquoted(src.bytes(*span)).to_ascii_uppercase().into()
+            }
+            Some(Target::Named(other)) => {
+                let span = other.span();
+                self.not_supported(&src.text(span), "jump that is computed", span, out);
+                return None;
+            }
+        };
+        self.texts_may_be_passed_over();
+        self.no_idle_tap(jump.span, src, out);
+        self.no_stale_offset(jump.span, out);
+        self.leave_motion(jump.span, out);
+        let (direction, span, found) = (jump.direction, jump.span, self.in_place());
+        let mark = marked(&name, span);
+        self.flow.jumps.push(Pending { name, direction, span, found });
+        Some(Op::Goto(mark))
+    }
+
+    /// `CASE value OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C`
+    pub(in crate::siemens) fn case(
+        &mut self,
+        value: &Tree,
+        branches: &[(Tree, Jump)],
+        default: Option<&Jump>,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        out.whole = true;
+        let Some(value) = self.formula(value, src, out) else { return };
+        let mut otherwise = match default {
+            None => Vec::new(),
+            Some(jump) => match self.jump(jump, src, out) {
+                Some(op) => vec![Stmt::new(jump.span, op)],
+                None => return,
+            },
+        };
+        for (constant, jump) in branches.iter().rev() {
+            let Some(constant) = self.formula(constant, src, out) else { return };
+            let Some(op) = self.jump(jump, src, out) else { return };
+            let condition = if value.kind == Kind::Real {
+                let near = Num { mantissa: 1, scale: 12, point: true, unit: Unit::One };
+                let arguments = vec![value.expr.clone(), constant.expr, Expr::Num(near)];
+                Expr::Node(Box::new(Node::Call(Function::NearRatio, arguments)))
+            } else {
+                Expr::binary(Binary::Equal, value.expr.clone(), constant.expr)
+            };
+            let then = vec![Stmt::new(jump.span, op)];
+            let control = Control::If { condition, then, otherwise };
+            otherwise = vec![Stmt::new(span, Op::Control(Box::new(control)))];
+        }
+        self.flow.over |= default.is_some() && !self.skipped() && self.flow.open.is_empty();
+        for stmt in otherwise {
+            self.push(span, stmt.op, out);
+        }
+    }
+
+    /// A structure begins: its head has been read.
+    fn open(&mut self, what: What, head: &Head, src: Source, out: &mut Batch) {
+        out.whole = true;
+        self.now.heading = true;
+        if self.skipped() {
+            self.not_supported(what.word(), "structure whose head can be skipped", head.span, out);
+        }
+        let most = self.settings.dialect.formula.loops;
+        if self.flow.open.len() >= most.into() {
+            self.not_supported(what.word(), &format!("structure within {most} others"), head.span, out);
+        }
+        let scaled = self.state.scaled;
+        if !matches!(what, What::If { .. }) {
+            self.lose(head.span, src, out);
+            self.state.scaled = scaled;
+        } else {
+            self.no_idle_tap(head.span, src, out);
+            self.no_stale_offset(head.span, out);
+            self.again.use_all();
+            self.forget_texts();
+        }
+        let number = self.take_number();
+        let comment = self.take_comment(head, src);
+        let at = self.target(out).len();
+        let found = self.in_place();
+        self.flow.open.push(Open { what, at, head: head.span, number, comment, found, scaled });
+    }
+
+    /// `IF condition`
+    pub(in crate::siemens) fn begin_if(
+        &mut self,
+        condition: &Tree,
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        // A head that is refused has its end all the same.
+        let condition = self.condition(condition, src, out).unwrap_or(Expr::int(0));
+        self.settle(head.span, out);
+        self.leave_motion_before(head.span, out);
+        let other = Box::new((self.state.clone(), self.moved));
+        self.open(What::If { condition, then: None, other }, head, src, out);
+    }
+
+    /// `LOOP`
+    pub(in crate::siemens) fn begin_loop(&mut self, head: &Head, src: Source, out: &mut Batch) {
+        self.open(What::Loop, head, src, out);
+    }
+
+    /// `REPEAT`
+    pub(in crate::siemens) fn begin_repeat(&mut self, head: &Head, src: Source, out: &mut Batch) {
+        self.open(What::Until, head, src, out);
+    }
+
+    /// `WHILE condition`
+    pub(in crate::siemens) fn begin_while(
+        &mut self,
+        condition: &Tree,
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let condition = self.condition(condition, src, out).unwrap_or(Expr::int(0));
+        self.open(What::While(condition), head, src, out);
+    }
+
+    /// `FOR counter = from TO to`
+    pub(in crate::siemens) fn begin_for(
+        &mut self,
+        counter: &Place,
+        from: &Tree,
+        to: &Tree,
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let from = self.formula(from, src, out);
+        let to = self.formula(to, src, out);
+        let variable = match self.read(counter, src, out).map(|typed| typed.expr) {
+            Some(Expr::Node(node)) => match *node {
+                Node::Var(variable) => Some(variable),
+                _ => None,
+            },
+            _ => None,
+        };
+        if let Some(variable) = &variable {
+            self.is_free_to_change(&variable.name(), counter.span, out);
+        }
+        let what = match (variable, from, to) {
+            (Some(variable), Some(from), Some(to)) => {
+                // A counter that is no whole number is rounded to one.
+                let from = self.whole_number(from, head.span, out);
+                What::For { variable, from, to: to.expr }
+            }
+            _ => {
+                if !self.now.failed {
+                    self.not_supported("FOR", "counter that is no plain variable", counter.span, out);
+                }
+                What::Loop
+            }
+        };
+        self.open(what, head, src, out);
+        if let Some(open) = self.flow.open.last_mut()
+            && self.now.failed
+        {
+            // Its end is that of a FOR in any case.
+            let nothing = Var::Local("".into());
+            open.what = What::For { variable: nothing, from: Expr::int(0), to: Expr::int(0) };
+        }
+    }
+
+    /// `ELSE`
+    pub(in crate::siemens) fn otherwise(&mut self, head: &Head, src: Source, out: &mut Batch) {
+        self.now.heading = true;
+        self.no_stale_offset(head.span, out);
+        self.no_idle_tap(head.span, src, out);
+        self.leave_motion_before(head.span, out);
+        let at = self.flow.open.last().map(|open| open.at);
+        let stmts = self.target(out);
+        let body = at.map(|at| stmts.split_off(at.min(stmts.len()))).unwrap_or_default();
+        let skipped = self.skipped();
+        let state = (self.state.clone(), self.moved);
+        let found = self.in_place();
+        match self.flow.open.last_mut() {
+            Some(Open { what: What::If { then: then @ None, other, .. }, found: before, .. }) if !skipped => {
+                *then = Some(body);
+                let begin = std::mem::replace(&mut **other, state);
+                let same = *before == found;
+                self.now.mark = self.now.mark.min(at.unwrap_or_default());
+                (self.state, self.moved) = begin;
+                self.forget_texts();
+                if !same {
+                    let name = "modal cycle or rounding that a branch leaves in force or ends";
+                    self.not_supported("ELSE", name, head.span, out);
+                }
+            }
+            _ => {
+                self.target(out).extend(body);
+                self.not_supported("ELSE", "branch of no IF", head.span, out);
+            }
+        }
+    }
+
+    /// The end of a structure; `condition` is that of `UNTIL`.
+    pub(in crate::siemens) fn close_structure(
+        &mut self,
+        closes: Closes,
+        condition: Option<&Tree>,
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        self.now.heading = true;
+        let fits = self.flow.open.last().is_some_and(|open| open.what.closed_by() == closes);
+        if !fits {
+            let name = match self.flow.open.last() {
+                Some(open) => format!("end within {}", open.what.word()),
+                None => "end of nothing".to_owned(),
+            };
+            return self.not_supported(closes.word(), &name, head.span, out);
+        }
+        if self.skipped() {
+            self.not_supported(closes.word(), "structure whose end can be skipped", head.span, out);
+        }
+        self.no_idle_tap(head.span, src, out);
+        let stale = std::mem::take(&mut self.stale);
+        self.leave_motion_before(head.span, out);
+        let condition = condition.map(|c| self.condition(c, src, out).unwrap_or(Expr::int(1)));
+        let Some(Open { what, at, head: begin, number, comment, found, scaled }) = self.flow.open.pop()
+        else {
+            return;
+        };
+        if found != self.in_place() {
+            let name = "modal cycle or rounding that a loop or branch leaves in force or ends";
+            self.not_supported(closes.word(), name, head.span, out);
+        }
+        let stmts = self.target(out);
+        let mut body = stmts.split_off(at.min(stmts.len()));
+        if let Some(first) = body.first_mut() {
+            first.joined = false;
+        }
+        // Tables that a loop only fills count behind it, when the offset in force is called up again.
+        let fills = stale && matches!(what, What::While(_) | What::For { .. }) && only_sets(&body);
+        self.stale = stale && !fills;
+        self.no_stale_offset(head.span, out);
+        self.now.mark = self.now.mark.min(at);
+        self.forget_texts();
+        let is_if = matches!(what, What::If { .. });
+        let control = match what {
+            What::If { condition, then, other } => {
+                let (state, moved) = *other;
+                let one = self.state.motion;
+                self.state.join(&state);
+                if self.state.motion.value().is_none() {
+                    self.motion_goes_on(&[one, state.motion], out);
+                }
+                if self.moved != moved {
+                    self.moved = None;
+                }
+                self.stand.forget();
+                match then {
+                    None => Control::If { condition, then: body, otherwise: Vec::new() },
+                    Some(mut then) => {
+                        if let Some(first) = then.first_mut() {
+                            first.joined = false;
+                        }
+                        Control::If { condition, then, otherwise: body }
+                    }
+                }
+            }
+            What::Loop => Control::Loop { body },
+            What::While(condition) => Control::While { condition, body },
+            What::Until => Control::Until { body, condition: condition.unwrap_or(Expr::int(1)) },
+            What::For { variable, from, to } => {
+                if may_change(&body, &to) {
+                    let name = "loop whose end value may change while it runs";
+                    self.not_supported("FOR", name, begin, out);
+                }
+                Control::For { variable, from, to, step: Expr::int(1), body }
+            }
+        };
+        let mut stmt = Stmt::new(begin, Op::Control(Box::new(control)));
+        stmt.number = number;
+        stmt.comment = comment;
+        self.target(out).push(stmt);
+        self.apart();
+        if !is_if {
+            let same = self.state.scaled == scaled;
+            self.lose(head.span, src, out);
+            if same {
+                self.state.scaled = scaled;
+            } else if let Some(at) = self.flow.relied.filter(|at| at.start > begin.start)
+                && self.only_scaled.rely(Some(false), at) != Some(scaled.value().unwrap_or(false))
+            {
+                self.fault(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out);
+            }
+        }
+        self.stale |= fills;
+        if self.flow.open.is_empty() {
+            self.flow.relied = None;
+        }
+    }
+
+    /// A feed relies on what feeds count in here.
+    pub(in crate::siemens) fn rely_on_scaled(&mut self, at: Span) {
+        if !self.flow.open.is_empty() {
+            self.flow.relied.get_or_insert(at);
+        }
+    }
+
+    /// The end of a program: jumps find their labels.
+    pub(in crate::siemens) fn end_flow(&mut self, out: &mut Batch) -> bool {
+        let Flow { labels, jumps, open, .. } = &mut self.flow;
+        let (labels, jumps, open) = (std::mem::take(labels), std::mem::take(jumps), std::mem::take(open));
+        (self.flow.over, self.flow.has_end) = (false, false);
+        let mut faulty = false;
+        for open in open {
+            let (code, name) = (open.what.word().into(), "structure without its end".into());
+            out.report(Fault::NotSupported { code, name }, open.head);
+            faulty = true;
+        }
+        if jumps.is_empty() {
+            return faulty;
+        }
+        let mut told = Vec::new();
+        let refused = resolve(&labels, &jumps, self.target(out), &mut told);
+        out.diagnostics.extend(told);
+        faulty | refused
+    }
+}
+
+/// Whether statements may give another value to what an expression reads.
+fn may_change(body: &[Stmt], expr: &Expr) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Assign(to, _) => {
+            let name = match to {
+                Into::Var(var) => var.name(),
+                Into::Element(element) => several(&element.of),
+            };
+            let mut found = false;
+            reads(expr, &mut |read| found |= may_be_one(read, &name));
+            found
+        }
+        // R parameters are any program's.
+        Op::Call(_) => {
+            let mut found = false;
+            reads(expr, &mut |read| found |= may_be_one(read, crate::siemens::values::formula::ANY_R));
+            found
+        }
+        Op::Control(control) => {
+            let mut found = false;
+            if let Control::For { variable, .. } = &**control {
+                reads(expr, &mut |read| found |= may_be_one(read, &variable.name()));
+            }
+            found || control.bodies().any(|body| may_change(body, expr))
+        }
+        _ => false,
+    })
+}
+
+/// Whether a body does nothing but set variables and values of tables.
+fn only_sets(body: &[Stmt]) -> bool {
+    body.iter().all(|stmt| match &stmt.op {
+        Op::Assign(..) | Op::SetData(_) | Op::Comment(_) | Op::Blank => true,
+        Op::Control(control) => code_of(control).is_some_and(|code| {
+            code.codes.iter().all(|(_, op)| matches!(op, Op::SetData(_) | Op::Assign(..)))
+        }),
+        _ => false,
+    })
+}

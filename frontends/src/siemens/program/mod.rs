@@ -1,0 +1,14 @@
+//! The flow of a program: structures, labels, jumps, calls and their parameters.
+//!
+//! ```text
+//! WHILE R1<5                 a loop
+//! POCKET(10,R2)              a call with two arguments
+//! ```
+//!
+//! Not here: expressions (`values`).
+
+pub(super) mod again;
+pub(super) mod calls;
+pub(super) mod flow;
+pub(super) mod labels;
+pub(super) mod parameters;

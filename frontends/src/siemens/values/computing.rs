@@ -1,0 +1,644 @@
+//! Lowering of variables: their definitions, assignments, and words whose value is computed.
+//!
+//! A name is a variable of the program that defines it. R parameters are the control's, seen by all programs. What a
+//! definition sets it sets each time the program runs. Words of a block are read when its assignments are made or
+//! not: a word that reads what its own block sets is refused.
+//!
+//! Not here: what is known of texts (`texts`).
+//!
+//! Refused by name: variables that the program does not define, those of definition files, characters, axes and frames
+//! as variables.
+
+use std::collections::HashMap;
+
+use ncc_dialects::Quantity;
+use ncc_ir::canon::Fact;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::{Element, Expr, Many, Node, Numbers, Scope, Target, Var};
+use ncc_ir::program::arguments;
+use ncc_ir::program::{Declare, Op, Type as Stored};
+use ncc_ir::source::Span;
+
+use super::formula::{ANY_R, Kind, Typed, is_r, may_be_one, r_parameter, reads};
+use super::texts::TextOf;
+use crate::Batch;
+use crate::common::Source;
+use crate::common::number::unit_of;
+use crate::common::words::Digits;
+use crate::siemens::facts::InForce;
+use crate::siemens::lower::Lower;
+use crate::siemens::sort::Given;
+use crate::siemens::text::tree::{Address, Declaration, Declared, Expr as Tree, Place, TypeName, Value};
+
+/// The last R parameter; how many a machine has is a matter of its data.
+pub(in crate::siemens) const LAST_R: u32 = 999;
+
+/// Most dimensions of an array.
+const DIMENSIONS: usize = 3;
+
+/// Most elements of an array.
+const MOST_ELEMENTS: u32 = 100_000;
+
+/// A variable of the program that is being read.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::siemens) struct Variable {
+    pub(in crate::siemens) kind: Kind,
+    /// Of an array.
+    pub(in crate::siemens) sizes: Box<[u32]>,
+    /// The text of a text variable.
+    pub(in crate::siemens) text: TextOf,
+    /// Of a parameter that is the caller's variable itself, where it is kept; of an array, what the names of its elements
+    /// begin with.
+    pub(in crate::siemens) reference: Option<Var>,
+}
+
+/// Variables of the program that is being read, by their names in capitals.
+pub(in crate::siemens) type Variables = HashMap<Box<str>, Variable>;
+
+/// A place in memory.
+struct Kept {
+    target: Target,
+    kind: Kind,
+    /// The name by which it is known what it may be.
+    name: Box<str>,
+}
+
+/// The values of `SET(…)`, `(…)` or `REP(…)`.
+#[derive(Clone, Copy)]
+struct Several<'t> {
+    values: &'t [Option<Tree>],
+    /// `REP`: the first one everywhere.
+    all: bool,
+}
+
+pub(in crate::siemens) fn array(name: &str, sizes: &[u32]) -> Many {
+    Many::Array { var: Var::Local(name.into()), sizes: sizes.into() }
+}
+
+impl Lower {
+    /// The value of a variable.
+    pub(in crate::siemens) fn read(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Typed> {
+        if let Address::System(name) = place.address {
+            let text = src.text(place.span).to_ascii_uppercase();
+            return match Lower::named_constant(&text) {
+                Some(constant) => Some(constant),
+                None => self.of_control(name, place, src, out),
+            };
+        }
+        if let Address::Name(name) = place.address
+            && place.index.is_empty()
+            && let Some(constant) = Lower::named_constant(&src.text(name).to_ascii_uppercase())
+        {
+            return Some(constant);
+        }
+        let kept = self.kept(place, src, out)?;
+        if kept.kind == Kind::Text {
+            self.not_supported(&src.text(place.span), "text as a value", place.span, out);
+            return None;
+        }
+        let node = match kept.target {
+            Target::Var(var) => Node::Var(var),
+            Target::Element(element) => Node::Element(*element),
+        };
+        Some(Typed::new(node, kept.kind))
+    }
+
+    /// Where a variable is kept; `None` if there is none (reported).
+    fn kept(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Kept> {
+        let span = place.span;
+        if is_r(place) {
+            return self.r(place, src, out);
+        }
+        let Address::Name(name) = place.address else {
+            self.not_supported(&src.text(span), "axis or address as a value", span, out);
+            return None;
+        };
+        let name = src.text(name).to_ascii_uppercase();
+        let elsewhere = self.settings.dialect.program.variables_elsewhere.iter();
+        if !self.variables.contains_key(&*name)
+            && place.index.is_empty()
+            && elsewhere.clone().any(|row| row.name == name && !row.left_out)
+        {
+            // One of a definition file: all programs see it. It is taken for REAL.
+            let target = Target::Var(Var::Common(name.as_str().into()));
+            return Some(Kept { target, kind: Kind::Real, name: name.into() });
+        }
+        let Some(variable) = self.variables.get(&*name).cloned() else {
+            let refuse = self.settings.dialect.name_row(&name).and_then(|row| row.refuse.as_deref());
+            let what = refuse.unwrap_or("variable that the program does not define");
+            self.not_supported(&name, what, span, out);
+            return None;
+        };
+        if variable.sizes.len() != place.index.len() {
+            let what = "array with another number of indices than it is defined with";
+            self.not_supported(&src.text(span), what, span, out);
+            return None;
+        }
+        let target = if let Some(var) = variable.reference {
+            let var = self.of_caller(var, &variable.sizes, place, src, out)?;
+            let name = var.name().into();
+            return Some(Kept { target: Target::Var(var), kind: variable.kind, name });
+        } else if variable.sizes.is_empty() {
+            Target::Var(Var::Local(name.as_str().into()))
+        } else {
+            let at = self.indices(place, src, out)?;
+            Target::Element(Box::new(Element { of: array(&name, &variable.sizes), at }))
+        };
+        Some(Kept { target, kind: variable.kind, name: name.into() })
+    }
+
+    /// `R5`, `R[R1+2]`
+    fn r(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Kept> {
+        let span = place.span;
+        let number = match (place.extension, &place.index[..]) {
+            (Some(number), []) => number,
+            (None, [Some(_)]) => {
+                let at = self.indices(place, src, out)?;
+                match at.first().and_then(Expr::literal).map(|n| n.whole().and_then(|n| n.try_into().ok())) {
+                    Some(Some(number)) => number,
+                    Some(None) => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
+                    None => {
+                        let all = Numbers { scope: Scope::Common, prefix: "R".into(), from: 0, to: LAST_R };
+                        let of = Many::Numbered(Box::new([all]));
+                        let target = Target::Element(Box::new(Element { of, at }));
+                        return Some(Kept { target, kind: Kind::Real, name: ANY_R.into() });
+                    }
+                }
+            }
+            _ => {
+                self.not_supported(&src.text(span), "R parameter without its number", span, out);
+                return None;
+            }
+        };
+        if number > LAST_R {
+            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+        }
+        let var = r_parameter(number);
+        let name = var.name().into();
+        Some(Kept { target: Target::Var(var), kind: Kind::Real, name })
+    }
+
+    pub(in crate::siemens) fn indices(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Vec<Expr>> {
+        let mut at = Vec::with_capacity(place.index.len());
+        for index in &place.index {
+            let Some(index) = index else {
+                self.not_supported(&src.text(place.span), "index that is left out", place.span, out);
+                return None;
+            };
+            let value = self.formula(index, src, out)?;
+            at.push(self.whole_number(value, index.span(), out));
+        }
+        Some(at)
+    }
+
+    /// Whether a place with `=` is a variable: an R parameter, or a name that is defined or that nothing else has.
+    pub(in crate::siemens) fn is_variable(&self, place: &Place, src: Source) -> bool {
+        match place.address {
+            Address::Letter(letter) => letter == b'R',
+            Address::System(_) => false,
+            Address::Name(name) => {
+                let name = src.text(name).to_ascii_uppercase();
+                self.variables.contains_key(&*name) || self.settings.dialect.name_row(&name).is_none()
+            }
+        }
+    }
+
+    /// An assignment.
+    pub(in crate::siemens) fn assign(
+        &mut self,
+        place: &Place,
+        value: &Value,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        if self.is_left_out(place, src, out) {
+            return;
+        }
+        out.whole = true;
+        if let Some(name) = self.text_variable(place, src) {
+            return self.set_text(&name, value, span, src, out);
+        }
+        if let Some(several) = several_values(value, src) {
+            return self.assign_several(place, several, span, src, out);
+        }
+        let Value::Expr(value) = value else {
+            return self.not_supported(&src.text(span), "value of a variable in another form", span, out);
+        };
+        let value = self.formula(value, src, out);
+        let Some(kept) = self.kept(place, src, out) else {
+            self.now.refused = true;
+            return;
+        };
+        let Some(value) = value else {
+            self.now.refused = true;
+            return;
+        };
+        if let Some(value) = self.converted(value, kept.kind, span, out) {
+            self.put(kept, value, span, out);
+        }
+    }
+
+    /// Whether an assignment is left out, as the user states of a variable that no program defines; reported once.
+    fn is_left_out(&mut self, place: &Place, src: Source, out: &mut Batch) -> bool {
+        let Address::Name(name) = place.address else { return false };
+        let name = src.text(name).to_ascii_uppercase();
+        let elsewhere = &self.settings.dialect.program.variables_elsewhere;
+        let left_out = elsewhere.iter().find(|row| row.name == name).is_some_and(|row| row.left_out);
+        if !left_out || self.variables.contains_key(&*name) {
+            return false;
+        }
+        if self.first_time(&name) {
+            out.report(Fault::CodeLeftOut { code: format!("assignment to {name}").into() }, place.span);
+        }
+        true
+    }
+
+    fn put(&mut self, kept: Kept, value: Expr, span: Span, out: &mut Batch) {
+        if !self.is_free_to_change(&kept.name, span, out) {
+            return;
+        }
+        self.now.set.push(kept.name);
+        self.push(span, Op::Assign(kept.target, value), out);
+    }
+
+    /// Whether a variable is none of those from which is computed what `MCALL` has put in force; else that is
+    /// reported: whether it counts with the new value is open.
+    pub(in crate::siemens) fn is_free_to_change(&mut self, name: &str, span: Span, out: &mut Batch) -> bool {
+        let mut found = false;
+        let mut one = |expr: &Expr| reads(expr, &mut |read| found |= may_be_one(read, name));
+        let refuse = match &self.state.cycle {
+            InForce::Active(cycle) => {
+                let op = &mut Op::StartCycle(cycle.clone());
+                arguments::each(op, &mut |argument, _| {
+                    argument.expr().into_iter().for_each(&mut one);
+                    Ok::<(), std::convert::Infallible>(())
+                })
+                .unwrap_or_else(|never| match never {});
+                "assignment to what the arguments of the modal cycle were computed from"
+            }
+            InForce::Subprogram(after) => {
+                after.given.iter().flatten().for_each(|typed| one(&typed.expr));
+                "assignment to what is handed over after each move"
+            }
+            InForce::None | InForce::Inherited { .. } | InForce::Lost { .. } | InForce::Refused => {
+                return true;
+            }
+        };
+        if found {
+            self.not_supported(name, refuse, span, out);
+        }
+        !found
+    }
+
+    /// `FIELD[0]=SET(1,2,3)`, `FIELD[0]=REP(0)`: from an element on.
+    fn assign_several(&mut self, place: &Place, several: Several, span: Span, src: Source, out: &mut Batch) {
+        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
+            lower.not_supported(&src.text(span), name, span, out);
+        };
+        let Address::Name(name) = place.address else {
+            return refuse(self, "several values for one variable", out);
+        };
+        let name = src.text(name).to_ascii_uppercase();
+        let Some(variable) = self.variables.get(&*name).cloned().filter(|v| !v.sizes.is_empty()) else {
+            return refuse(self, "several values for what is no array", out);
+        };
+        if place.index.len() != variable.sizes.len() {
+            return refuse(self, "array with another number of indices than it is defined with", out);
+        }
+        let Some(at) = self.indices(place, src, out) else { return };
+        let mut first = 0u32;
+        for (at, size) in at.iter().zip(&variable.sizes) {
+            let whole = at.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+            match whole {
+                Some(at) if at < *size => first = first * size + at,
+                Some(_) => return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out),
+                None => return refuse(self, "several values from an element that is computed", out),
+            }
+        }
+        let total: u32 = variable.sizes.iter().product();
+        let Some(values) = self.values(several, variable.kind, total - first, span, src, out) else {
+            return;
+        };
+        for (place, value) in (first..).zip(values) {
+            let Some(value) = value else { continue };
+            let mut rest = place;
+            let mut at: Vec<Expr> = Vec::with_capacity(variable.sizes.len());
+            for size in variable.sizes.iter().rev() {
+                at.push(Expr::int(i64::from(rest % size)));
+                rest /= size;
+            }
+            at.reverse();
+            let target = Target::Element(Box::new(Element { of: array(&name, &variable.sizes), at }));
+            let kept = Kept { target, kind: variable.kind, name: name.as_str().into() };
+            self.put(kept, value, span, out);
+        }
+    }
+
+    /// The values of `SET` or `REP`, no more than there is room for.
+    fn values(
+        &mut self,
+        Several { values, all }: Several,
+        kind: Kind,
+        room: u32,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Vec<Option<Expr>>> {
+        if !all {
+            if values.len() > room as usize {
+                return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+            }
+            let mut found = Vec::with_capacity(values.len());
+            for value in values {
+                found.push(match value {
+                    None => None,
+                    Some(value) => {
+                        let typed = self.formula(value, src, out)?;
+                        self.converted(typed, kind, value.span(), out)
+                    }
+                });
+            }
+            return Some(found);
+        }
+        let (Some(Some(value)), true) = (values.first(), values.len() <= 2) else {
+            self.not_supported(&src.text(span), "REP without its value", span, out);
+            return None;
+        };
+        let typed = self.formula(value, src, out)?;
+        let value = self.converted(typed, kind, value.span(), out)?;
+        let count = match values.get(1) {
+            None | Some(None) => room,
+            Some(Some(Tree::Number(digits, _))) if digits.scale == 0 && !digits.point => {
+                match u32::try_from(digits.mantissa) {
+                    Ok(count) if count <= room => count,
+                    _ => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
+                }
+            }
+            Some(Some(_)) => {
+                self.not_supported(&src.text(span), "REP with a number that is computed", span, out);
+                return None;
+            }
+        };
+        Some(vec![Some(value); count as usize])
+    }
+
+    /// `DEF REAL DEPTH=2.5, FIELD[3]=SET(1,2,3)`
+    pub(in crate::siemens) fn define(
+        &mut self,
+        definition: &Declaration,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        out.whole = true;
+        self.now.heading = true;
+        if let Some(scope) = definition.scope.first() {
+            return self.not_supported(&src.text(*scope), "definition for all programs", *scope, out);
+        }
+        if let Some((attribute, _)) = definition.attributes.first() {
+            return self.not_supported(&src.text(*attribute), "attribute of a variable", *attribute, out);
+        }
+        if self.skipped() {
+            return self.not_supported("DEF", "definition that can be skipped", span, out);
+        }
+        if self.executed {
+            return self.not_supported("DEF", "definition behind blocks that are executed", span, out);
+        }
+        let Some(kind) = self.kind_of(definition.kind.name, span, src, out) else { return };
+        let longest = match definition.kind.size.first() {
+            Some(Some(Tree::Number(digits, _))) if digits.scale == 0 => usize::try_from(digits.mantissa).ok(),
+            _ => None,
+        };
+        for declared in &definition.names {
+            self.define_one(declared, kind, longest, src, out);
+        }
+    }
+
+    /// A type that variables can have here; `None` if it is refused (reported).
+    pub(in crate::siemens) fn kind_of(
+        &mut self,
+        name: TypeName,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Kind> {
+        let refuse = match name {
+            TypeName::Real => return Some(Kind::Real),
+            TypeName::Int => return Some(Kind::Int),
+            TypeName::Bool => return Some(Kind::Bool),
+            TypeName::String => return Some(Kind::Text),
+            TypeName::Char => "character as a variable",
+            TypeName::Axis => "axis as a variable",
+            TypeName::Frame => "frame as a variable",
+        };
+        self.not_supported(&src.text(span), refuse, span, out);
+        None
+    }
+
+    /// The name of a variable that is defined, and the sizes of an array; `None` if it is refused (reported).
+    pub(in crate::siemens) fn new_variable(
+        &mut self,
+        place: &Place,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<(String, Box<[u32]>)> {
+        let span = place.span;
+        let Address::Name(name) = place.address else {
+            self.not_supported(&src.text(span), "name that no variable can have", span, out);
+            return None;
+        };
+        let name = src.text(name).to_ascii_uppercase();
+        let dialect = self.settings.dialect;
+        let taken = if dialect.name_row(&name).is_some() || dialect.call_row(&name).is_some() {
+            Some("word of the language as a variable")
+        } else if self.variables.contains_key(&*name) || Lower::named_constant(&name).is_some() {
+            Some("variable that is defined twice")
+        } else if place.index.len() > DIMENSIONS {
+            Some("array of more than three dimensions")
+        } else {
+            None
+        };
+        if let Some(taken) = taken {
+            self.not_supported(&name, taken, span, out);
+            return None;
+        }
+        let mut sizes = Vec::with_capacity(place.index.len());
+        for size in &place.index {
+            let size = match size {
+                Some(Tree::Number(digits, _)) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
+                _ => None,
+            };
+            match size.filter(|size| (1..=MOST_ELEMENTS).contains(size)) {
+                Some(size) => sizes.push(size),
+                None => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
+            }
+        }
+        let total = sizes.iter().try_fold(1u32, |all, size| all.checked_mul(*size));
+        if total.is_none_or(|total| total > MOST_ELEMENTS) {
+            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+        }
+        Some((name, sizes.into()))
+    }
+
+    /// A variable that is given its value from elsewhere, and the sizes of an array.
+    pub(in crate::siemens) fn new_parameter(
+        &mut self,
+        place: &Place,
+        kind: Kind,
+        by_reference: bool,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<(Var, Box<[u32]>)> {
+        let (name, sizes) = self.new_variable(place, src, out)?;
+        let program = self.sub.as_ref().map_or("", |procedure| &procedure.name);
+        let reference = by_reference.then(|| Var::Common(format!("{program}.{name}").into()));
+        let var = reference.clone().unwrap_or_else(|| Var::Local(name.as_str().into()));
+        let text = TextOf::default();
+        self.variables.insert(name.into(), Variable { kind, sizes: sizes.clone(), text, reference });
+        Some((var, sizes))
+    }
+
+    fn define_one(
+        &mut self,
+        declared: &Declared,
+        kind: Kind,
+        longest: Option<usize>,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let place = &declared.place;
+        let span = place.span;
+        let Some((name, sizes)) = self.new_variable(place, src, out) else { return };
+        let text = if kind == Kind::Text { TextOf::empty(longest) } else { TextOf::default() };
+        let variable = Variable { kind, sizes: sizes.clone(), text, reference: None };
+        if kind == Kind::Text {
+            if !sizes.is_empty() {
+                return self.not_supported(&src.text(span), "array of texts", span, out);
+            }
+            self.variables.insert(name.as_str().into(), variable);
+            if let Some(value) = &declared.initial {
+                self.set_text(&name, value, span, src, out);
+                if let Some(Variable { text, .. }) = self.variables.get_mut(name.as_str()) {
+                    text.first.clone_from(&text.now);
+                }
+            }
+            return;
+        }
+        let total: u32 = sizes.iter().product();
+        let initial = match &declared.initial {
+            None => Some(Vec::new()),
+            Some(value) => match (several_values(value, src), value) {
+                (Some(several), _) if !sizes.is_empty() => self.values(several, kind, total, span, src, out),
+                (None, Value::Expr(value)) if sizes.is_empty() => self
+                    .formula(value, src, out)
+                    .and_then(|typed| self.converted(typed, kind, span, out))
+                    .map(|value| vec![Some(value)]),
+                _ => {
+                    self.not_supported(&src.text(span), "first value in another form", span, out);
+                    None
+                }
+            },
+        };
+        // One whose first value is refused is known all the same.
+        self.variables.insert(name.as_str().into(), variable);
+        let Some(initial) = initial else { return };
+        let declare = Declare { var: Var::Local(name.into()), kind: stored(kind), sizes, initial };
+        self.push(span, Op::Declare(Box::new(declare)), out);
+    }
+
+    /// The value of a word or an argument: written, or to be computed.
+    pub(in crate::siemens) fn given(&mut self, typed: Typed, span: Span) -> Given {
+        let plain = Digits { mantissa: 0, scale: 0, point: false };
+        match typed.expr.literal() {
+            Some(Num { mantissa, scale, point, .. }) => {
+                let digits = Digits { mantissa, scale, point };
+                Given { digits, distance: None, way: None, computed: None, span }
+            }
+            None => {
+                // A line has no room for so many.
+                let place = u16::try_from(self.exprs.len()).unwrap_or(u16::MAX);
+                self.exprs.push(typed);
+                Given { digits: plain, distance: None, way: None, computed: Some(place), span }
+            }
+        }
+    }
+
+    /// A word's value, written or computed; `None` if it is refused (reported).
+    pub(in crate::siemens) fn amount(
+        &mut self,
+        given: Given,
+        quantity: Quantity,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        let Some(place) = given.computed else {
+            return self.number(given, quantity, src, out).map(Expr::Num);
+        };
+        let typed = self.exprs.get(usize::from(place)).cloned()?;
+        out.whole = true;
+        match quantity {
+            Quantity::Length => {
+                self.units(given.span, out);
+            }
+            Quantity::Feed => {
+                // A computed feed counts what lengths count.
+                let feed = self.feed_unit(given.span, out)?;
+                let lengths = self.units(given.span, out);
+                if feed != Unit::Entry && (lengths == Fact::Entry || feed != unit_of(lengths)) {
+                    let name = "computed feed that may count other units than lengths";
+                    self.not_supported(&src.text(given.span), name, given.span, out);
+                    return None;
+                }
+            }
+            Quantity::Integer => return Some(self.whole_number(typed, given.span, out)),
+            Quantity::Angle | Quantity::Seconds | Quantity::Speed | Quantity::Factor => {}
+            Quantity::Milliseconds => {
+                self.not_supported(&src.text(given.span), "computed value of this word", given.span, out);
+                return None;
+            }
+        }
+        Some(typed.expr)
+    }
+
+    /// No word of a block may read what an assignment of the same block sets.
+    pub(in crate::siemens) fn no_word_reads_what_is_set(&mut self, src: Source, out: &mut Batch) {
+        if self.now.set.is_empty() {
+            return;
+        }
+        let set = std::mem::take(&mut self.now.set);
+        let mut found = false;
+        for typed in &self.exprs {
+            reads(&typed.expr, &mut |name| found |= set.iter().any(|set| may_be_one(name, set)));
+        }
+        self.now.set = set;
+        if found {
+            let at = self.now.span;
+            let name = "word that reads a variable which its own block sets";
+            self.not_supported(&src.text(at), name, at, out);
+        }
+    }
+}
+
+/// What a variable of a type holds, of those that are kept.
+pub(in crate::siemens) fn stored(kind: Kind) -> Stored {
+    match kind {
+        Kind::Real => Stored::Real,
+        Kind::Int => Stored::Int,
+        Kind::Bool | Kind::Text => Stored::Bool,
+    }
+}
+
+/// The values of `SET(…)`, `(…)` or `REP(…)`, if they are that.
+fn several_values<'t>(value: &'t Value, src: Source) -> Option<Several<'t>> {
+    match value {
+        Value::List(values) => Some(Several { values, all: false }),
+        Value::Expr(Tree::Call { name, arguments, .. }) => {
+            let name = src.text(*name);
+            let all = name.eq_ignore_ascii_case("REP");
+            (all || name.eq_ignore_ascii_case("SET")).then_some(Several { values: arguments, all })
+        }
+        Value::Expr(_) | Value::Qualified(..) => None,
+    }
+}

@@ -1,0 +1,14 @@
+//! Computed values: variables of the program and of the control, expressions with their types, texts.
+//!
+//! ```text
+//! DEF REAL DEPTH=-5          a variable with its first value
+//! R1=$P_UIFR[1,X,TR]         the X of a work offset
+//! ```
+//!
+//! Not here: jumps and loops (`program`).
+
+pub(super) mod computing;
+pub(super) mod control;
+pub(super) mod entry_of;
+pub(super) mod formula;
+pub(super) mod texts;

@@ -1,0 +1,16 @@
+//! Lowering of calls and returns, and of blocks that run again.
+//!
+//! ```text
+//! M98 P1000 L3               a call of subprogram 1000, repeat count 3
+//! G65 P9010 X5. Z-2.         a macro call with two arguments
+//! ```
+//!
+//! Not here: the language of O words (`o_code`).
+
+pub(super) mod again;
+pub(super) mod call;
+pub(super) mod call_of;
+pub(super) mod local_call;
+pub(super) mod macro_call;
+pub(super) mod modal_call;
+pub(super) mod return_to;

@@ -1,0 +1,335 @@
+//! Lowering of a macro call that comes again behind every block that moves an axis, until it is called off (B-63684EN,
+//! custom macro, modal call): each of them is a call of its own behind the move. Another comes in every block, whose
+//! words are its arguments: each of those blocks is a call.
+//!
+//! The arguments are worth what they are in the block that says them; so they are numbers, or the program's local
+//! variables, which nothing sets until the calls are over.
+//!
+//! Refused by name: one within another, other calls and cycles while it is in force, and ways from where it is in force
+//! to where it is not.
+
+use std::collections::{BTreeSet, HashMap};
+
+use ncc_dialects::Meaning;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Expr, Node, Var};
+use ncc_ir::program::{Call, Op, Stmt, Text};
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::common::Source;
+use crate::common::words::{Value, Word, tenths};
+use crate::word::lower::Lower;
+use crate::word::macros::computing::Computes;
+use crate::word::sort::{Code, Words};
+use crate::word::text::block::Block;
+
+/// Calls that are in force.
+#[derive(Clone, Debug)]
+pub(in crate::word) struct AtMoves {
+    call: Call,
+    /// Which of the text's they are, from 1.
+    which: u32,
+    /// Whether arguments are computed.
+    computed: bool,
+    /// The code by which the words of every block are the arguments of one.
+    by_words: Option<Code>,
+}
+
+/// The option that says whether the block of such a code makes a call itself.
+const OWN_BLOCK: &str = "own_block_call";
+
+/// Which calls are in force where a program can be come to, and where it goes away from; 0 is none.
+#[derive(Debug, Default)]
+pub(in crate::word) struct Reach {
+    /// How many of them the text has had.
+    seen: u32,
+    /// The code that says them.
+    code: Text,
+    /// Blocks with numbers.
+    pub(in crate::word) labels: Vec<(u32, u32)>,
+    /// Jumps; of one without a number it is computed.
+    pub(in crate::word) jumps: Vec<(Option<u32>, u32, Span)>,
+    /// Programs that are called behind moves, and those that have such calls; the main one has no name.
+    called: Vec<(Text, Text, Span)>,
+}
+
+impl Lower {
+    /// Which calls at moves are in force; 0 is none.
+    pub(in crate::word) fn calls_in_force(&self) -> u32 {
+        self.computes.at_moves.as_ref().map_or(0, |calls| calls.which)
+    }
+
+    pub(in crate::word) fn refuse_modal(&mut self, code: &str, name: &str, at: Span, out: &mut Batch) {
+        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, at, out);
+    }
+
+    /// The same, by the code that has said the calls.
+    pub(in crate::word) fn refuse_under(&mut self, name: &str, at: Span, out: &mut Batch) {
+        let code = self.computes.reach.code.clone();
+        self.refuse_modal(&code, name, at, out);
+    }
+
+    /// The block that says the call; it makes none itself.
+    pub(in crate::word) fn begin_calls_at_moves(
+        &mut self,
+        code: &Code,
+        call: Call,
+        block: &Block,
+        out: &mut Batch,
+    ) {
+        let name = if self.computes.at_moves.is_some() {
+            "modal macro call within another"
+        } else if block.skip != 0 {
+            "modal macro call that can be skipped"
+        } else if !call.arguments.iter().all(stays) {
+            "modal call with an argument of shared variables"
+        } else if self.now.failed {
+            return;
+        } else {
+            let what = match code.meaning {
+                Meaning::CallMacroAtBlocks => "MODAL_MACRO_CALL, the words of each block its arguments",
+                _ => "MODAL_MACRO_CALL, its arguments anew each time",
+            };
+            self.assume_row(code.row, what, code.span, out);
+            self.now.silent = true;
+            self.computes.reach.seen += 1;
+            self.computes.reach.code = code.row.code.as_str().into();
+            let own = self.sub.as_ref().map(|program| program.name.clone()).unwrap_or_default();
+            self.computes.reach.called.push((own, call.name.clone(), code.span));
+            let computed = call.arguments.iter().any(|value| value.literal().is_none() && !is_vacant(value));
+            let which = self.computes.reach.seen;
+            self.computes.at_moves = Some(AtMoves { call, which, computed, by_words: None });
+            return;
+        };
+        self.refuse_modal(&code.row.code, name, code.span, out);
+    }
+
+    /// The block behind which every block is a call, and is one itself where the control has it so.
+    pub(in crate::word) fn begin_calls_at_blocks(
+        &mut self,
+        code: &Code,
+        call: Call,
+        block: &Block,
+        out: &mut Batch,
+    ) {
+        let own = Call { arguments: Vec::new(), ..call.clone() };
+        self.begin_calls_at_moves(code, own, block, out);
+        let Some(calls) = self.computes.at_moves.as_mut().filter(|_| !self.now.failed) else { return };
+        calls.by_words = Some(*code);
+        if self.option(OWN_BLOCK, code.span, out) == "calls" {
+            self.now.silent = false;
+            self.leave_motion(None, out);
+            self.push(block.span, Op::Call(Box::new(call)), out);
+            self.lose(block.span, out);
+        }
+    }
+
+    /// The code of the calls of which a block is one by its words.
+    pub(in crate::word) fn by_words(&mut self, block: &Block, src: Source, out: &mut Batch) -> Option<Code> {
+        let code = self.computes.at_moves.as_ref()?.by_words?;
+        if block.statement.is_some() || block.decision.is_some() {
+            self.refuse_under("statement where words are arguments", block.span, out);
+            return None;
+        }
+        let number = self.settings.dialect.block.number.map_or(0, |c| c as u8);
+        let words = || block.words.iter().filter(|word| word.letter != number);
+        let ends = |word: &&Word| {
+            let Value::Number(digits) = word.value else { return false };
+            let row = tenths(digits).and_then(|number| self.settings.dialect.code_row(word.letter, number));
+            row.is_some_and(|row| row.means == Some(Meaning::EndCallsAtMoves))
+        };
+        if words().any(|word| ends(&word)) {
+            // One that moves an axis is refused as such.
+            let axis = words().any(|word| b"XYZABC".contains(&word.letter));
+            if words().count() > 1 && !axis {
+                self.refuse_under("end of the calls in a block with other words", block.span, out);
+            }
+            return None;
+        }
+        words().next()?;
+        // Of a function no source of this control says that it is an argument, and not what it always is.
+        if let Some(other) = words().find(|word| b"GMSTPLO".contains(&word.letter)) {
+            let name = format!("{} where words are arguments", src.text(other.span));
+            self.refuse_under(&name, other.span, out);
+            return None;
+        }
+        Some(code)
+    }
+
+    /// Such a block.
+    pub(in crate::word) fn call_by_words(&mut self, arguments: Vec<Expr>, block: &Block, out: &mut Batch) {
+        let Some(call) = self.computes.at_moves.as_ref().map(|calls| calls.call.clone()) else { return };
+        self.computes.calls(&call.name, arguments.len());
+        self.leave_motion(None, out);
+        self.push(block.span, Op::Call(Box::new(Call { arguments, ..call })), out);
+        self.lose(block.span, out);
+    }
+
+    /// The calls are over; where none are in force, nothing is.
+    pub(in crate::word) fn end_calls_at_moves(&mut self, code: &Code, words: &Words, out: &mut Batch) {
+        self.now.silent = true;
+        if self.computes.at_moves.is_none() {
+            return;
+        }
+        if self.now.skip.is_some() {
+            return self.refuse_modal(
+                &code.row.code,
+                "end of a modal macro call that can be skipped",
+                code.span,
+                out,
+            );
+        }
+        if self.has_axis_word(words) {
+            // Whether the block's own move is one of those behind which it is called, no manual says.
+            return self.refuse_modal(
+                &code.row.code,
+                "end of a modal call in a block that moves",
+                code.span,
+                out,
+            );
+        }
+        self.computes.at_moves = None;
+    }
+
+    /// Behind a block that moves an axis.
+    pub(in crate::word) fn call_at_moves(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        let at_moves = self.computes.at_moves.as_ref().is_some_and(|calls| calls.by_words.is_none());
+        if !at_moves || self.now.failed || block.statement.is_some() {
+            return;
+        }
+        let mark = self.now.mark;
+        let own = self.target(out).get(mark..).unwrap_or_default();
+        let other = own.iter().any(|stmt| {
+            matches!(
+                stmt.op,
+                Op::GoToReference(_)
+                    | Op::OrientToolAxis(_)
+                    | Op::UseMachineCoordinates { .. }
+                    | Op::StartCycle(_)
+                    | Op::Hole(_)
+                    | Op::Pattern(_)
+                    | Op::Polar(_)
+                    | Op::Corner { .. }
+                    | Op::Detour(_)
+            )
+        });
+        let moves = own.iter().any(|stmt| {
+            matches!(
+                stmt.op,
+                Op::StraightTraverse(_)
+                    | Op::StraightFeed(_)
+                    | Op::SynchronisedFeed(_)
+                    | Op::ArcFeed(_)
+                    | Op::ArcForm(_)
+                    | Op::Position(_)
+            )
+        });
+        if other {
+            let name = "cycle, corner or machine point under a modal macro call";
+            return self.refuse_under(name, block.span, out);
+        }
+        if !moves {
+            return;
+        }
+        if self.level_open() {
+            return self.refuse_level(block.span, out);
+        }
+        let Some(call) = self.computes.at_moves.as_ref().map(|calls| calls.call.clone()) else { return };
+        // The block's comment is the move's.
+        if let Some(comment) = self.plain_comment(block, src).filter(|_| !self.now.commented) {
+            self.now.commented = true;
+            if let Some(stmt) = self.target(out).last_mut() {
+                stmt.comment = Some(Box::new(comment));
+            }
+        }
+        self.leave_motion(None, out);
+        self.push(block.span, Op::Call(Box::new(call)), out);
+        self.lose(block.span, out);
+    }
+
+    /// Whether a modal call is in force, where none of its own may be made (reported).
+    pub(in crate::word) fn within_modal(&mut self, at: Span, out: &mut Batch) -> bool {
+        let within = self.computes.at_moves.is_some();
+        if within {
+            self.refuse_under("call or return under a modal macro call", at, out);
+        }
+        within
+    }
+
+    /// A variable is set.
+    pub(in crate::word) fn argument_changes(&mut self, at: Span, out: &mut Batch) {
+        if self.computes.at_moves.as_ref().is_some_and(|calls| calls.computed) {
+            let name = "assignment under a modal call with variables";
+            self.refuse_under(name, at, out);
+        }
+    }
+
+    /// The end of a program: jumps lead from where the same calls are in force.
+    pub(in crate::word) fn calls_over(&mut self, out: &mut Batch) {
+        self.computes.at_moves = None;
+        let labels = std::mem::take(&mut self.computes.reach.labels);
+        let mut by_number: HashMap<u32, BTreeSet<u32>> = HashMap::new();
+        for (number, calls) in &labels {
+            by_number.entry(*number).or_default().insert(*calls);
+        }
+        let all: BTreeSet<u32> = labels.iter().map(|(_, calls)| *calls).collect();
+        for (to, from, at) in std::mem::take(&mut self.computes.reach.jumps) {
+            let calls = match to {
+                Some(to) => by_number.get(&to),
+                None => Some(&all),
+            };
+            if calls.is_some_and(|calls| calls.iter().any(|calls| *calls != from)) {
+                self.refuse_under("jump over the beginning or end of a modal call", at, out);
+            }
+        }
+    }
+}
+
+impl Computes {
+    /// The text is over: what is called behind moves must have no such calls itself, nor what it calls. How one works
+    /// within another is not translated.
+    pub(in crate::word) fn no_calls_within(&self, out: &mut Batch) {
+        for (_, name, at) in &self.reach.called {
+            let mut known: Vec<&Text> = vec![name];
+            let mut next = 0;
+            while let Some(name) = known.get(next).copied() {
+                next += 1;
+                if self.reach.called.iter().any(|(own, ..)| own == name) {
+                    let name = "modal macro call within another".into();
+                    out.report(Fault::NotSupported { code: self.reach.code.clone(), name }, *at);
+                    break;
+                }
+                let bodies = out.procedures.iter().filter(|procedure| procedure.name == *name);
+                bodies.for_each(|procedure| calls_of(&procedure.body, &mut known));
+            }
+        }
+    }
+}
+
+/// The programs that a body calls.
+fn calls_of<'s>(body: &'s [Stmt], known: &mut Vec<&'s Text>) {
+    for stmt in body {
+        if let Op::Call(call) = &stmt.op {
+            if !known.contains(&&call.name) {
+                known.push(&call.name);
+            }
+        } else if let Op::Control(control) = &stmt.op {
+            control.bodies().for_each(|body| calls_of(body, known));
+        }
+    }
+}
+
+fn is_vacant(value: &Expr) -> bool {
+    matches!(value, Expr::Node(node) if **node == Node::Vacant)
+}
+
+/// Whether it is worth the same until a local variable is set.
+fn stays(value: &Expr) -> bool {
+    let Expr::Node(node) = value else { return true };
+    match &**node {
+        Node::Vacant | Node::Var(Var::Local(_)) => true,
+        Node::Var(_) | Node::Element(_) => false,
+        Node::Unary(..) | Node::Binary(..) | Node::Call(..) => value.parts().all(stays),
+    }
+}

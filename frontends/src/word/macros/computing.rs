@@ -1,0 +1,659 @@
+//! Lowering of what is computed: words with expressions, assignments, jumps, loops and macro calls.
+//!
+//! Where a program can come to from elsewhere (a block that jumps name, the head of a loop, behind its end) every
+//! fact is lost, as behind a call. A word whose variable was never set is left out when the program runs.
+//!
+//! Not here: which expressions there are (`formula`), and what they are worth.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Dialect, Operator, Quantity, RemainderRule};
+use ncc_ir::canon::Units;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
+use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::formula::{Statement, To};
+use super::jump_of::JumpOf;
+use crate::Batch;
+use crate::common::Source;
+use crate::common::number::{spell, unit_of};
+use crate::common::saved::Saved;
+use crate::common::words::{Value, Word};
+use crate::word::calls::local_call::{LocalCall, has_local_calls};
+use crate::word::calls::macro_call::parameters;
+use crate::word::calls::modal_call::{AtMoves, Reach};
+use crate::word::calls::return_to::{ReturnTo, has_returns_to};
+use crate::word::facts::InForce;
+use crate::word::lower::Lower;
+use crate::word::sort::Words;
+use crate::word::text::block::Block;
+
+/// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
+const MOST_LOOPS: usize = 3;
+
+/// What the text computes, as far as read.
+#[derive(Debug, Default)]
+pub(in crate::word) struct Computes {
+    /// Whether it has variables.
+    variables: bool,
+    /// Whether blocks with numbers may be jumped to.
+    pub(in crate::word) jumps: bool,
+    /// Whether there were such blocks before that was known.
+    unnamed: bool,
+    /// Numbers of blocks that the text names; `None` if one is named by what is computed.
+    named: Option<BTreeSet<u32>>,
+    /// Numbers of blocks that were read as no jump's.
+    passed: BTreeSet<u32>,
+    loops: Vec<Open>,
+    /// How many arguments programs are called with, by their names.
+    called: BTreeMap<Text, usize>,
+    /// Jumps to blocks whose number is computed.
+    pub(in crate::word) jumps_of: Vec<JumpOf>,
+    /// Calls of blocks of the main program.
+    pub(in crate::word) local_calls: Vec<LocalCall>,
+    /// Returns of the subprograms.
+    pub(in crate::word) returns: Vec<ReturnTo>,
+    /// Whether programs are called whose number is computed.
+    pub(in crate::word) calls_of: bool,
+    /// The macro that is called behind each block that moves.
+    pub(in crate::word) at_moves: Option<AtMoves>,
+    /// Modes that are saved and put back.
+    pub(in crate::word) saved: Saved,
+    pub(in crate::word) reach: Reach,
+}
+
+/// A loop that has not ended.
+#[derive(Debug)]
+struct Open {
+    number: u32,
+    condition: Option<Expr>,
+    /// Where its body begins; `None` until a further block is read.
+    at: Option<usize>,
+    block: Span,
+    skip: Option<u8>,
+    label: Option<u32>,
+    /// The calls at moves that it began in.
+    calls: u32,
+}
+
+/// Whether a text has a word that jumps, or the two letters of it that are enough behind a condition.
+fn has_jumps(text: &[u8]) -> bool {
+    let has = |word: &[u8]| text.windows(word.len()).any(|part| part.eq_ignore_ascii_case(word));
+    has(b"GOTO") || has(b"]GO") || has(b"] GO")
+}
+
+/// Adds the numbers of blocks that a text may name to those known: what stands behind a jump, and in words that name blocks
+/// beside some code. `None` if one is computed.
+fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32>) -> Option<BTreeSet<u32>> {
+    let letters: BTreeSet<u8> = dialect.code.iter().flat_map(|row| row.blocks.bytes()).collect();
+    let number = dialect.block.number.map_or(0, |c| c as u8);
+    let blanks = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_whitespace()).count();
+    for line in text.split(|b| *b == b'\n') {
+        let calls = line.iter().any(|b| b.eq_ignore_ascii_case(&b'M'));
+        for at in 0..line.len() {
+            let rest = &line[at..];
+            let jump = rest.get(..2).is_some_and(|word| word.eq_ignore_ascii_case(b"GO"));
+            let long = rest.get(2..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TO"));
+            let word = letters.contains(&rest[0].to_ascii_uppercase());
+            let behind = match (jump, long) {
+                (true, true) => &rest[4..],
+                (true, false) => &rest[2..],
+                (false, _) if word => &rest[1..],
+                (false, _) => continue,
+            };
+            let behind = &behind[blanks(behind)..];
+            let named = behind.first().filter(|b| jump && b.eq_ignore_ascii_case(&number));
+            let behind = if named.is_some() { &behind[1 + blanks(&behind[1..])..] } else { behind };
+            let digits = behind.iter().take_while(|b| b.is_ascii_digit()).count();
+            match behind.first() {
+                Some(b'#' | b'[') if jump || calls => return None,
+                Some(_) if digits > 0 => {
+                    let number =
+                        std::str::from_utf8(&behind[..digits]).ok().and_then(|text| text.parse().ok());
+                    all.extend::<Option<u32>>(number);
+                }
+                Some(_) | None => {}
+            }
+        }
+    }
+    Some(all)
+}
+
+/// The name by which jumps know the block of a number.
+pub(in crate::word) fn label(number: u32) -> Text {
+    format!("N{number}").into()
+}
+
+impl Computes {
+    /// A program is called with so many arguments.
+    pub(in crate::word) fn calls(&mut self, name: &str, arguments: usize) {
+        match self.called.get_mut(name) {
+            Some(most) => *most = (*most).max(arguments),
+            None => _ = self.called.insert(name.into(), arguments),
+        }
+    }
+
+    /// The text is over: what is called with arguments has them as its first local variables.
+    pub(in crate::word) fn give_parameters(&self, procedures: &mut [Procedure]) {
+        for procedure in procedures {
+            if let Some(most) = self.called.get(&procedure.name) {
+                procedure.parameters = parameters(*most);
+            }
+        }
+    }
+}
+
+impl Lower {
+    /// Looks through text that is to be read for what is computed in it.
+    pub(in crate::word) fn look_ahead(&mut self, text: &[u8], out: &mut Batch) {
+        if self.settings.dialect.program.o_words {
+            self.o_look_ahead(text, out);
+            return self.look_for_results(text, out);
+        }
+        if !self.settings.dialect.program.macro_b {
+            return;
+        }
+        if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
+            self.found_variables(out);
+        }
+        let dialect = self.settings.dialect;
+        if !self.computes.jumps
+            && (has_jumps(text) || has_returns_to(text, dialect) || has_local_calls(text, dialect))
+        {
+            self.computes.jumps = true;
+            self.computes.named = Some(BTreeSet::new());
+            self.found_variables(out);
+            out.whole = true;
+            self.refresh();
+        }
+        if self.computes.jumps {
+            self.computes.named = self.computes.named.take().and_then(|all| named_blocks(text, dialect, all));
+        }
+        let number = self.settings.dialect.block.number.map_or(0, |c| c as u8);
+        if !self.computes.jumps {
+            self.computes.unnamed |= memchr::memchr2(number, number.to_ascii_lowercase(), text).is_some();
+        }
+    }
+
+    /// The text computes: programs that it calls by number have no variables of their own, the calls met before as
+    /// well, whether it names a variable or not.
+    pub(in crate::word) fn found_variables(&mut self, out: &mut Batch) {
+        if std::mem::replace(&mut self.computes.variables, true) {
+            return;
+        }
+        for stmt in out.stmts.iter_mut().chain(out.procedures.iter_mut().flat_map(|p| &mut p.body)) {
+            share(stmt);
+        }
+        self.sub.iter_mut().flat_map(|p| &mut p.body).for_each(share);
+    }
+
+    /// Whether it has.
+    pub(in crate::word) fn computes_anything(&self) -> bool {
+        self.computes.variables
+    }
+
+    /// Whether a call has its caller's variables to itself.
+    pub(in crate::word) fn shares(&self) -> bool {
+        self.computes.variables
+    }
+
+    /// A block begins: the body of a loop that was opened before it does so here.
+    pub(in crate::word) fn in_loop(&mut self, out: &mut Batch) {
+        if self.computes.loops.last().is_some_and(|open| open.at.is_none()) {
+            let at = self.target(out).len();
+            if let Some(open) = self.computes.loops.last_mut() {
+                open.at = Some(at);
+            }
+        }
+    }
+
+    /// A block with a number that jumps may name.
+    pub(in crate::word) fn jumped_to(&mut self, block: &Block, out: &mut Batch) {
+        let Some(number) = self.now.number.filter(|_| self.computes.jumps) else { return };
+        // Control comes to it from the block before alone.
+        if self.computes.named.as_ref().is_some_and(|named| !named.contains(&number)) {
+            self.computes.passed.insert(number);
+            return;
+        }
+        self.lose(block.span, out);
+        let calls = self.calls_in_force();
+        self.computes.reach.labels.push((number, calls));
+        let skip = self.now.skip.take();
+        self.push(block.span, Op::Label(label(number)), out);
+        self.now.skip = skip;
+    }
+
+    /// A statement of the macro language.
+    pub(in crate::word) fn statement(
+        &mut self,
+        statement: &Statement,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        self.found_variables(out);
+        out.whole = true;
+        let span = block.span;
+        if self.now.failed {
+            // A loop whose head is refused has its end all the same.
+            if let Statement::Do(_, number) = statement {
+                self.open(*number, None, span);
+            }
+            if let Statement::End(_) = statement {
+                self.computes.loops.pop();
+            }
+            return;
+        }
+        match statement {
+            Statement::Assign(to, value) => {
+                for op in self.assignment(to, value, block, src, out) {
+                    self.push(span, op, out);
+                }
+            }
+            Statement::Goto(condition, to) => {
+                let named = if let To::Number(to) = to { Some(*to) } else { None };
+                if !self.jumps_from("GOTO", named, span, out) {
+                    return;
+                }
+                match (to, condition) {
+                    (To::Number(to), None) => self.push(span, Op::Goto(label(*to)), out),
+                    (To::Number(to), Some(condition)) => {
+                        self.decide(condition, vec![Op::Goto(label(*to))], span, out);
+                    }
+                    (To::Computed(to), condition) => {
+                        let to = self.value(to, span, out);
+                        let condition = condition.as_ref().map(|c| self.value(c, span, out));
+                        let mark = self.computes.jump_of(condition, to);
+                        self.push(span, Op::Goto(mark), out);
+                    }
+                }
+            }
+            Statement::Then(condition, to, value) => {
+                let then = self.assignment(to, value, block, src, out);
+                self.decide(condition, then, span, out);
+            }
+            Statement::Do(condition, number) => {
+                let twice = self.computes.loops.iter().any(|open| open.number == *number);
+                if !(1..=3).contains(number) || twice || self.computes.loops.len() >= MOST_LOOPS {
+                    let name = if twice { "loop within one of its number" } else { "loop of another number" };
+                    let code = format!("DO{number}").into();
+                    self.fault(Fault::NotSupported { code, name: name.into() }, span, out);
+                }
+                let condition = condition.as_ref().map(|c| self.value(c, span, out));
+                self.now.silent = true;
+                self.open(*number, condition, span);
+                self.lose(span, out);
+            }
+            Statement::End(number) => self.end_loop(*number, span, out),
+            Statement::Output(output) => self.output(output.as_ref(), span, src, out),
+        }
+    }
+
+    /// A jump to the block of a number, or of one that is computed; `false` if there can be none (reported).
+    pub(in crate::word) fn jumps_from(
+        &mut self,
+        code: &str,
+        to: Option<u32>,
+        span: Span,
+        out: &mut Batch,
+    ) -> bool {
+        let passed = &self.computes.passed;
+        if self.computes.unnamed || to.map_or(!passed.is_empty(), |to| passed.contains(&to)) {
+            let name = "jump in a text whose first part has numbered blocks, and is long".into();
+            self.fault(Fault::NotSupported { code: code.into(), name }, span, out);
+            return false;
+        }
+        let calls = self.calls_in_force();
+        self.computes.reach.jumps.push((to, calls, span));
+        self.leave_motion(None, out);
+        true
+    }
+
+    fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
+        let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
+        let calls = self.calls_in_force();
+        self.computes.loops.push(Open { number, condition, at: None, block, skip, label, calls });
+    }
+
+    fn end_loop(&mut self, number: u32, span: Span, out: &mut Batch) {
+        let found = self.computes.loops.pop();
+        let Some(Open { at: Some(at), number: own, condition, block, skip, label, calls }) = found else {
+            let code = format!("END{number}").into();
+            return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);
+        };
+        let code = format!("END{number}").into();
+        if own != number {
+            let name = format!("end of a loop within the loop {own}").into();
+            return self.fault(Fault::NotSupported { code, name }, span, out);
+        }
+        if calls != self.calls_in_force() {
+            return self.refuse_under("modal call that begins or ends within a loop", span, out);
+        }
+        if skip.is_some() || self.now.skip.is_some() {
+            let name = "loop whose head or end can be skipped".into();
+            return self.fault(Fault::NotSupported { code, name }, span, out);
+        }
+        self.leave_motion(None, out);
+        let stmts = self.target(out);
+        let mut body = stmts.split_off(at.min(stmts.len()));
+        if let Some(first) = body.first_mut() {
+            first.joined = false;
+        }
+        let control = match condition {
+            Some(condition) => Control::While { condition, body },
+            None => Control::Loop { body },
+        };
+        // The statement is the whole loop, and stands where its head does.
+        self.now.mark = self.now.mark.min(at);
+        let own = std::mem::replace(&mut self.now.number, label);
+        self.push(block, Op::Control(Box::new(control)), out);
+        self.now.number = own;
+        self.separate(out);
+        self.lose(span, out);
+    }
+
+    /// The end of a program: a loop that is still open has none.
+    pub(in crate::word) fn open_loops(&mut self, out: &mut Batch) {
+        self.calls_over(out);
+        for open in std::mem::take(&mut self.computes.loops) {
+            let code = format!("DO{}", open.number).into();
+            out.report(Fault::NotSupported { code, name: "loop without its end".into() }, open.block);
+            self.now.failed = true;
+        }
+    }
+
+    fn decide(&mut self, condition: &Expr, then: Vec<Op>, span: Span, out: &mut Batch) {
+        let condition = self.value(condition, span, out);
+        let mut then: Vec<Stmt> = then.into_iter().map(|op| Stmt::new(span, op)).collect();
+        then.iter_mut().skip(1).for_each(|stmt| stmt.joined = true);
+        let control = Control::If { condition, then, otherwise: Vec::new() };
+        self.push(span, Op::Control(Box::new(control)), out);
+    }
+
+    /// A value for a variable, or for the one whose number is computed; one of the control's own may act by it.
+    fn assignment(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> Vec<Op> {
+        match self.by_number(to, value, block, src, out) {
+            Some(ops) => ops,
+            None => self.plain_assignment(to, value, block, src, out),
+        }
+    }
+
+    /// The same without places of tables by computed numbers.
+    pub(in crate::word) fn plain_assignment(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> Vec<Op> {
+        let span = block.span;
+        self.saves(to, value);
+        if value.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
+            // What is in force is asked.
+            self.leave_motion(None, out);
+        }
+        let value = self.value(value, span, out);
+        if let Target::Var(Var::System(system)) = to {
+            return self.control_set(system, value, block, src, out);
+        }
+        let to = match to {
+            Target::Var(var) => Target::Var(var.clone()),
+            Target::Element(element) => {
+                let Element { at, .. } = &**element;
+                let at = at.iter().map(|index| self.value(index, span, out)).collect();
+                Target::Element(Box::new(Element { of: self.numbered(), at }))
+            }
+        };
+        self.assigned(Some(&to), span, out);
+        vec![Op::Assign(to, value)]
+    }
+
+    /// The variables that have numbers.
+    fn numbered(&self) -> Many {
+        let rules = &self.settings.dialect.formula;
+        let of = |scope, ranges: &[[u32; 2]]| {
+            let numbers = |&[from, to]: &[u32; 2]| Numbers { scope, prefix: "".into(), from, to };
+            ranges.iter().map(numbers).collect::<Vec<_>>()
+        };
+        let scopes = [
+            of(Scope::Local, &rules.local),
+            of(Scope::Common, &rules.common),
+            of(Scope::Retentive, &rules.retentive),
+        ];
+        Many::Numbered(scopes.concat().into())
+    }
+
+    /// A variable gets another value, any where it is not said which: what has been computed from it and is not said
+    /// yet must not be said with it.
+    pub(in crate::word) fn assigned(&mut self, to: Option<&Target>, span: Span, out: &mut Batch) {
+        self.argument_changes(span, out);
+        let reads = |value: &Expr| match to {
+            Some(to) => value.reads(to),
+            None => value.literal().is_none(),
+        };
+        self.entry_changes(reads);
+        if let InForce::Active(active) = &self.state.cycle
+            && ([&active.depth, &active.retract].iter().any(|word| reads(&word.value))
+                || active.peck.as_ref().is_some_and(reads))
+        {
+            if self.state.cycle_feed.is_some() {
+                let name =
+                    "assignment between the call-up of a cycle with variables and its first hole".into();
+                self.fault(Fault::NotSupported { code: "#".into(), name }, span, out);
+            }
+            self.state.cycle = InForce::Lost;
+        }
+    }
+
+    /// An expression outside words.
+    pub(in crate::word) fn value(&mut self, expr: &Expr, at: Span, out: &mut Batch) -> Expr {
+        let mut expr = expr.clone();
+        self.mean(&mut expr, &|a| Node::Call(Function::Round, vec![a]), at, out);
+        expr
+    }
+
+    /// A word's value, written or computed; `None` if it is refused (reported).
+    pub(in crate::word) fn amount(
+        &mut self,
+        word: &Word,
+        quantity: Quantity,
+        words: &Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        let Value::Computed(place) = word.value else {
+            return self.number(word, quantity, src, out).map(Expr::Num);
+        };
+        let mut expr = words.exprs[usize::from(place)].clone();
+        if self.settings.dialect.program.o_words {
+            let value = self.o_amount(&expr, quantity, word.span, out);
+            return match value {
+                Some(value) => Some(value),
+                None => self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out),
+            };
+        }
+        // Where a point tells what a dwell counts, what is computed has none.
+        let quantity = match quantity {
+            Quantity::Seconds if self.option(COMPUTED_DWELL, word.span, out) == "milliseconds" => {
+                Quantity::Milliseconds
+            }
+            _ => quantity,
+        };
+        let digits = self.digits(word, quantity, src, out)?;
+        out.whole = true;
+        // The control rounds what an address gets to the least increment of it (16-C, custom macro, referencing
+        // variables; 96-8000: three digits, four of inches), and so does ROUND within an address.
+        let Some(digits) = digits else {
+            if has_round(&expr) {
+                return self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+            }
+            self.mean(&mut expr, &|a| Node::Call(Function::Round, vec![a]), word.span, out);
+            return Some(self.written(expr, quantity, word.span, out));
+        };
+        let counted = matches!(quantity, Quantity::Length | Quantity::Angle);
+        if counted && self.assume && !std::mem::replace(&mut self.reported.increment, true) {
+            let parameter = "increment to which computed words are rounded".into();
+            let value = spell(Num { mantissa: 1, scale: digits, point: true, unit: Unit::One }).into();
+            out.report(Fault::AssumedParameter { parameter, value }, word.span);
+        }
+        let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
+        self.mean(&mut expr, &rounded, word.span, out);
+        if let Expr::Num(num) = expr
+            && quantity != Quantity::Milliseconds
+        {
+            return Some(self.written(Expr::Num(num.rounded(digits)), quantity, word.span, out));
+        }
+        let value = Expr::Node(Box::new(rounded(expr)));
+        Some(match quantity {
+            Quantity::Milliseconds => {
+                Expr::Node(Box::new(Node::Binary(Binary::Divide, value, Expr::int(1000))))
+            }
+            _ => value,
+        })
+    }
+
+    /// A number in brackets, `F[7]`, counts what one without them does, where it has a point.
+    pub(in crate::word) fn written(
+        &mut self,
+        expr: Expr,
+        quantity: Quantity,
+        at: Span,
+        out: &mut Batch,
+    ) -> Expr {
+        let Expr::Num(num) = expr else { return expr };
+        let unit = match quantity {
+            Quantity::Length | Quantity::Feed => unit_of(self.units(at, out)),
+            Quantity::Angle => Unit::Degree,
+            Quantity::Seconds | Quantity::Milliseconds => Unit::Second,
+            Quantity::Speed | Quantity::Integer | Quantity::Factor => Unit::One,
+        };
+        Expr::Num(Num { point: num.point || unit != Unit::One, unit, ..num })
+    }
+
+    /// To how many digits a word of this quantity is rounded; none of a feed, whose increment is the machine's.
+    fn digits(
+        &mut self,
+        word: &Word,
+        quantity: Quantity,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Option<u8>> {
+        let rules = self.rules[quantity as usize];
+        Some(match quantity {
+            Quantity::Length => Some(self.digits_of(quantity, word.span, out)?),
+            Quantity::Angle | Quantity::Seconds => Some(rules.increment),
+            Quantity::Feed => {
+                self.units(word.span, out);
+                None
+            }
+            Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => Some(0),
+            Quantity::Factor => {
+                return self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+            }
+        })
+    }
+
+    /// To how many digits a length is rounded, in the units in force.
+    pub(in crate::word) fn digits_of(&mut self, quantity: Quantity, at: Span, out: &mut Batch) -> Option<u8> {
+        let rules = self.rules[quantity as usize];
+        let units = self.units(at, out);
+        debug_assert!(unit_of(units) != Unit::One);
+        Some(match rules.increment_inch.filter(|inch| *inch != rules.increment) {
+            None => rules.increment,
+            Some(inch) => match self.units_of_increment(units, at, out)? {
+                Units::Mm => rules.increment,
+                Units::Inch => inch,
+            },
+        })
+    }
+
+    /// Puts in what `ROUND` means where an expression stands, and in which range angles are.
+    fn mean(&mut self, expr: &mut Expr, round: &dyn Fn(Expr) -> Node, at: Span, out: &mut Batch) {
+        let Expr::Node(node) = expr else { return };
+        match &mut **node {
+            Node::Var(Var::System(System::Other(name))) => {
+                let name = name.clone();
+                if let Some(value) = self.control_value(&name, at, out) {
+                    *expr = value;
+                }
+            }
+            Node::Var(_) | Node::Vacant | Node::Unary(..) | Node::Binary(..) => {
+                if let Node::Binary(Binary::Modulo, a, b) = &**node
+                    && self.settings.dialect.formula.remainders == RemainderRule::MadeWhole
+                    && [a, b].iter().any(|e| e.literal().is_some_and(|n| n.whole().is_none()))
+                {
+                    let code = self.settings.dialect.formula.operators[&Operator::Modulo].as_str().into();
+                    let name = "the remainder of a number that is not whole".into();
+                    self.fault(Fault::NotSupported { code, name }, at, out);
+                }
+                let rules = &self.settings.dialect.formula;
+                if matches!(**node, Node::Binary(Binary::Power, ..))
+                    && !rules.power
+                    && !rules.operators.contains_key(&Operator::Power)
+                {
+                    let fault = Fault::NotSupported { code: "POW".into(), name: "function".into() };
+                    self.fault(fault, at, out);
+                }
+                expr.parts_mut().for_each(|part| self.mean(part, round, at, out));
+            }
+            Node::Element(element) => {
+                self.no_place_here(element, at, out);
+                element.of = self.numbered();
+                let whole = |a| Node::Call(Function::Round, vec![a]);
+                element.at.iter_mut().for_each(|index| self.mean(index, &whole, at, out));
+            }
+            Node::Call(function, arguments) => {
+                let function = *function;
+                if !self.settings.dialect.formula.has(function) {
+                    let (code, name) = (format!("{function:?}").to_uppercase().into(), "function".into());
+                    self.fault(Fault::NotSupported { code, name }, at, out);
+                }
+                arguments.iter_mut().for_each(|a| self.mean(a, round, at, out));
+                if function == Function::Round
+                    && let Some(a) = arguments.pop()
+                {
+                    **node = round(a);
+                } else if matches!(function, Function::Asin | Function::Atan2)
+                    && self.option(ANGLE_RANGE, at, out) != "half"
+                {
+                    // From 0 on; an arc's sine is then never between 90 and 270 degrees.
+                    let turn = || Expr::int(360);
+                    let angle = std::mem::replace(expr, Expr::int(0));
+                    let more = Expr::Node(Box::new(Node::Binary(Binary::Add, angle, turn())));
+                    *expr = Expr::Node(Box::new(Node::Binary(Binary::Modulo, more, turn())));
+                }
+            }
+        }
+    }
+}
+
+/// Whether anything is rounded in an expression.
+pub(in crate::word) fn has_round(expr: &Expr) -> bool {
+    let Expr::Node(node) = expr else { return false };
+    match &**node {
+        // Within the number of a variable it goes to a whole number wherever that stands.
+        Node::Var(_) | Node::Vacant | Node::Element(_) => false,
+        Node::Unary(_, a) => has_round(a),
+        Node::Binary(_, a, b) => has_round(a) || has_round(b),
+        Node::Call(function, arguments) => *function == Function::Round || arguments.iter().any(has_round),
+    }
+}
+
+/// Gives the calls in a statement their caller's variables.
+fn share(stmt: &mut Stmt) {
+    if let Op::Call(call) = &mut stmt.op {
+        call.shared = true;
+    }
+}

@@ -1,0 +1,17 @@
+//! The macro language: expressions, assignments, jumps, loops, and computed numbers in the place of codes
+//! and of entries in tables.
+//!
+//! ```text
+//! #1 = #2 * 2                an assignment
+//! IF [#1 GT 5] GOTO 100      a branch
+//! ```
+//!
+//! Not here: the language of O words (`o_code`).
+
+pub(super) mod code_of;
+pub(super) mod computing;
+pub(super) mod control_set;
+pub(super) mod entry_of;
+pub(super) mod formula;
+pub(super) mod jump_of;
+pub(super) mod output;

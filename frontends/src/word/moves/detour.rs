@@ -1,0 +1,58 @@
+//! Lowering of rapid moves that go another way than straight: from one side, or by the intermediate point.
+//!
+//! Refused by name: incremental words of a return by the intermediate point, which count from there on some controls
+//! and are told of none here; both while a cycle or a thread is in force, and under cutter radius compensation.
+
+use ncc_dialects::Meaning;
+use ncc_ir::canon::Distance;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Detour, Move, Op};
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::word::lower::Lower;
+use crate::word::sort::{Code, Words};
+
+impl Lower {
+    /// A block with the code of such a move.
+    pub(in crate::word) fn by_detour(
+        &mut self,
+        code: &Code,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let Meaning::Detour(detour) = code.meaning else { return };
+        let text = || code.row.code.as_str().into();
+        let name = "a rapid move while a cycle is in force".into();
+        self.without_cycle(Fault::NotSupported { code: text(), name }, code.span, out);
+        let why = match () {
+            () if self.state.compensated.value() == Some(true) => {
+                Some("a rapid move under cutter radius compensation")
+            }
+            () if self.state.thread.is_some() => Some("a rapid move while a thread's code is in force"),
+            () => None,
+        };
+        if let Some(name) = why {
+            self.fault(Fault::NotSupported { code: text(), name: name.into() }, code.span, out);
+        }
+        let to = self.point(None, block, words, src, out);
+        if to.is_empty() {
+            let word = "X".into();
+            return self.fault(Fault::WordMissing { code: text(), word }, code.span, out);
+        }
+        if detour == Detour::Intermediate && self.state.distance.value() == Some(Distance::Incremental) {
+            let name = "incremental words of a return by the intermediate point".into();
+            return self.fault(Fault::NotSupported { code: text(), name }, code.span, out);
+        }
+        self.push(code.span, Op::Detour(detour), out);
+        self.push(block, Op::StraightTraverse(Move { to, said: true }), out);
+        // From one side it may stay in force. As the caller moves, no statement behind this one can say.
+        if detour == Detour::OneSide || self.state.motion.value().is_none() {
+            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Lowering of probing moves: straight at feed, until the probe says so.
+//!
+//! What the control measures there, programs read from variables (`[[system]]` of the dictionary).
+//!
+//! Refused by name: under a cycle or cutter radius compensation, and bare axis words behind a code that stays in
+//! force, which would probe again.
+
+use ncc_dialects::Meaning;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Move, Op};
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::word::lower::Lower;
+use crate::word::sort::{Code, Words};
+
+impl Lower {
+    /// A block with the code of a probing move.
+    pub(in crate::word) fn probe(
+        &mut self,
+        code: &Code,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let Meaning::StraightProbe(probe) = code.meaning else { return };
+        let text = || code.row.code.as_str().into();
+        let under = Fault::NotSupported { code: text(), name: "probing while a cycle is in force".into() };
+        self.without_cycle(under, code.span, out);
+        let why = match () {
+            () if self.state.compensated.value() == Some(true) => {
+                Some("probing under cutter radius compensation")
+            }
+            () if self.state.thread.is_some() => Some("probing while a thread's code is in force"),
+            () => None,
+        };
+        if let Some(name) = why {
+            self.fault(Fault::NotSupported { code: text(), name: name.into() }, code.span, out);
+        }
+        if code.row.own_feed && !self.now.fed {
+            let word = char::from(self.roles.feed).to_string().into();
+            return self.fault(Fault::WordMissing { code: text(), word }, code.span, out);
+        }
+        self.rely_on_feed(block, out);
+        let to = self.point(None, block, words, src, out);
+        if to.is_empty() {
+            let word = "X".into();
+            return self.fault(Fault::WordMissing { code: text(), word }, code.span, out);
+        }
+        self.push(code.span, Op::Probe(probe), out);
+        self.push(block, Op::StraightFeed(Move { to, said: true }), out);
+        let stays = self
+            .settings
+            .dialect
+            .code
+            .iter()
+            .any(|row| row.means == Some(Meaning::StraightFeed) && row.group == code.row.group);
+        // Bare axis words would probe again, or go on as the caller moves, which no statement behind this
+        // one can say.
+        if stays || self.state.motion.value().is_none() {
+            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        }
+    }
+}

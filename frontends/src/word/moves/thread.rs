@@ -1,0 +1,94 @@
+//! Lowering of moves in step with the spindle: threads, and a tap that goes in and out in one block.
+//!
+//! Refused: threads along several axes or round one, whose leads mean another thing on each control, and
+//! leads without a decimal point where that counts increments. What feed is in force behind a lead that the
+//! feed word has said is not relied on.
+
+use ncc_dialects::{Bare, CodeRow, Meaning, Quantity, Thread};
+use ncc_ir::canon::Axis;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::Num;
+use ncc_ir::program::{Op, Pitch, Synchronised};
+use ncc_ir::source::Span;
+
+use super::polar;
+use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::common::words::{Value, Word};
+use crate::word::lower::Lower;
+use crate::word::sort::{Code, Words, motion_of};
+
+impl Lower {
+    /// Whether the block's feed word says a lead.
+    pub(in crate::word) fn is_lead(&self, motion: &[Code]) -> bool {
+        let by_feed = |row: &CodeRow| row.words.bytes().next() == Some(self.roles.feed);
+        let thread = motion.iter().find(|code| matches!(code.meaning, Meaning::SynchronisedFeed(_)));
+        let ends = |code: &Code| {
+            motion_of(code.meaning).is_some()
+                || matches!(code.meaning, Meaning::StartCycle | Meaning::EndCycle)
+        };
+        match thread {
+            Some(code) => by_feed(code.row),
+            None => self.state.thread.is_some_and(by_feed) && !motion.iter().any(ends),
+        }
+    }
+
+    /// The lead that the feed word says.
+    pub(in crate::word) fn lead(&mut self, word: &Word, src: Source, out: &mut Batch) {
+        self.state.lead = self.lead_number(word, Quantity::Feed, src, out);
+        self.state.feed = Know::Unsaid;
+    }
+
+    fn lead_number(&mut self, word: &Word, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Num> {
+        let bare = matches!(word.value, Value::Number(d) if !d.point);
+        if bare && self.settings.dialect.numbers(quantity).bare == Bare::Increments && !self.calculator {
+            let name = "lead of a thread without a decimal point".into();
+            return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+        }
+        match self.number(word, quantity, src, out)? {
+            num if num.mantissa > 0 => Some(num),
+            _ => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+        }
+    }
+
+    /// A move in step with the spindle.
+    pub(in crate::word) fn thread(
+        &mut self,
+        row: &'static CodeRow,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let code: Box<str> = row.code.as_str().into();
+        if self.state.words != polar::Words::Cartesian {
+            let name = "thread in polar coordinates".into();
+            return self.fault(Fault::NotSupported { code, name }, block, out);
+        }
+        let letter = row.words.bytes().next().unwrap_or(self.roles.feed);
+        let lead = match words.take(letter) {
+            Some(word) => self.lead_number(&word, Quantity::Length, src, out),
+            None if letter == self.roles.feed => self.state.lead,
+            None => None,
+        };
+        let to = self.point(None, block, words, src, out);
+        let along: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| to.get(*axis).is_some()).collect();
+        if !matches!(along[..], [axis] if !axis.is_rotary()) {
+            let name = "thread along several axes, or round one".into();
+            return self.fault(Fault::NotSupported { code, name }, block, out);
+        }
+        let Some(lead) = lead else {
+            if !self.now.failed {
+                let word = char::from(letter).to_string().into();
+                self.fault(Fault::WordMissing { code, word }, block, out);
+            }
+            return;
+        };
+        let back = row.means == Some(Meaning::SynchronisedFeed(Thread::Back));
+        let pitch = Pitch::Stated(Expr::Num(lead));
+        let thread = Synchronised { to, pitch, chuck: false, turn: None, back };
+        self.push(block, Op::SynchronisedFeed(Box::new(thread)), out);
+    }
+}

@@ -1,0 +1,125 @@
+//! Lowering of control of the tool's tip, and of tilted planes.
+//!
+//! Control of the tip is switched on by the code that takes the length up with it, and ended by the codes of
+//! lengths; a tilted plane is ended by the code that ends a rotation of the same group. Where it is not known
+//! whether either is on, such an end counts as one only if the text has switched it on before; switching it
+//! on later is then refused by name. So are planes without all of their words.
+
+use ncc_dialects::{Meaning, Quantity};
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{FrameSlot, Op, Slot, Tilt};
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::common::Source;
+use crate::common::known::Know;
+use crate::word::lower::Lower;
+use crate::word::sort::{Code, Words};
+
+impl Lower {
+    fn has(&self, meaning: Meaning) -> bool {
+        self.settings.dialect.code_for(meaning).is_some()
+    }
+
+    /// Takes up a length with control of the tip.
+    pub(in crate::word) fn use_tip(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
+        let Some(word) = words.take(self.roles.length_entry) else {
+            let word = char::from(self.roles.length_entry).to_string().into();
+            let code_text = code.row.code.as_str().into();
+            return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+        };
+        // The way to the end of its own block is not that of the tip.
+        if b"ABC".iter().any(|letter| words.get(*letter).is_some()) {
+            let name = "rotary axes in the block that switches control of the tool's tip on".into();
+            let code_text = code.row.code.as_str().into();
+            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+        }
+        if !self.tip.starts() {
+            return self.behind_an_end(code, out);
+        }
+        self.set_mode(code.meaning, out);
+        self.push(code.span, Op::UseToolCentrePoint(true), out);
+        self.length_offset(&word, code.span.to(word.span), words, src, out);
+    }
+
+    fn behind_an_end(&mut self, code: &Code, out: &mut Batch) {
+        let name = "switched on behind an end of it that may have been one".into();
+        self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+    }
+
+    /// A code of lengths ends control of the tip, if it is on.
+    pub(in crate::word) fn end_tip(&mut self, span: Span, out: &mut Batch) {
+        if self.has(Meaning::UseToolCentrePoint(true)) {
+            if self.tip.ends(self.state.tip) {
+                self.push(span, Op::UseToolCentrePoint(false), out);
+            }
+            self.state.tip = Know::Said(false);
+        }
+    }
+
+    /// A tilted plane.
+    pub(in crate::word) fn tilt(
+        &mut self,
+        code: &Code,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Op> {
+        if !self.tilt.starts() {
+            self.behind_an_end(code, out);
+            return None;
+        }
+        let missing = |letter: u8| Fault::WordMissing {
+            code: code.row.code.as_str().into(),
+            word: letter_text(letter),
+        };
+        if let Some(letter) = b"XYZ".iter().find(|letter| words.get(**letter).is_none()) {
+            return self.refuse(missing(*letter), code.span, out);
+        }
+        let origin = self.linear(words, src, out);
+        let mut angles = [const { None }; 3];
+        for (angle, letter) in angles.iter_mut().zip(code.row.words.bytes()) {
+            let Some(word) = words.take(letter) else {
+                return self.refuse(missing(letter), code.span, out);
+            };
+            *angle = self.amount(&word, Quantity::Angle, words, src, out);
+        }
+        let [Some(first), Some(second), Some(third)] = angles else { return None };
+        self.set_mode(code.meaning, out);
+        let about = code.row.turns_about()?;
+        Some(Op::SetSlot(Box::new(Slot::Tilt(Box::new(Tilt {
+            origin,
+            about,
+            angles: [first, second, third],
+        })))))
+    }
+
+    /// The end of a rotation ends a tilted plane of its group; gives whether that is all it does.
+    pub(in crate::word) fn end_tilt(&mut self, code: &Code, out: &mut Batch) -> bool {
+        let row = self.settings.dialect.code_for(Meaning::SetTilt);
+        if row.is_none_or(|row| row.group != code.row.group) {
+            return false;
+        }
+        let alone = self.state.tilt == Know::Said(true);
+        if self.tilt.ends(self.state.tilt) {
+            self.push(code.span, Op::ClearFrame(FrameSlot::Tilt), out);
+        }
+        self.state.tilt = Know::Said(false);
+        // In a tilted plane there is no rotation.
+        alone
+    }
+
+    /// The tool is turned upright on the plane.
+    pub(in crate::word) fn upright(&mut self, code: &Code, words: &Words, out: &mut Batch) {
+        if self.has_axis_word(words) {
+            let name = "tool turned onto a plane in a block with axis words".into();
+            let code_text = code.row.code.as_str().into();
+            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+        }
+        self.push(code.span, Op::OrientToolAxis(None), out);
+    }
+}
+
+fn letter_text(letter: u8) -> Box<str> {
+    char::from(letter).to_string().into()
+}

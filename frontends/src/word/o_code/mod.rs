@@ -1,0 +1,14 @@
+//! The language of O words: settings of parameters, structures and subprograms.
+//!
+//! ```text
+//! o100 if [#<depth> LT 0]    a branch
+//! o<drill> call [5] [2]      a call with two arguments
+//! ```
+//!
+//! Not here: the lexer, which `text` has for both languages.
+
+pub(super) mod o_alone;
+pub(super) mod o_subs;
+pub(super) mod o_words;
+pub(super) mod parameters;
+pub(super) mod shown;

@@ -1,0 +1,696 @@
+//! Lowering of O words: settings of parameters, and blocks that decide where a program goes (LinuxCNC 2.9,
+//! gcode/o-code.html; what it leaves open, from interp_o_word.cc).
+//!
+//! Loops and decisions are structures, closed by a block with the same label. A label serves once in its program.
+//! Where control can come to from elsewhere every fact is lost, as behind a call. Refused is what the control does
+//! otherwise than its documentation says: a loop of `do` in a text where a loop of `while` is left by `break` (the
+//! mark of a break stays set), a return out of `repeat` (the count stays).
+//!
+//! Not here: what parameters and expressions are (`parameters`), and subprograms as such (`o_subs`).
+
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::fails;
+use ncc_ir::expr::system::System;
+use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
+use ncc_ir::program::{CentreFrom, Control, Op, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::o_subs::Outer;
+use super::parameters::{Given, Index, Named, asks, constant, numbers};
+use crate::Batch;
+use crate::word::lower::Lower;
+use crate::word::text::block::Block;
+use crate::word::text::token::FlowWord;
+
+/// A setting of a parameter, as the grammar makes it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Setting {
+    /// The parameter as an expression.
+    pub(crate) to: Expr,
+    pub(crate) value: Expr,
+    pub(crate) span: Span,
+}
+
+/// A block that begins with the letter of programs and does something.
+#[derive(Clone, Debug)]
+pub(crate) struct Decision {
+    pub(crate) label: Index,
+    pub(crate) word: FlowWord,
+    /// What stands in brackets behind it.
+    pub(crate) values: Vec<Expr>,
+}
+
+/// What the text decides, as far as read.
+#[derive(Debug, Default)]
+pub(in crate::word) struct ODecides {
+    pub(in crate::word) open: Vec<Open>,
+    /// Labels met in the program at hand.
+    pub(in crate::word) labels: Vec<Text>,
+    pub(in crate::word) given: Given,
+    /// Whether it was told that there are no axes U, V and W.
+    pub(in crate::word) no_such_axes: bool,
+    /// Whether the program at hand ends with M99.
+    pub(in crate::word) numbered_program: bool,
+    pub(in crate::word) subs: super::o_subs::Subs,
+    pub(in crate::word) alone: super::o_alone::Alone,
+    /// Where a loop of `while` is left by a break, and where one of `do` begins.
+    left: Option<Span>,
+    does: Option<Span>,
+    /// Where a turn of a `do` is left, and where a `repeat` begins.
+    turned: Option<Span>,
+    repeats: Option<Span>,
+    /// Structures stand in one another deeper than they are read: none is looked at any more.
+    pub(in crate::word) too_deep: bool,
+}
+
+/// What has not been closed.
+#[derive(Debug)]
+pub(in crate::word) struct Open {
+    label: Text,
+    pub(in crate::word) kind: Kind,
+    /// Where its body begins; `None` until a further block is read.
+    at: Option<usize>,
+    block: Span,
+    number: Option<u32>,
+    given: Given,
+    /// From where the program has said before that centres are measured.
+    centre: Option<CentreFrom>,
+    /// Whether a `continue` stands in it.
+    turned: bool,
+}
+
+#[derive(Debug)]
+pub(in crate::word) enum Kind {
+    /// What has been decided so far, and what is being decided; `None` is the rest.
+    If {
+        before: Vec<(Expr, Vec<Stmt>)>,
+        now: Option<Expr>,
+    },
+    While(Expr),
+    Do,
+    Repeat(Expr),
+    Sub(Box<Outer>),
+}
+
+impl Kind {
+    pub(in crate::word) fn word(&self) -> &'static str {
+        match self {
+            Kind::If { .. } => "if",
+            Kind::While(_) => "while",
+            Kind::Do => "do",
+            Kind::Repeat(_) => "repeat",
+            Kind::Sub(_) => "sub",
+        }
+    }
+}
+
+/// The word of a decision.
+pub(in crate::word) fn spelled(word: FlowWord) -> &'static str {
+    match word {
+        FlowWord::Sub => "sub",
+        FlowWord::EndSub => "endsub",
+        FlowWord::Call => "call",
+        FlowWord::Return => "return",
+        FlowWord::If => "if",
+        FlowWord::ElseIf => "elseif",
+        FlowWord::Else => "else",
+        FlowWord::EndIf => "endif",
+        FlowWord::Do => "do",
+        FlowWord::While => "while",
+        FlowWord::EndWhile => "endwhile",
+        FlowWord::Repeat => "repeat",
+        FlowWord::EndRepeat => "endrepeat",
+        FlowWord::Break => "break",
+        FlowWord::Continue => "continue",
+    }
+}
+
+/// Whether it is where the last move ended.
+fn is_end(system: &System) -> bool {
+    matches!(system, System::EndPoint(_))
+}
+
+/// Whether it is where a work offset lies.
+fn is_zero(system: &System) -> bool {
+    matches!(system, System::WorkOffset { .. } | System::ExternalOffset(_))
+}
+
+impl Lower {
+    /// Looks through text that is to be read for parameters and decisions: from there on it is kept whole.
+    pub(in crate::word) fn o_look_ahead(&mut self, text: &[u8], out: &mut Batch) {
+        let letter = self.settings.dialect.program.number.map_or(0, |c| c as u8);
+        let decides = |line: &[u8]| {
+            let line = line.trim_ascii_start();
+            let line = line.strip_prefix(b"/").unwrap_or(line).trim_ascii_start();
+            let line = match line {
+                [b'N' | b'n', rest @ ..] => {
+                    let digits = rest.iter().take_while(|b| b.is_ascii_digit() || b.is_ascii_whitespace());
+                    &rest[digits.count()..]
+                }
+                line => line,
+            };
+            let [first, rest @ ..] = line else { return false };
+            let rest = rest.trim_ascii_start();
+            let name = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+            let behind = rest[name..].trim_ascii_start().first();
+            // A number alone begins a program.
+            first.eq_ignore_ascii_case(&letter)
+                && behind.is_some_and(|b| !matches!(b, b'(' | b';') || name == 0)
+        };
+        let found = memchr::memchr(b'#', text).is_some() || text.split(|b| *b == b'\n').any(decides);
+        if found || self.computes_anything() {
+            out.whole = true;
+            self.found_variables(out);
+        }
+    }
+
+    /// A block begins: the body of what was opened before it does so here.
+    pub(in crate::word) fn o_body(&mut self, out: &mut Batch) {
+        if self.o.open.last().is_some_and(|open| open.at.is_none()) {
+            let at = self.target(out).len();
+            if let Some(open) = self.o.open.last_mut() {
+                open.at = Some(at);
+            }
+        }
+    }
+
+    /// The comment of a block that sets parameters is a statement of its own: it is shown when they are set.
+    pub(in crate::word) fn o_comment(&mut self, block: &Block, src: crate::common::Source, out: &mut Batch) {
+        if block.settings.is_empty() || self.now.failed {
+            return;
+        }
+        self.now.commented = true;
+        if let Some(text) = self.plain_comment(block, src) {
+            self.push(block.span, Op::Comment(text), out);
+        }
+    }
+
+    /// The settings of a block. They count when the words of the block have been read, which have the values
+    /// before them, as the settings have among themselves; a message has those behind them. `words` is whether the
+    /// words have been said.
+    pub(in crate::word) fn settings(&mut self, block: &Block, words: bool, out: &mut Batch) {
+        if block.settings.is_empty() || self.now.failed {
+            return;
+        }
+        let read = block.exprs.iter().any(|expr| block.settings.iter().any(|set| meets(expr, &set.to)));
+        if read != words {
+            return;
+        }
+        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
+            let fault = Fault::NotSupported { code: "#".into(), name: name.into() };
+            lower.fault(fault, block.span, out);
+        };
+        if read && self.now.message && !block.comments.is_empty() {
+            return refuse(self, "setting beside a message, of what the block's words read", out);
+        }
+        // Of two that set one parameter, the later one counts.
+        let mut left: Vec<&Setting> = Vec::new();
+        for set in &block.settings {
+            left.retain(|other| other.to != set.to);
+            left.push(set);
+        }
+        let mut made = Vec::new();
+        while !left.is_empty() {
+            // First what no other one reads any more.
+            let free = left.iter().position(|set| {
+                left.iter().all(|other| std::ptr::eq(*other, *set) || !meets(&other.value, &set.to))
+            });
+            let Some(free) = free else {
+                return refuse(self, "settings that read one another", out);
+            };
+            made.push(left.remove(free));
+        }
+        let alone = made.len() == 1 && block.words.is_empty();
+        for set in made {
+            if let Some(op) = self.parameter_by_number(set, alone, out) {
+                if let Expr::Node(node) = &set.to
+                    && let Node::Var(var) = &**node
+                    && self.now.skip.is_none()
+                    && let Some(Named::Var(var)) = self.named(&var.name(), set.span, out)
+                {
+                    self.o.given.set(&var);
+                }
+                self.assigned(None, set.span, out);
+                self.push(set.span, op, out);
+                continue;
+            }
+            if self.now.failed {
+                return;
+            }
+            let mut value = set.value.clone();
+            self.parameters(&mut value, set.span, out);
+            if read && asks(&value).is_some() {
+                return refuse(
+                    self,
+                    "setting of what the block's words read, to a value of the control's",
+                    out,
+                );
+            }
+            let Some(to) = self.target_of(&set.to, set.span, out) else { continue };
+            if let Target::Var(var) = &to
+                && self.now.skip.is_none()
+            {
+                self.o.given.set(var);
+            }
+            self.saves(&to, &value);
+            self.assigned(None, set.span, out);
+            self.push(set.span, Op::Assign(to, value), out);
+        }
+    }
+
+    /// What is set; `None` is refused (reported).
+    pub(in crate::word) fn target_of(&mut self, to: &Expr, at: Span, out: &mut Batch) -> Option<Target> {
+        let Expr::Node(node) = to else { return None };
+        match &**node {
+            Node::Element(element) => {
+                self.no_place_here(element, at, out);
+                let mut element = element.clone();
+                element.of = ncc_ir::expr::Many::Numbered(numbers());
+                for index in &mut element.at {
+                    self.parameters(index, at, out);
+                    let digits = Expr::int(super::parameters::WHOLE_DIGITS);
+                    let whole = std::mem::replace(index, Expr::int(0));
+                    *index = Expr::Node(Box::new(Node::Call(Function::RoundTo, vec![whole, digits])));
+                }
+                Some(Target::Element(Box::new(element)))
+            }
+            Node::Var(var) => {
+                let name = var.name().into_owned();
+                match self.named(&name, at, out)? {
+                    Named::Var(Var::Common(word)) if matches!(&*word, "_value" | "_value_returned") => {
+                        let fault =
+                            Fault::NotSupported { code: name.into(), name: "setting of a result".into() };
+                        self.refuse(fault, at, out)
+                    }
+                    Named::Var(var) => Some(Target::Var(var)),
+                    Named::Value(_) => {
+                        let what = "setting of a parameter of the control's own".into();
+                        self.refuse(Fault::NotSupported { code: name.into(), name: what }, at, out)
+                    }
+                }
+            }
+            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => None,
+        }
+    }
+
+    /// All words of a block are read before anything of it happens: what it asks of the control must not have been
+    /// changed by what comes before in it.
+    pub(in crate::word) fn asked_in_time(&mut self, block: &Block, out: &mut Batch) {
+        if self.now.failed || (block.exprs.is_empty() && block.settings.is_empty()) {
+            return;
+        }
+        let mark = self.now.mark;
+        let (mut changed, mut moved, mut set) = (false, false, false);
+        let mut late = None;
+        for stmt in self.target(out).iter_mut().skip(mark) {
+            // Whether it is asked where the last move ended; where work offsets lie; and anything else.
+            let (mut end, mut zero, mut other) = (false, false, false);
+            let mut look = |expr: &Expr| {
+                let asks = |of: fn(&System) -> bool| {
+                    expr.has(&|node| matches!(node, Node::Var(Var::System(system)) if of(system)))
+                };
+                end |= asks(is_end);
+                zero |= asks(is_zero);
+                other |= asks(|system| !is_end(system) && !is_zero(system));
+            };
+            let seen = ncc_ir::program::arguments::each(&mut stmt.op, &mut |argument, _| {
+                argument.expr().into_iter().for_each(&mut look);
+                Ok::<(), std::convert::Infallible>(())
+            });
+            seen.unwrap_or_else(|never| match never {});
+            if let Op::Assign(_, value) = &stmt.op {
+                look(value);
+            }
+            if end && moved || other && changed || zero && set {
+                late = Some(stmt.span);
+            }
+            let says_nothing = matches!(
+                stmt.op,
+                Op::Assign(..) | Op::Message(_) | Op::MessageOf(_) | Op::Comment(_) | Op::SelectTool(_)
+            );
+            changed |= !says_nothing;
+            let stays = matches!(
+                stmt.op,
+                Op::SetFeedRate(_)
+                    | Op::SetFeedMode(_)
+                    | Op::SetDistanceMode(_)
+                    | Op::SelectPlane(_)
+                    | Op::SetSpindleSpeed(_)
+            );
+            moved |= !says_nothing && !stays;
+            // Where work offsets lie, in the unit in force.
+            let keeps = matches!(
+                stmt.op,
+                Op::SetOriginOffsets(_)
+                    | Op::UseToolLengthOffset(_)
+                    | Op::StraightTraverse(_)
+                    | Op::StraightFeed(_)
+                    | Op::StartSpindleClockwise
+                    | Op::StartSpindleCounterclockwise
+            );
+            set |= !says_nothing && !stays && !keeps;
+        }
+        if let Some(at) = late {
+            let name = "value of the control's own in a block that does something before".into();
+            self.fault(Fault::NotSupported { code: "#".into(), name }, at, out);
+        }
+    }
+
+    /// A block that decides. What begins and ends subprograms has been taken before.
+    pub(in crate::word) fn decide_flow(&mut self, decision: &Decision, block: &Block, out: &mut Batch) {
+        out.whole = true;
+        if self.o.too_deep {
+            return;
+        }
+        let span = block.span;
+        let letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
+        self.now.number = block.words.iter().find(|w| w.letter == letter).and_then(|w| match w.value {
+            crate::common::words::Value::Number(digits) => digits.whole(),
+            _ => None,
+        });
+        let word = decision.word;
+        let code = |label: &str| -> Text { format!("O{label} {}", spelled(word)).into() };
+        let label: Text = match &decision.label {
+            Index::Number(digits) => match digits.whole() {
+                Some(number) => number.to_string().into(),
+                None => return self.fault(Fault::OutOfRange { word: spelled(word).into() }, span, out),
+            },
+            Index::Name(name) => name.clone(),
+            Index::Computed(_) if word == FlowWord::Call => "".into(),
+            Index::Computed(_) => {
+                let fault = Fault::NotSupported { code: code("[]"), name: "label that is computed".into() };
+                return self.fault(fault, span, out);
+            }
+        };
+        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
+            lower.fault(Fault::NotSupported { code: code(&label), name: name.into() }, span, out);
+        };
+        if block.words.iter().any(|w| w.letter != letter) || !block.settings.is_empty() {
+            return refuse(self, "words beside an O word", out);
+        }
+        if block.skip != 0 {
+            return refuse(self, "O word in a block that can be skipped", out);
+        }
+        let most = match word {
+            FlowWord::Call => 30,
+            FlowWord::If | FlowWord::ElseIf | FlowWord::While | FlowWord::Repeat => 1,
+            FlowWord::Return | FlowWord::EndSub => 1,
+            _ => 0,
+        };
+        if decision.values.len() > most {
+            return refuse(self, "another number of values in brackets", out);
+        }
+        let mut values = decision.values.clone();
+        values.iter_mut().for_each(|value| self.parameters(value, span, out));
+        let needs = matches!(word, FlowWord::If | FlowWord::ElseIf | FlowWord::While | FlowWord::Repeat);
+        if needs && values.is_empty() {
+            return refuse(self, "O word without its value in brackets", out);
+        }
+        self.now.silent = true;
+        let first = || values.first().cloned().unwrap_or(Expr::int(0));
+        match word {
+            FlowWord::If => {
+                self.open_body(&label, Kind::If { before: Vec::new(), now: Some(first()) }, span, out)
+            }
+            FlowWord::Do => self.open_body(&label, Kind::Do, span, out),
+            FlowWord::Repeat => self.open_body(&label, Kind::Repeat(times(first())), span, out),
+            FlowWord::While => {
+                let ends = self.o.open.last().is_some_and(|o| matches!(o.kind, Kind::Do) && o.label == label);
+                if !ends {
+                    return self.open_body(&label, Kind::While(first()), span, out);
+                }
+                let Some((open, body)) = self.close_body(out) else { return };
+                let condition = Expr::Node(Box::new(Node::Unary(Unary::Not, first())));
+                self.closed(open, Control::Until { body, condition }, out);
+            }
+            FlowWord::ElseIf | FlowWord::Else => {
+                let fits = self
+                    .o
+                    .open
+                    .last()
+                    .is_some_and(|o| o.label == label && matches!(o.kind, Kind::If { now: Some(_), .. }));
+                if !fits {
+                    return refuse(self, "O word without its if", out);
+                }
+                let Some((mut open, body)) = self.close_body(out) else { return };
+                if let Kind::If { before, now } = &mut open.kind {
+                    before.extend(now.take().map(|condition| (condition, body)));
+                    *now = (word == FlowWord::ElseIf).then(first);
+                    if now.as_ref().is_some_and(fails::may_fail) {
+                        // The control works it out and stops, whatever held before.
+                        let parameter = "elseif can be worked out where it is passed over".into();
+                        out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+                    }
+                }
+                open.at = None;
+                self.o.given = open.given.clone();
+                self.lose_within(open.centre, span, out);
+                self.o.open.push(open);
+            }
+            FlowWord::EndIf | FlowWord::EndWhile | FlowWord::EndRepeat => {
+                let fits = self.o.open.last().is_some_and(|open| {
+                    let kind = matches!(
+                        (&open.kind, word),
+                        (Kind::If { .. }, FlowWord::EndIf)
+                            | (Kind::While(_), FlowWord::EndWhile)
+                            | (Kind::Repeat(_), FlowWord::EndRepeat)
+                    );
+                    kind && open.label == label
+                });
+                if !fits {
+                    return refuse(self, "end of nothing that is open", out);
+                }
+                let Some((mut open, body)) = self.close_body(out) else { return };
+                let control = match std::mem::replace(&mut open.kind, Kind::Do) {
+                    Kind::While(condition) => Control::While { condition, body },
+                    Kind::Repeat(times) => Control::Repeat { times, body },
+                    Kind::If { before, now } => match decision_of(before, now, body, open.block) {
+                        Some(control) => control,
+                        None => return,
+                    },
+                    Kind::Do | Kind::Sub(_) => return,
+                };
+                self.closed(open, control, out);
+            }
+            FlowWord::Break | FlowWord::Continue => self.leave(&label, word, span, out),
+            FlowWord::Call => self.o_call(decision, &label, values, span, out),
+            FlowWord::Return => self.o_return(&label, values, span, out),
+            // In front of it all, by the reader.
+            FlowWord::Sub | FlowWord::EndSub => {}
+        }
+    }
+
+    fn open_body(&mut self, label: &str, kind: Kind, block: Span, out: &mut Batch) {
+        if self.o.labels.iter().any(|other| **other == *label) {
+            let fault = Fault::NotSupported {
+                code: format!("O{label} {}", kind.word()).into(),
+                name: "label that stands twice in its program".into(),
+            };
+            self.fault(fault, block, out);
+        }
+        if self.within_too_many(label, &kind, block, out) {
+            return;
+        }
+        self.o.labels.push(label.into());
+        if let Kind::Do = kind {
+            self.o.does.get_or_insert(block);
+            self.check_break(block, out);
+        }
+        if let Kind::Repeat(_) = kind {
+            self.o.repeats.get_or_insert(block);
+            self.check_continue(block, out);
+        }
+        let (number, given) = (self.now.number, self.o.given.clone());
+        let centre = self.state.centre_before;
+        self.o.open.push(Open {
+            label: label.into(),
+            kind,
+            at: None,
+            block,
+            number,
+            given,
+            centre,
+            turned: false,
+        });
+        self.lose_within(centre, block, out);
+    }
+
+    /// Facts are lost, and what the program has said before stays said.
+    pub(in crate::word) fn lose_within(&mut self, centre: Option<CentreFrom>, at: Span, out: &mut Batch) {
+        self.lose(at, out);
+        self.state.centre_before = centre;
+    }
+
+    /// Takes what was opened last, with its body.
+    fn close_body(&mut self, out: &mut Batch) -> Option<(Open, Vec<Stmt>)> {
+        self.leave_motion(None, out);
+        let open = self.o.open.pop()?;
+        let stmts = self.target(out);
+        let at = open.at.unwrap_or(stmts.len());
+        let mut body = stmts.split_off(at.min(stmts.len()));
+        if let Some(first) = body.first_mut() {
+            first.joined = false;
+        }
+        Some((open, body))
+    }
+
+    /// The statement of a structure stands where its head does.
+    fn closed(&mut self, open: Open, control: Control, out: &mut Batch) {
+        let at = open.at.unwrap_or(usize::MAX);
+        self.now.mark = self.now.mark.min(at).min(self.target(out).len());
+        self.now.number = open.number;
+        self.o.given = open.given;
+        self.push(open.block, Op::Control(Box::new(control)), out);
+        self.separate(out);
+        self.lose_within(open.centre, open.block, out);
+    }
+
+    /// `break` and `continue`.
+    fn leave(&mut self, label: &str, word: FlowWord, span: Span, out: &mut Batch) {
+        let mut loops = self.o.open.iter().rev().filter(|open| !matches!(open.kind, Kind::If { .. }));
+        let inner = loops.next();
+        let name = match inner {
+            // What is passed over behind a `continue` is looked through for the loop's label, and a `break` with it
+            // is taken for one that is made (interp_o_word.cc); a `while` goes on all the same.
+            Some(Open { kind: Kind::Do, label: own, turned: true, .. })
+                if **own == *label && word == FlowWord::Break =>
+            {
+                Some("O word that leaves a loop behind a continue of it")
+            }
+            Some(Open { kind: Kind::While(_) | Kind::Do, label: own, .. }) if **own == *label => None,
+            Some(Open { kind: Kind::While(_) | Kind::Do, .. }) if loops.any(|open| *open.label == *label) => {
+                Some("O word that leaves a loop from within another")
+            }
+            Some(Open { kind: Kind::Repeat(_), .. }) => Some("O word that leaves a repeat"),
+            _ => Some("O word that leaves no loop"),
+        };
+        if let Some(name) = name {
+            let code = format!("O{label} {}", spelled(word)).into();
+            return self.fault(Fault::NotSupported { code, name: name.into() }, span, out);
+        }
+        let in_while = matches!(inner, Some(Open { kind: Kind::While(_), .. }));
+        if word == FlowWord::Break && in_while {
+            self.o.left.get_or_insert(span);
+            self.check_break(span, out);
+        }
+        let is_loop = |open: &&mut Open| *open.label == *label;
+        if let (FlowWord::Continue, Some(open)) = (word, self.o.open.iter_mut().rev().find(is_loop)) {
+            open.turned = true;
+            if matches!(open.kind, Kind::Do) {
+                self.o.turned.get_or_insert(span);
+                self.check_continue(span, out);
+            }
+        }
+        self.leave_motion(None, out);
+        let op = if word == FlowWord::Break { Op::Leave } else { Op::NextTurn };
+        self.push(span, op, out);
+    }
+
+    /// A break of `while` leaves its mark set, by which the next loop of `do` is left behind its first turn
+    /// (interp_o_word.cc, `doing_break`).
+    fn check_break(&mut self, at: Span, out: &mut Batch) {
+        if self.o.left.is_some() && self.o.does.is_some() {
+            let name = "loop of do in a text where break leaves a loop of while".into();
+            self.fault(Fault::NotSupported { code: "O".into(), name }, at, out);
+        }
+    }
+
+    /// A continue of `do` leaves its mark set as well, by which the next loop of `repeat` is begun anew at its end
+    /// (run: a `repeat [3]` made six turns).
+    fn check_continue(&mut self, at: Span, out: &mut Batch) {
+        if self.o.turned.is_some() && self.o.repeats.is_some() {
+            let name = "loop of repeat in a text where continue leaves a turn of a do".into();
+            self.fault(Fault::NotSupported { code: "O".into(), name }, at, out);
+        }
+    }
+
+    /// The end of a program: what is still open has no end.
+    pub(in crate::word) fn open_bodies(&mut self, out: &mut Batch) {
+        for open in std::mem::take(&mut self.o.open) {
+            let code = format!("O{} {}", open.label, open.kind.word()).into();
+            out.report(Fault::NotSupported { code, name: "O word without its end".into() }, open.block);
+            self.now.failed = true;
+        }
+        self.o.labels.clear();
+    }
+
+    /// What surrounds the block, from the innermost.
+    pub(in crate::word) fn kinds(&self) -> impl Iterator<Item = &Kind> {
+        self.o.open.iter().rev().map(|open| &open.kind)
+    }
+
+    /// A subprogram is opened, or closed.
+    pub(in crate::word) fn open_sub(&mut self, label: &str, outer: Outer, block: Span) {
+        let given = std::mem::take(&mut self.o.given);
+        let kind = Kind::Sub(Box::new(outer));
+        let (number, centre) = (None, None);
+        self.o.open.push(Open {
+            label: label.into(),
+            kind,
+            at: Some(0),
+            block,
+            number,
+            given,
+            centre,
+            turned: false,
+        });
+    }
+
+    /// The subprogram that is open, if it has this label and nothing in it is.
+    pub(in crate::word) fn close_sub(&mut self, label: &str) -> Option<Outer> {
+        let fits = |open: &&Open| *open.label == *label && matches!(open.kind, Kind::Sub(_));
+        self.o.open.last().filter(fits)?;
+        let open = self.o.open.pop()?;
+        self.o.given = open.given;
+        match open.kind {
+            Kind::Sub(outer) => Some(*outer),
+            _ => None,
+        }
+    }
+}
+
+/// Decisions one within the other.
+fn decision_of(
+    before: Vec<(Expr, Vec<Stmt>)>,
+    now: Option<Expr>,
+    body: Vec<Stmt>,
+    block: Span,
+) -> Option<Control> {
+    let (mut otherwise, mut all) = (Vec::new(), before);
+    match now {
+        Some(condition) => all.push((condition, body)),
+        None => otherwise = body,
+    }
+    let mut found = None;
+    for (condition, then) in all.into_iter().rev() {
+        if let Some(inner) = found.take() {
+            otherwise = vec![Stmt::new(block, Op::Control(Box::new(inner)))];
+        }
+        found = Some(Control::If { condition, then, otherwise: std::mem::take(&mut otherwise) });
+    }
+    found
+}
+
+/// How many times a body is executed: rounded, and not less than none (interp_o_word.cc, `O_repeat`).
+fn times(value: Expr) -> Expr {
+    if let Some(whole) = constant(&value).filter(|n| *n >= 0.0 && *n == n.trunc() && *n < 1e9) {
+        return Expr::int(whole as i64);
+    }
+    let call = |function, arguments| Expr::Node(Box::new(Node::Call(function, arguments)));
+    call(Function::Max, vec![call(Function::Round, vec![value]), Expr::int(0)])
+}
+
+/// Whether an expression of the text may read what another one names.
+fn meets(expr: &Expr, to: &Expr) -> bool {
+    let (Expr::Node(node), Expr::Node(set)) = (expr, to) else { return false };
+    if let Node::Element(element) = &**set
+        && element.at.iter().any(|at| meets(at, expr))
+    {
+        return true;
+    }
+    match &**node {
+        Node::Var(_) if node == set || matches!(**set, Node::Element(_)) => true,
+        Node::Element(_) if matches!(**set, Node::Element(_) | Node::Var(_)) => true,
+        _ => expr.parts().any(|part| meets(part, to)),
+    }
+}

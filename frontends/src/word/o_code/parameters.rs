@@ -1,0 +1,320 @@
+//! Parameters and expressions of a control with O words (LinuxCNC 2.9, gcode/overview.html).
+//!
+//! The grammar leaves a parameter as the text names it; which variable that is, or which value of the control's own,
+//! is looked up here, by the dictionary. A local that may have no value yet is an error where it is read: one with
+//! a name is so on the control, and a number holds what an earlier program has left in it.
+//!
+//! Not here: settings of parameters, and blocks that decide where the program goes (`o_words`).
+
+use std::collections::HashSet;
+
+use ncc_dialects::{MACHINE_UNITS, Quantity, SystemRow};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::system::System;
+use ncc_ir::expr::value;
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Unary, Var};
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::common::words::Digits;
+use crate::word::lower::Lower;
+use crate::word::macros::formula::Formula;
+
+/// Parameters that belong to a call, and those that all programs have (overview, numbered parameters).
+const LOCALS: u32 = 30;
+const OWN: u32 = 5000;
+
+/// How far apart values are that are equal (overview, equality and floating-point values).
+const EQUAL: Num = Num { mantissa: 1, scale: 6, point: true, unit: Unit::One };
+
+/// To how many digits the number of a parameter, or a whole number, is looked at.
+pub(in crate::word) const WHOLE_DIGITS: i64 = 4;
+
+/// What stands behind `#`, or behind the letter of programs.
+#[derive(Clone, Debug)]
+pub(crate) enum Index {
+    Number(Digits),
+    /// In small letters, without blanks.
+    Name(Box<str>),
+    Computed(Formula),
+}
+
+/// A parameter as the text names it.
+fn named(name: String) -> Expr {
+    Expr::Node(Box::new(Node::Var(Var::System(System::Other(name.into())))))
+}
+
+fn node(node: Node) -> Expr {
+    Expr::Node(Box::new(node))
+}
+
+impl Formula {
+    /// A function of values; `None` is one that is refused by name, or nested too deep.
+    pub(crate) fn of(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
+        Formula::call(function, arguments)
+    }
+
+    /// The opposite of a value.
+    pub(crate) fn opposite(self) -> Option<Formula> {
+        let depth = self.depth() + 1;
+        match self.expr {
+            Expr::Num(n) => Formula::within(Expr::Num(Num { mantissa: -n.mantissa, ..n }), depth),
+            expr => Formula::within(node(Node::Unary(Unary::Negate, expr)), depth),
+        }
+    }
+
+    /// Two values and what joins them; of logic, anything but zero holds, and what comes of it is a number.
+    pub(crate) fn joined(operator: Binary, a: Formula, b: Formula) -> Option<Formula> {
+        let depth = a.depth().max(b.depth()) + 1;
+        Formula::within(node(Node::Binary(operator, a.expr, b.expr)), depth)
+    }
+
+    /// A comparison: what is less than a millionth apart is equal, and as such neither less nor greater by `LE` and
+    /// `GE` (interp_execute.cc, execute_binary2: `LT` and `GT` compare as they are).
+    pub(crate) fn compared(operator: Binary, a: Formula, b: Formula) -> Option<Formula> {
+        let depth = a.depth().max(b.depth()) + 2;
+        let (a, b) = (a.expr, b.expr);
+        let apart = |a, b| node(Node::Binary(Binary::Subtract, a, b));
+        let difference = |a, b| node(Node::Call(Function::Abs, vec![apart(a, b)]));
+        let expr = match operator {
+            Binary::Equal => node(Node::Binary(Binary::Less, difference(a, b), Expr::Num(EQUAL))),
+            Binary::NotEqual => {
+                node(Node::Binary(Binary::GreaterOrEqual, difference(a, b), Expr::Num(EQUAL)))
+            }
+            Binary::LessOrEqual => node(Node::Binary(Binary::Less, apart(a, b), Expr::Num(EQUAL))),
+            Binary::GreaterOrEqual => {
+                let least = Num { mantissa: -EQUAL.mantissa, ..EQUAL };
+                node(Node::Binary(Binary::Greater, apart(a, b), Expr::Num(least)))
+            }
+            operator => node(Node::Binary(operator, a, b)),
+        };
+        Formula::within(expr, depth)
+    }
+
+    /// Whether a parameter with a name exists; `None` for one without (overview, functions: an error).
+    pub(crate) fn exists(of: Index) -> Option<Formula> {
+        let Index::Name(name) = of else { return None };
+        let named = named(format!("#<{name}>"));
+        Formula::within(node(Node::Binary(Binary::NotEqual, named, node(Node::Vacant))), 1)
+    }
+
+    /// The value of a parameter; `None` is no number of one.
+    pub(crate) fn parameter(of: Index) -> Option<Formula> {
+        match of {
+            Index::Number(digits) => {
+                let number = digits.whole().filter(|number| *number > 0)?;
+                Formula::within(named(format!("#{number}")), 0)
+            }
+            Index::Name(name) => Formula::within(named(format!("#<{name}>")), 0),
+            Index::Computed(formula) => {
+                let depth = formula.depth() + 1;
+                let element = Element { of: Many::Numbered(Box::new([])), at: vec![formula.expr] };
+                Formula::within(node(Node::Element(element)), depth)
+            }
+        }
+    }
+}
+
+/// Which variables surely have a value where the text is being read.
+#[derive(Clone, Debug, Default)]
+pub(in crate::word) struct Given {
+    set: HashSet<Var>,
+    /// Whether all numbered locals have: a program that is called by an O word has its arguments in them, and zeros.
+    pub(in crate::word) numbered: bool,
+}
+
+impl Given {
+    pub(in crate::word) fn set(&mut self, var: &Var) {
+        if let Var::Local(_) = var {
+            self.set.insert(var.clone());
+        }
+    }
+
+    fn has(&self, var: &Var) -> bool {
+        match var {
+            Var::Local(name) => {
+                self.numbered && name.bytes().all(|b| b.is_ascii_digit()) || self.set.contains(var)
+            }
+            Var::Common(_) | Var::Retentive(_) | Var::System(_) => true,
+        }
+    }
+}
+
+/// What a name of the text is.
+pub(in crate::word) enum Named {
+    Var(Var),
+    /// A value of the control's own, or several that make one.
+    Value(Expr),
+}
+
+impl Lower {
+    /// Puts variables and values of the control in where an expression has parameters. Reports what is refused.
+    pub(in crate::word) fn parameters(&mut self, expr: &mut Expr, at: Span, out: &mut Batch) {
+        let Expr::Node(inner) = expr else { return };
+        match &mut **inner {
+            Node::Var(Var::System(System::Other(name))) if name.starts_with('#') => {
+                let name = name.clone();
+                let Some(found) = self.named(&name, at, out) else { return };
+                *expr = match found {
+                    Named::Value(value) => value,
+                    Named::Var(var) if self.o.given.has(&var) => node(Node::Var(var)),
+                    Named::Var(var) => node(Node::Call(Function::Given, vec![node(Node::Var(var))])),
+                };
+            }
+            Node::Binary(Binary::NotEqual, Expr::Node(left), Expr::Node(right))
+                if matches!(**right, Node::Vacant) =>
+            {
+                let Node::Var(Var::System(System::Other(name))) = &**left else { return };
+                let name = name.clone();
+                match self.named(&name, at, out) {
+                    Some(Named::Var(var)) => **left = Node::Var(var),
+                    Some(Named::Value(_)) => *expr = Expr::int(1),
+                    None => {}
+                }
+            }
+            Node::Element(element) => {
+                self.no_place_here(element, at, out);
+                element.of = Many::Numbered(numbers());
+                for index in &mut element.at {
+                    self.parameters(index, at, out);
+                    let whole = std::mem::replace(index, Expr::int(0));
+                    *index = node(Node::Call(Function::RoundTo, vec![whole, Expr::int(WHOLE_DIGITS)]));
+                }
+                let element = std::mem::replace(expr, Expr::int(0));
+                *expr = match self.o.given.numbered {
+                    true => element,
+                    false => node(Node::Call(Function::Given, vec![element])),
+                };
+            }
+            _ => expr.parts_mut().for_each(|part| self.parameters(part, at, out)),
+        }
+    }
+
+    /// What a parameter is by the text's name of it, `#31` or `#<_x>`; `None` is refused (reported).
+    pub(in crate::word) fn named(&mut self, name: &str, at: Span, out: &mut Batch) -> Option<Named> {
+        let refuse = |lower: &mut Lower, told: &str, out: &mut Batch| {
+            let fault = Fault::NotSupported { code: name.into(), name: told.into() };
+            lower.refuse(fault, at, out)
+        };
+        let bare = name.trim_start_matches('#');
+        if let Some(word) = bare.strip_prefix('<').and_then(|word| word.strip_suffix('>')) {
+            if !word.starts_with('_') {
+                if self.o.numbered_program {
+                    return refuse(self, "local parameter with a name in a program that ends with M99", out);
+                }
+                return Some(Named::Var(Var::Local(word.into())));
+            }
+            if word.starts_with("_ini[") || word.starts_with("_hal[") {
+                return refuse(self, "value of the machine's own configuration", out);
+            }
+            let row = self.settings.dialect.system.iter().find(|row| row.name == word);
+            let Some(row) = row else { return Some(Named::Var(Var::Common(word.into()))) };
+            return match self.value_of(row, 0, at, out) {
+                Some(value) => Some(Named::Value(value)),
+                None => refuse(self, row.refuse.as_deref().unwrap_or_default(), out),
+            };
+        }
+        let number: u32 = bare.parse().ok()?;
+        if number <= OWN {
+            return Some(Named::Var(parameter(bare)));
+        }
+        let rows = &self.settings.dialect.system;
+        let row = rows.iter().find(|row| row.numbers().contains(&number));
+        let Some(row) = row else {
+            return self.refuse(Fault::OutOfRange { word: name.into() }, at, out);
+        };
+        match self.value_of(row, number - row.number, at, out) {
+            Some(value) => Some(Named::Value(value)),
+            None => refuse(self, row.refuse.as_deref().unwrap_or_default(), out),
+        }
+    }
+
+    /// The value of a row; of one that counts axes, along the one with this place.
+    pub(in crate::word) fn value_of(
+        &mut self,
+        row: &SystemRow,
+        place: u32,
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        let unit =
+            if row.machine_units { self.option(MACHINE_UNITS, at, out).to_owned() } else { String::new() };
+        if row.zero {
+            if self.assume && !std::mem::replace(&mut self.o.no_such_axes, true) {
+                let parameter = "axes U, V and W, which the machine does not have".into();
+                out.report(Fault::AssumedParameter { parameter, value: "0".into() }, at);
+            }
+            return Some(Expr::int(0));
+        }
+        row.value(place, &unit)
+    }
+
+    /// The value of a word that is computed, as the quantity of its letter.
+    pub(in crate::word) fn o_amount(
+        &mut self,
+        expr: &Expr,
+        quantity: Quantity,
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        out.whole = true;
+        let mut expr = expr.clone();
+        self.parameters(&mut expr, at, out);
+        if let Quantity::Length | Quantity::Feed = quantity {
+            self.units(at, out);
+        }
+        match quantity {
+            Quantity::Integer => {
+                let digits = Expr::int(WHOLE_DIGITS);
+                Some(node(Node::Call(Function::RoundTo, vec![expr, digits])))
+            }
+            Quantity::Length | Quantity::Angle | Quantity::Feed | Quantity::Speed | Quantity::Seconds => {
+                Some(self.written(expr, quantity, at, out))
+            }
+            Quantity::Milliseconds | Quantity::Factor => None,
+        }
+    }
+}
+
+/// A parameter of the program's own, by the digits of its number: those that live as long as a call come first.
+pub(in crate::word) fn parameter(digits: &str) -> Var {
+    match digits.parse::<u32>() {
+        Ok(number) if number <= LOCALS => Var::Local(digits.into()),
+        _ => Var::Common(digits.into()),
+    }
+}
+
+/// All numbered parameters that a program may set.
+pub(in crate::word) fn numbers() -> Box<[Numbers]> {
+    let numbers = |scope, from, to| Numbers { scope, prefix: "".into(), from, to };
+    Box::new([numbers(Scope::Local, 1, LOCALS), numbers(Scope::Common, LOCALS + 1, OWN)])
+}
+
+/// What an expression without parameters is worth.
+pub(in crate::word) fn constant(expr: &Expr) -> Option<f64> {
+    let node = match expr {
+        Expr::Num(n) => return Some(n.mantissa as f64 / 10f64.powi(i32::from(n.scale))),
+        Expr::Node(node) => &**node,
+    };
+    match node {
+        Node::Var(_) | Node::Element(_) | Node::Vacant => None,
+        Node::Unary(operator, a) => Some(value::unary(*operator, constant(a)?)),
+        Node::Binary(operator, a, b) => value::binary(*operator, constant(a)?, constant(b)?).ok(),
+        Node::Call(f, arguments) => match &arguments[..] {
+            [a] if f.arguments() == 1 => value::function(*f, constant(a)?, 0.0).ok(),
+            [a, b] if f.arguments() == 2 => value::function(*f, constant(a)?, constant(b)?).ok(),
+            _ => None,
+        },
+    }
+}
+
+/// Whether an expression asks for a value of the control's own.
+pub(in crate::word) fn asks(expr: &Expr) -> Option<&System> {
+    if let Expr::Node(node) = expr
+        && let Node::Var(Var::System(system)) = &**node
+    {
+        return Some(system);
+    }
+    expr.parts().find_map(asks)
+}

@@ -1,6 +1,0 @@
-//! Pictures as others see them: what is drawn, what is kept, what becomes of text.
-
-mod drawn;
-mod laws;
-mod made;
-mod pages;
