@@ -23,7 +23,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::expr::Function;
-use ncc_ir::expr::num::Nanos;
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
@@ -109,6 +109,8 @@ pub(crate) struct Verifier {
     given: Given,
     /// What the target computes with.
     functions: Vec<Function>,
+    /// How far apart two numbers are that the target's own comparisons find equal.
+    equal_within: Option<Num>,
     /// Whether its comparisons find real numbers equal that are nearly so.
     near: bool,
     /// To which digits its lengths are rounded.
@@ -273,6 +275,7 @@ impl Verifier {
             fineness: fineness(job),
             near: job.to.caps().computes.is_some_and(|computes| computes.near),
             functions: job.to.caps().computes.map(|computes| computes.functions.clone()).unwrap_or_default(),
+            equal_within: job.to.caps().computes.and_then(|computes| computes.equal_within),
             last: Span::default(),
             outliving: Vec::new(),
             assumed: Modes::default(),

@@ -425,6 +425,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CannotSay { what } if what.starts_with("a tool change by hand, which") => {
             own("`--to-option tool_change=manual` writes a block that stops the program for it")
         }
+        Fault::CannotSay { what } if &**what == "a tool change while a canned cycle is active" => {
+            own("write `G80` before this block")
+        }
+        Fault::CannotSay { what } if what.starts_with("a first hole on whose way a length") => {
+            own("move Z in a block of its own before the cycle: `G00 Z10.`")
+        }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
             let option = Behaviour::SpindleAtChange.option();

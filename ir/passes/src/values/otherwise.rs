@@ -9,6 +9,7 @@
 use crate::values::variables::{Fineness, as_rounded, expressions};
 use ncc_ir::computed::computes::NEARLY;
 use ncc_ir::expr::compared;
+use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
@@ -46,6 +47,8 @@ pub struct There<'t> {
     pub fineness: Fineness,
     /// Whether its comparisons find real numbers equal that are nearly so, and the source's do not.
     pub near: bool,
+    /// How far apart two numbers are that its own comparisons find equal, in the unit of the numbers.
+    pub equal_within: Option<Num>,
 }
 
 /// Whether a program compares to within a part of the greater number.
@@ -125,8 +128,13 @@ fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
     // One that the target has is none that another stands for.
     let has = |function| functions.contains(&function);
     let other = match &**node {
-        Node::Call(Function::Near | Function::NearRatio, all) if apart => match &all[..] {
-            [a, b, _] => of(Binary::Equal, a, b),
+        Node::Call(Function::Near | Function::NearRatio, all) if apart => match (&all[..], there.equal_within) {
+            ([a, b, _], Some(tolerance)) => {
+                let apart = vec![self::node(Node::Binary(Binary::Subtract, a.clone(), b.clone()))];
+                let apart = self::node(Node::Call(Function::Abs, apart));
+                Some(Node::Binary(Binary::Less, apart, Expr::Num(tolerance)))
+            }
+            ([a, b, _], None) => of(Binary::Equal, a, b),
             _ => None,
         },
         Node::Binary(operator, a, b) if apart && there.near => nearly(*operator, a, b),
