@@ -428,6 +428,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CannotSay { what } if &**what == "a tool change while a canned cycle is active" => {
             own("write `G80` before this block")
         }
+        Fault::CannotSay { what } if &**what == "a tool change that keeps the length of another tool" => {
+            own("state the tool length offset between the tool change and this move: `G43` with its H number")
+        }
         Fault::CannotSay { what } if what.starts_with("a first hole on whose way a length") => {
             own("move Z in a block of its own before the cycle: `G00 Z10.`")
         }

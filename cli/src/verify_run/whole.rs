@@ -10,11 +10,11 @@ use ncc_ir::canon::Modes;
 use ncc_ir::computed::open::{literals, open_variables};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
-use ncc_ir::expr::value::Value;
+use ncc_ir::expr::value::{Value, Wrong};
 use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::{Taken, There, compares_nearly, otherwise, places};
+use ncc_passes::values::otherwise::{Taken, There, compares_nearly, computes_numbers, otherwise, places};
 use ncc_passes::values::variables::Renamed;
 
 use crate::given::Given as Stated;
@@ -530,6 +530,15 @@ impl Verifier {
                 // What is read back has not failed: the user has stopped ncc.
                 Err(Diagnostic { fault: fault @ Fault::Interrupted { .. }, .. }) => {
                     break Err(Ended::Source(Diagnostic::new(fault, runners[0].here())));
+                }
+                // The source's control reads nothing there.
+                Err(Diagnostic { fault: Fault::NoValue { what }, .. })
+                    if *what == *Wrong::NothingGiven.words() && computes_numbers(sides[0]) =>
+                {
+                    let what =
+                        "a variable whose number is computed, and which may have no value where it is read";
+                    let at = runners[0].here();
+                    break Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what: what.into() }, at)));
                 }
                 Err(fault) => {
                     let place = run.source_events.get(run.target_events.len());

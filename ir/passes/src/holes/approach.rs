@@ -59,7 +59,10 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             let what = "a hole on whose way a length is taken up";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
         }
-        if matches!(body[i].op, Op::Hole(_) | Op::Pattern(_)) && std::mem::take(&mut first_by_height) && walk.waiting {
+        if matches!(body[i].op, Op::Hole(_) | Op::Pattern(_))
+            && std::mem::take(&mut first_by_height)
+            && walk.waiting
+        {
             let what = "a first hole on whose way a length is taken up";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
         }

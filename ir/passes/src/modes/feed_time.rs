@@ -145,6 +145,11 @@ pub(crate) fn over(
                 }
             }
             Op::SetFeedRate(_) if state.by_time.is_some() => return made.leave_out(stmt),
+            // The source's mode once more, with the F that is still its own: `back` says both.
+            Op::SetFeedMode(mode) if state.by_time == Some(*mode) => {
+                (walk.at.feed, walk.at.fed) = (before.feed, before.fed);
+                return made.leave_out(stmt);
+            }
             Op::SetFeedMode(_) => state.by_time = None,
             Op::StraightFeed(_)
             | Op::ArcFeed(_)

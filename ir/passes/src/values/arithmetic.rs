@@ -213,6 +213,9 @@ impl Over<'_> {
                 let one = of(Binary::Multiply, second, b.clone());
                 Some(of(Binary::Add, one, of(Binary::Multiply, first, a.clone())))
             }
+            (Function::Floor, [a]) if self.has(Function::Ceiling) && self.decimals.may_be_negative(a) => {
+                Some(negative(call(Function::Ceiling, negative(a.clone()))))
+            }
             (Function::Floor, [a]) if self.has(Function::Truncate) => {
                 self.never_negative(a, "what is rounded down");
                 Some(call(Function::Truncate, a.clone()))
@@ -220,6 +223,14 @@ impl Over<'_> {
             (Function::Ceiling, [a]) if self.has(Function::RoundUp) => {
                 self.never_negative(a, "what is rounded up");
                 Some(call(Function::RoundUp, a.clone()))
+            }
+            (Function::Remainder, [a, b])
+                if self.decimals.may_be_negative(a)
+                    && self.decimals.is_whole(a)
+                    && b.literal().and_then(|b| b.whole()).is_some_and(|b| b > 0) =>
+            {
+                let once = of(Binary::Modulo, a.clone(), b.clone());
+                Some(of(Binary::Modulo, of(Binary::Add, once, b.clone()), b.clone()))
             }
             (Function::Remainder, [a, b]) => {
                 self.never_negative(a, "what is divided for a remainder");
@@ -277,6 +288,10 @@ fn is_count(function: Function, arguments: &[Expr]) -> bool {
 
 fn call_of(function: Function, arguments: &[Expr]) -> Expr {
     node(Node::Call(function, arguments.to_vec()))
+}
+
+fn negative(a: Expr) -> Expr {
+    node(Node::Unary(Unary::Negate, a))
 }
 
 /// 1 where something is less than zero, else 0.

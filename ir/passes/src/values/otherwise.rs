@@ -10,7 +10,7 @@ use crate::values::variables::{Fineness, as_rounded, expressions};
 use ncc_ir::computed::computes::NEARLY;
 use ncc_ir::expr::compared;
 use ncc_ir::expr::num::Num;
-use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Unary};
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 
@@ -57,6 +57,18 @@ pub fn compares_nearly(program: &Program) -> bool {
     for procedure in &mut program.clone().procedures {
         expressions(&mut procedure.body, &mut |_, expr| {
             found |= expr.has(&|node| matches!(node, Node::Call(Function::NearRatio, _)));
+        });
+    }
+    found
+}
+
+/// Whether a program reads a variable whose number it computes.
+pub fn computes_numbers(program: &Program) -> bool {
+    let mut found = false;
+    for procedure in &mut program.clone().procedures {
+        expressions(&mut procedure.body, &mut |_, expr| {
+            let numbered = |element: &Element| matches!(element.of, Many::Numbered(_));
+            found |= expr.has(&|node| matches!(node, Node::Element(element) if numbered(element)));
         });
     }
     found
@@ -128,15 +140,17 @@ fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
     // One that the target has is none that another stands for.
     let has = |function| functions.contains(&function);
     let other = match &**node {
-        Node::Call(Function::Near | Function::NearRatio, all) if apart => match (&all[..], there.equal_within) {
-            ([a, b, _], Some(tolerance)) => {
-                let apart = vec![self::node(Node::Binary(Binary::Subtract, a.clone(), b.clone()))];
-                let apart = self::node(Node::Call(Function::Abs, apart));
-                Some(Node::Binary(Binary::Less, apart, Expr::Num(tolerance)))
+        Node::Call(Function::Near | Function::NearRatio, all) if apart => {
+            match (&all[..], there.equal_within) {
+                ([a, b, _], Some(tolerance)) => {
+                    let apart = vec![self::node(Node::Binary(Binary::Subtract, a.clone(), b.clone()))];
+                    let apart = self::node(Node::Call(Function::Abs, apart));
+                    Some(Node::Binary(Binary::Less, apart, Expr::Num(tolerance)))
+                }
+                ([a, b, _], None) => of(Binary::Equal, a, b),
+                _ => None,
             }
-            ([a, b, _], None) => of(Binary::Equal, a, b),
-            _ => None,
-        },
+        }
         Node::Binary(operator, a, b) if apart && there.near => nearly(*operator, a, b),
         Node::Binary(operator, by, Expr::Num(limit)) if apart => {
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
