@@ -57,26 +57,28 @@ impl Course<'_> {
         for stmt in stmts {
             let sure = stmt.skip.is_none();
             let before = waits;
-            match &stmt.op {
-                Op::ChangeTool => waits = waits.map(|_| true),
-                op if op.calls_length() => waits = waits.map(|_| false),
-                Op::Call(call) if self.leave.contains(&call.name) => waits = waits.map(|_| true),
-                Op::Return => {
-                    self.returned |= waits == Some(true);
-                    waits = None;
-                }
-                Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_) => waits = None,
-                Op::Goto(label) => {
-                    *self.labels.entry(label.clone()).or_default() |= waits == Some(true);
-                    waits = None;
-                }
-                Op::Label(label) => waits = either(waits, self.labels.get(label).copied()),
-                Op::Control(control) => waits = self.control(control, waits),
-                Op::Leave | Op::NextTurn => {
-                    self.left |= waits == Some(true);
-                    waits = None;
-                }
-                _ => {}
+            let op = &stmt.op;
+            if matches!(op, Op::ChangeTool) {
+                waits = waits.map(|_| true);
+            } else if op.calls_length() {
+                waits = waits.map(|_| false);
+            } else if let Op::Call(call) = op {
+                waits = waits.map(|waits| waits || self.leave.contains(&call.name));
+            } else if let Op::Goto(label) = op {
+                *self.labels.entry(label.clone()).or_default() |= waits == Some(true);
+                waits = None;
+            } else if let Op::Label(label) = op {
+                waits = either(waits, self.labels.get(label).copied());
+            } else if let Op::Control(control) = op {
+                waits = self.control(control, waits);
+            } else if matches!(op, Op::Leave | Op::NextTurn) {
+                self.left |= waits == Some(true);
+                waits = None;
+            } else if matches!(op, Op::Return) {
+                self.returned |= waits == Some(true);
+                waits = None;
+            } else if matches!(op, Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_)) {
+                waits = None;
             }
             if !sure {
                 waits = either(before, waits);

@@ -285,6 +285,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }
         Fault::FramesExpanded | Fault::CycleFolded { .. } | Fault::PatternFolded { .. } => Vec::new(),
+        Fault::MacroLanguage { what } if what.strip_prefix("M#").is_some_and(is_variable) => vec![format!(
+            "if the program never sets #{0}, state the code: `--value {0}=8` for M8",
+            what.trim_start_matches("M#")
+        )],
         Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
         Fault::NoToolSelected => own("say the tool number in this block or before it"),
         Fault::NoFeed => own("say the feed in this block or before it"),
@@ -430,9 +434,6 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::CannotSay { what } if &**what == "a tool change that keeps the length of another tool" => {
             own("state the tool length offset between the tool change and this move: `G43` with its H number")
-        }
-        Fault::CannotSay { what } if what.starts_with("a first hole on whose way a length") => {
-            own("move Z in a block of its own before the cycle: `G00 Z10.`")
         }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
@@ -619,4 +620,9 @@ fn m_code(code: &str) -> String {
         "`--m-code {code}=drop` if it has no effect on the cut, `--m-code {code}=carry` if the target's machine has \
          it too, `--m-code {code}=M…` if that has another code for it; or `[[m_code]]` in the profiles"
     )
+}
+
+/// Whether a text is the number or the name of a variable.
+fn is_variable(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }

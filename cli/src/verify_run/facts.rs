@@ -206,6 +206,14 @@ impl Verifier {
         let mut notes = std::mem::take(&mut self.notes);
         let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedParameter { .. });
         notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
+        // A value that tells which code a block has is read with the text.
+        let with_text = |name: &str| {
+            let start = format!("variable {name} at the start");
+            reported.iter().any(|own| {
+                matches!(&own.fault, Fault::AssumedParameter { parameter, .. } if **parameter == *start)
+            })
+        };
+        notes.retain(|note| !matches!(&note.fault, Fault::ValueNotRead { name } if with_text(name)));
         notes.extend(told);
         notes.extend(self.take_untried());
         notes.extend(fed.map(|(at, [contour_in_source, inner])| {

@@ -20,7 +20,7 @@ use ncc_ir::program::{Move, Op, Point, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::{Block, Value, Word};
+use super::block::{Block, Digits, Value, Word};
 use super::facts::{InForce, Know};
 use super::functions::setting;
 use super::lower::Lower;
@@ -36,6 +36,11 @@ pub(crate) struct Saved {
     numbers: Vec<(Text, Var, i64)>,
     /// Where such codes are, and what tells the group.
     back: Vec<(Span, Told)>,
+    /// Variables that are set anywhere, each in its program, where values at the start are stated; `None` is one whose
+    /// number is computed.
+    set: Vec<(Text, Option<Var>)>,
+    /// M codes of which the number is a variable whose value at the start is stated: where, as the text has it, which.
+    stated: Vec<(Span, Text, Var)>,
 }
 
 /// What tells which group a code is of.
@@ -59,8 +64,12 @@ impl Saved {
 impl Lower {
     /// A variable gets a value as the text has it.
     pub(super) fn saves(&mut self, to: &Target, value: &Expr) {
-        let Target::Var(var) = to else { return };
         let own = self.sub.as_ref().map(|sub| sub.name.clone()).unwrap_or_default();
+        if self.settings.states_values() {
+            let set = if let Target::Var(var) = to { Some(var.clone()) } else { None };
+            self.computes.saved.set.push((own.clone(), set));
+        }
+        let Target::Var(var) = to else { return };
         let node = match value {
             Expr::Num(number) => {
                 let number = number.whole().filter(|_| !matches!(var, Var::System(_)));
@@ -81,6 +90,29 @@ impl Lower {
     /// Whether a code is one of those that the text may compute.
     pub(super) fn may_be_computed(&self, word: &Word) -> bool {
         word.letter == b'G' && self.settings.dialect.formula.statements.contains(&Says::CodeOf)
+    }
+
+    /// An M code of which the number is a variable that the main program never sets, and whose value at the start the
+    /// user states: that code. Whether the program sets it anywhere is looked at when the whole text has been read.
+    pub(super) fn stated_code(
+        &mut self,
+        word: &Word,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Word> {
+        let Value::Computed(place) = word.value else { return None };
+        let Expr::Node(node) = block.exprs.get(usize::from(place))? else { return None };
+        let Node::Var(var) = &**node else { return None };
+        if word.letter != b'M' || self.sub.is_some() && matches!(var, Var::Local(_)) {
+            return None;
+        }
+        let number = self.settings.stated_value(&var.name())?;
+        let parameter = format!("variable {} at the start", var.name()).into();
+        out.report(Fault::AssumedParameter { parameter, value: number.to_string().into() }, word.span);
+        self.computes.saved.stated.push((word.span, src.text(word.span), var.clone()));
+        let value = Value::Number(Digits { mantissa: number, scale: 0, point: false });
+        Some(Word { value, ..*word })
     }
 
     /// The codes of a block of which the number is a variable: they come first, as modes do.

@@ -5,11 +5,11 @@
 //! a rapid of its own, after which both ways are one. What cannot be mended so is left to
 //! `expand-cycles`.
 
-use crate::holes::expand_cycles::{is_one_way, level, sayable};
+use crate::holes::expand_cycles::{is_one_way, length_decides, level, sayable};
 use crate::support::walk::Walk;
 use crate::support::write::{at, only, traverse};
 use crate::{Target, each_body};
-use ncc_ir::canon::{Axis, ReturnLevel};
+use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::cycle::{Approach, Cycle, Pattern};
 use ncc_ir::program::kinds::{flow, moves};
@@ -30,8 +30,6 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
     let by_height = matches!(way, Approach::RaiseFirst | Approach::ClearFirst);
     // Whether a length was called up under a cycle, so that the way to its next hole depends on it.
     let mut another_length = false;
-    // Whether the next hole is the first of a cycle whose way there the control chooses by the height of the tool.
-    let mut first_by_height = false;
     while i < body.len() {
         walk.enter(body[i].skip);
         let chained = walk.at.cycle.is_some();
@@ -59,17 +57,9 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             let what = "a hole on whose way a length is taken up";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
         }
-        if matches!(body[i].op, Op::Hole(_) | Op::Pattern(_))
-            && std::mem::take(&mut first_by_height)
-            && walk.waiting
-        {
-            let what = "a first hole on whose way a length is taken up";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
-        }
         if let Op::StartCycle(cycle) = &body[i].op {
             another_length = false;
             other_way = cycle.approach != way || other_way && body[i].skip.is_some();
-            first_by_height = by_height && cycle.approach != way;
         }
         walk.step(&body[i]);
         if let Op::StartCycle(cycle) = &body[i].op
@@ -84,8 +74,6 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
                 m.to = to;
             }
             if let Some(to) = rapid {
-                // A rapid of Z takes the length up.
-                first_by_height &= to.get(Axis::Z).is_none();
                 let mut before = Stmt::new(body[i].span, traverse(to));
                 before.skip = body[i].skip;
                 if body[i].joined {
@@ -113,6 +101,9 @@ fn first_leg(
 ) -> Option<Leg> {
     let in_force = walk.at.cycle.as_ref()?;
     let way = target.caps.approach?;
+    if length_decides(walk, cycle.approach, way) {
+        return None;
+    }
     let mut other = cycle.clone();
     other.approach = way;
     if is_one_way(walk, in_force, way) {
