@@ -1,8 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT, MACRO_DEPTH,
-    STORED_POSITION, STRAIGHT_LINE,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, BLOCK_SKIP, CALL_DEPTH, DECIMAL_POINT, Dialect, FURTHER_POINT,
+    MACRO_DEPTH, STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
@@ -103,6 +103,20 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "`--from-option feed_unit=inch` or `feed_unit=mm`: the basic system of the machine, which F counts where lengths \
              are those of G70 or G71",
         ),
+        Fault::NotSupported { name, .. } if name.starts_with("time that goes on while") => own(
+            "delete the blocks that set and ask the timer, if they only tell a run in graphics from one at the machine",
+        ),
+        Fault::NotSupported { name, .. } if &**name == "whether a probe has touched" => {
+            own("probe with `G38.2`, which ends in an alarm where nothing is touched, and delete this check")
+        }
+        Fault::NotSupported { name, .. } if &**name == "data input of this kind" => {
+            own("delete these blocks, and set the parameter at the machine")
+        }
+        Fault::NotSupported { name, .. }
+            if name.starts_with("place of the control's tables whose number") =>
+        {
+            own("write the number of the entry in its place: `#2001` for the length of entry 1")
+        }
         Fault::NotSupported { .. } => own("write this place another way, or see to it by hand"),
         Fault::CodesExclude { .. } => {
             own("put them into blocks of their own, in the order in which they shall act")
@@ -290,7 +304,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             what.trim_start_matches("M#")
         )],
         Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
-        Fault::NoToolSelected => own("say the tool number in this block or before it"),
+        Fault::NoToolSelected => own("write the tool number in this block: `T1 M06` for tool 1"),
         Fault::NoFeed => own("say the feed in this block or before it"),
         Fault::NoSpeed => own("say the speed of the spindle before it"),
         Fault::NoValue { .. } => {
@@ -428,6 +442,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::CannotSay { what } if what.starts_with("a tool change by hand, which") => {
             own("`--to-option tool_change=manual` writes a block that stops the program for it")
+        }
+        Fault::CannotSay { what }
+            if what.starts_with("a block that can be skipped and decides")
+                && at.from.option.iter().any(|row| row.name == BLOCK_SKIP) =>
+        {
+            own("state how the block-skip switch stands: `--from-option block_skip=on` or `=off`")
         }
         Fault::CannotSay { what } if &**what == "a tool change while a canned cycle is active" => {
             own("write `G80` before this block")

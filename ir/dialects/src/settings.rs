@@ -32,6 +32,9 @@ pub const ANGLE_RANGE: &str = "angle_range";
 /// `milliseconds`.
 pub const COMPUTED_DWELL: &str = "computed_dwell";
 
+/// Option of a dictionary: where the block-skip switch stands, `switch` (either way), `on` or `off`.
+pub const BLOCK_SKIP: &str = "block_skip";
+
 /// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
 pub const DECIMAL_POINT: &str = "decimal_point";
 
