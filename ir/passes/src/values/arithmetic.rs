@@ -225,9 +225,7 @@ impl Over<'_> {
                 Some(call(Function::RoundUp, a.clone()))
             }
             (Function::Remainder, [a, b])
-                if self.decimals.may_be_negative(a)
-                    && self.decimals.is_whole(a)
-                    && b.literal().and_then(|b| b.whole()).is_some_and(|b| b > 0) =>
+                if self.decimals.may_be_negative(a) && wraps(a, b, self.decimals) =>
             {
                 let once = of(Binary::Modulo, a.clone(), b.clone());
                 Some(of(Binary::Modulo, of(Binary::Add, once, b.clone()), b.clone()))
@@ -278,6 +276,11 @@ impl Over<'_> {
             _ => None,
         }
     }
+}
+
+/// Whether a remainder that is never negative comes of adding the divisor: of whole numbers, by one above zero.
+pub(crate) fn wraps(a: &Expr, b: &Expr, decimals: &Decimals) -> bool {
+    decimals.is_whole(a) && b.literal().and_then(|b| b.whole()).is_some_and(|b| b > 0)
 }
 
 /// Whether it is how many times a body is executed: rounded, and not less than none.

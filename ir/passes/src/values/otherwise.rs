@@ -6,9 +6,11 @@
 //! nothing where it adds up. Where an output differs from its source, and not from the
 //! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
 
+use crate::values::arithmetic::wraps;
 use crate::values::variables::{Fineness, as_rounded, expressions};
 use ncc_ir::computed::computes::NEARLY;
 use ncc_ir::expr::compared;
+use ncc_ir::expr::decimals::Decimals;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Unary};
 use ncc_ir::program::Program;
@@ -79,10 +81,12 @@ pub fn computes_numbers(program: &Program) -> bool {
 pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -> Option<Program> {
     let mut other = program.clone();
     let mut found = taken.contains(&Taken::Together) && as_rounded(&mut other, there.fineness);
-    for procedure in &mut other.procedures {
+    let mut decimals = Decimals::of(program);
+    for (at, procedure) in other.procedures.iter_mut().enumerate() {
+        decimals.within(at);
         expressions(&mut procedure.body, &mut |stmt, expr| {
             if stmt.span.start <= until {
-                over(expr, taken, there, &mut found);
+                over(expr, taken, (there, &decimals), &mut found);
             }
         });
     }
@@ -92,10 +96,12 @@ pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -
 /// Where a program says what another reading changes, in the order of the text.
 pub fn places(program: &Program, taken: &[Taken], there: There) -> Vec<Span> {
     let mut places = Vec::new();
-    for procedure in &mut program.clone().procedures {
+    let mut decimals = Decimals::of(program);
+    for (at, procedure) in program.clone().procedures.iter_mut().enumerate() {
+        decimals.within(at);
         expressions(&mut procedure.body, &mut |stmt, expr| {
             let mut found = false;
-            over(expr, taken, there, &mut found);
+            over(expr, taken, (there, &decimals), &mut found);
             places.extend(found.then_some(stmt.span));
         });
     }
@@ -130,8 +136,8 @@ fn nearly(operator: Binary, a: &Expr, b: &Expr) -> Option<Node> {
     })
 }
 
-fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
-    e.parts_mut().for_each(|part| over(part, taken, there, found));
+fn over(e: &mut Expr, taken: &[Taken], (there, decimals): (There, &Decimals), found: &mut bool) {
+    e.parts_mut().for_each(|part| over(part, taken, (there, decimals), found));
     let Expr::Node(node) = e else { return };
     let functions = there.functions;
     let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));
@@ -156,10 +162,12 @@ fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
         }
         Node::Call(Function::Remainder, all) if not_negative && !has(Function::Remainder) => match &all[..] {
-            [a, b] => of(Binary::Modulo, a, b),
+            [a, b] if !wraps(a, b, decimals) => of(Binary::Modulo, a, b),
             _ => None,
         },
         Node::Call(function, all) if not_negative && !has(*function) => match function {
+            // Written by the one that goes up.
+            Function::Floor if has(Function::Ceiling) => None,
             Function::Floor => Some(Node::Call(Function::Truncate, all.clone())),
             Function::Ceiling if has(Function::RoundUp) => Some(Node::Call(Function::RoundUp, all.clone())),
             Function::RoundUp if has(Function::Ceiling) => Some(Node::Call(Function::Ceiling, all.clone())),
