@@ -9,7 +9,7 @@ mod with_facts;
 mod worlds;
 
 pub(crate) use facts::stops_differ;
-use facts::{Other, done_by_target, looked_at, tries_facts};
+use facts::{Other, closed_by_rounding, done_by_target, looked_at, tries_facts};
 use twice::Outliving;
 use with_facts::MOST_WITH_FACT;
 pub(crate) use worlds::worlds_of;
@@ -628,6 +628,9 @@ fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> S
     }
     if let Some(fact) = unsaid {
         return Stop::Source(Diagnostic::new(Fault::FactUnsaid { fact }, at));
+    }
+    if let Some(fault) = closed_by_rounding(difference) {
+        return Stop::Source(Diagnostic::new(fault, at));
     }
     let difference = difference::describe(difference).into();
     Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))

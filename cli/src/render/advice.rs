@@ -449,6 +449,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         {
             own("state how the block-skip switch stands: `--from-option block_skip=on` or `=off`")
         }
+        Fault::CannotSay { what } if what.starts_with("an arc so short") => {
+            own("leave this arc out where it is shorter than the target's least increment")
+        }
         Fault::CannotSay { what } if &**what == "a tool change while a canned cycle is active" => {
             own("write `G80` before this block")
         }
