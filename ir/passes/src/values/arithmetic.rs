@@ -224,11 +224,15 @@ impl Over<'_> {
                 self.never_negative(a, "what is rounded up");
                 Some(call(Function::RoundUp, a.clone()))
             }
+            // Of a MOD of a number below zero the manuals say nothing.
             (Function::Remainder, [a, b])
-                if self.decimals.may_be_negative(a) && wraps(a, b, self.decimals) =>
+                if self.has(Function::Ceiling)
+                    && self.decimals.may_be_negative(a)
+                    && wraps(a, b, self.decimals) =>
             {
-                let once = of(Binary::Modulo, a.clone(), b.clone());
-                Some(of(Binary::Modulo, of(Binary::Add, once, b.clone()), b.clone()))
+                let less = negative(of(Binary::Divide, a.clone(), b.clone()));
+                let whole = of(Binary::Multiply, b.clone(), call(Function::Ceiling, less));
+                Some(of(Binary::Add, a.clone(), whole))
             }
             (Function::Remainder, [a, b]) => {
                 self.never_negative(a, "what is divided for a remainder");
@@ -278,7 +282,7 @@ impl Over<'_> {
     }
 }
 
-/// Whether a remainder that is never negative comes of adding the divisor: of whole numbers, by one above zero.
+/// Whether a remainder that is never negative comes of rounding the quotient: of whole numbers, by one above zero.
 pub(crate) fn wraps(a: &Expr, b: &Expr, decimals: &Decimals) -> bool {
     decimals.is_whole(a) && b.literal().and_then(|b| b.whole()).is_some_and(|b| b > 0)
 }

@@ -162,7 +162,7 @@ fn over(e: &mut Expr, taken: &[Taken], (there, decimals): (There, &Decimals), fo
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
         }
         Node::Call(Function::Remainder, all) if not_negative && !has(Function::Remainder) => match &all[..] {
-            [a, b] if !wraps(a, b, decimals) => of(Binary::Modulo, a, b),
+            [a, b] if !(has(Function::Ceiling) && wraps(a, b, decimals)) => of(Binary::Modulo, a, b),
             _ => None,
         },
         Node::Call(function, all) if not_negative && !has(*function) => match function {
