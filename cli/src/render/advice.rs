@@ -112,8 +112,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NotSupported { name, .. } if &**name == "data input of this kind" => {
             own("delete these blocks, and set the parameter at the machine")
         }
-        Fault::NotSupported { name, .. }
-            if name.starts_with("place of the control's tables whose number") =>
+        Fault::NotSupported { code, name }
+            if code.starts_with('#') && name.starts_with("place of the control's tables whose number") =>
         {
             own("write the number of the entry in its place: `#2001` for the length of entry 1")
         }
