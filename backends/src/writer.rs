@@ -132,10 +132,10 @@ impl Writer {
 
     /// Says which modes are in force where stretches of blocks begin, by the places of their first statements, in a
     /// program that does not compute.
-    pub fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
+    pub fn know_modes(&mut self, program: &Program, stands: HashMap<u32, Modes>) {
         match &mut self.kind {
             Kind::Word(writer) => writer.know_modes(stands),
-            Kind::Siemens(writer) => writer.know_modes(stands),
+            Kind::Siemens(writer) => writer.know_modes(&program.procedures, stands),
             // The text form says what is in force with every word; the other writes no subprograms.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }

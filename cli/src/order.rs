@@ -140,6 +140,10 @@ impl Order {
                 own
             }
         };
+        let mut from = from;
+        for (name, value) in &self.values {
+            value.whole().into_iter().for_each(|value| from.state_value(name, value));
+        }
         Ok(Job {
             from,
             to: self.to.clone(),

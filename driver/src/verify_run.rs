@@ -9,7 +9,7 @@ pub mod with_facts;
 pub mod worlds;
 
 pub use facts::stops_differ;
-use facts::{Other, done_by_target, looked_at, tries_facts};
+use facts::{Other, closed_by_rounding, done_by_target, looked_at, tries_facts};
 use twice::Outliving;
 use with_facts::MOST_WITH_FACT;
 pub use worlds::worlds_of;
@@ -23,7 +23,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::expr::Function;
-use ncc_ir::expr::num::Nanos;
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
@@ -109,6 +109,8 @@ pub struct Verifier {
     given: Given,
     /// What the target computes with.
     functions: Vec<Function>,
+    /// How far apart two numbers are that the target's own comparisons find equal.
+    equal_within: Option<Num>,
     /// Whether its comparisons find real numbers equal that are nearly so.
     near: bool,
     /// To which digits its lengths are rounded.
@@ -273,6 +275,7 @@ impl Verifier {
             fineness: fineness(job),
             near: job.to.caps().computes.is_some_and(|computes| computes.near),
             functions: job.to.caps().computes.map(|computes| computes.functions.clone()).unwrap_or_default(),
+            equal_within: job.to.caps().computes.and_then(|computes| computes.equal_within),
             last: Span::default(),
             outliving: Vec::new(),
             assumed: Modes::default(),
@@ -625,6 +628,9 @@ fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> S
     }
     if let Some(fact) = unsaid {
         return Stop::Source(Diagnostic::new(Fault::FactUnsaid { fact }, at));
+    }
+    if let Some(fault) = closed_by_rounding(difference) {
+        return Stop::Source(Diagnostic::new(fault, at));
     }
     let difference = difference::describe(difference).into();
     Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))

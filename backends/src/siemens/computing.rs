@@ -14,7 +14,7 @@ use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_passes::support::known_facts::has_bare_holes;
 
-use super::{Sink, Writer};
+use super::{Sink, Writer, edge_left};
 use crate::common::fault::{cannot, cannot_compute};
 
 /// The last of the arithmetic parameters that every control has: R0 to R99 (PGA, arithmetic parameters).
@@ -55,11 +55,13 @@ impl Writer {
         // Holes that rely on a cycle called up elsewhere: it stays in force over jumps and labels, as in the source.
         self.computing.cycles &= !procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
         self.know_parameters(procedures);
+        self.leave_edge = edge_left::leave_edge(procedures);
         self.main = procedures.first().cloned();
     }
 
-    /// Takes which modes are in force where stretches of blocks begin.
-    pub(crate) fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
+    /// Takes which modes are in force where stretches of blocks begin, and what its subprograms leave active.
+    pub(crate) fn know_modes(&mut self, procedures: &[Procedure], stands: HashMap<u32, Modes>) {
+        self.leave_edge = edge_left::leave_edge(procedures);
         self.words.know_modes(stands);
     }
 

@@ -10,6 +10,7 @@
 mod computing;
 mod cycle;
 mod data;
+mod edge_left;
 mod entry_of;
 mod frame;
 mod motion;
@@ -30,7 +31,7 @@ use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
-use ncc_ir::program::{Op, Procedure, Stmt};
+use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use computing::Computing;
@@ -67,6 +68,8 @@ struct Standing {
     feed_said: bool,
     /// Whether a tool change has made an edge active that the program did not ask for.
     edge_waits: bool,
+    /// Whether that change is one of a subprogram, after which the length in force is not the one of the start.
+    edge_of_call: bool,
     /// The block-skip level of that change, where no other one waits: a length of the same level answers it.
     edge_level: Option<u8>,
 }
@@ -78,6 +81,7 @@ impl Standing {
         speed: None,
         feed_said: true,
         edge_waits: false,
+        edge_of_call: false,
         edge_level: None,
     };
 
@@ -94,6 +98,7 @@ impl Standing {
         }
         self.feed_said &= before.feed_said;
         self.edge_waits |= before.edge_waits;
+        self.edge_of_call |= before.edge_of_call;
     }
 }
 
@@ -104,6 +109,8 @@ pub struct Writer {
     dialect: &'static Dialect,
     /// Whether a tool change makes edge 1 active.
     edge_with_tool: bool,
+    /// Subprograms that may return with that edge active.
+    leave_edge: BTreeSet<Text>,
     /// The machine keeps its own lengths in inches.
     inch_machine: bool,
     standing: Standing,
@@ -145,6 +152,7 @@ impl Writer {
         Writer {
             dialect: settings.dialect,
             edge_with_tool: settings.get("edge_after_change") == "1",
+            leave_edge: BTreeSet::new(),
             inch_machine: settings.get("feed_unit") == "inch",
             words: WordWriter::new(settings, layout),
             standing: Standing::START,

@@ -37,6 +37,16 @@ impl Writer {
         let alone = !self.standing.edge_waits || self.standing.edge_level == level;
         self.standing.edge_level = level.filter(|_| alone);
         self.standing.edge_waits = self.edge_with_tool;
+        self.standing.edge_of_call = false;
+    }
+
+    /// The same in a subprogram that was called.
+    pub(super) fn edge_waits_after(&mut self, called: &str) {
+        if self.edge_with_tool && self.leave_edge.contains(called) {
+            self.standing.edge_waits = true;
+            self.standing.edge_of_call = true;
+            self.standing.edge_level = None;
+        }
     }
 
     /// An edge of the tool in the spindle.
@@ -91,7 +101,8 @@ impl Writer {
         if !std::mem::replace(&mut self.standing.edge_waits, false) {
             return Ok(());
         }
-        let in_force = self.words.tracker.modes.length_offset.or(self.words.assumed.length_offset);
+        let at_start = self.words.assumed.length_offset.filter(|_| !self.standing.edge_of_call);
+        let in_force = self.words.tracker.modes.length_offset.or(at_start);
         match (in_force, self.words.tracker.tool) {
             (Some(0), _) => self.edge_word(&Expr::int(0), span, sink),
             (Some(entry), Some(tool)) if i64::from(entry) == tool => {

@@ -127,6 +127,7 @@ impl Writer {
         let name = self.program_name(&call.name, span, sink);
         self.alone(&format!("{name}{arguments}{times}"), sink)?;
         self.forget();
+        self.edge_waits_after(&call.name);
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, FURTHER_POINT,
-    MACRO_DEPTH, RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, BLOCK_SKIP, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect,
+    FURTHER_POINT, MACRO_DEPTH, RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
 };
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
@@ -275,8 +275,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }
         Fault::FramesExpanded | Fault::CycleFolded { .. } | Fault::PatternFolded { .. } => Vec::new(),
+        Fault::MacroLanguage { what } if what.strip_prefix("M#").is_some_and(is_variable) => vec![format!(
+            "if the program never sets #{0}, state the code: `--value {0}=8` for M8",
+            what.trim_start_matches("M#")
+        )],
         Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
-        Fault::NoToolSelected => own("say the tool number in this block or before it"),
+        Fault::NoToolSelected => own("write the tool number in this block: `T1 M06` for tool 1"),
         Fault::NoFeed => own("say the feed in this block or before it"),
         Fault::NoSpeed => own("say the speed of the spindle before it"),
         Fault::NoValue { .. } => {
@@ -425,6 +429,21 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::CannotSay { what } if what.starts_with("a tool change by hand, which") => {
             own("`--to-option tool_change=manual` writes a block that stops the program for it")
+        }
+        Fault::CannotSay { what }
+            if what.starts_with("a block that can be skipped and decides")
+                && at.from.option.iter().any(|row| row.name == BLOCK_SKIP) =>
+        {
+            own("state how the block-skip switch stands: `--from-option block_skip=on` or `=off`")
+        }
+        Fault::CannotSay { what } if what.starts_with("an arc so short") => {
+            own("leave this arc out where it is shorter than the target's least increment")
+        }
+        Fault::CannotSay { what } if &**what == "a tool change while a canned cycle is active" => {
+            own("write `G80` before this block")
+        }
+        Fault::CannotSay { what } if &**what == "a tool change that keeps the length of another tool" => {
+            own("state the tool length offset between the tool change and this move: `G43` with its H number")
         }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
@@ -617,4 +636,9 @@ fn m_code(code: &str) -> String {
 /// blocks to go on at.
 pub fn may_be_stated(row: Option<&CodeRow>) -> bool {
     row.is_none_or(|row| row.means.is_none() && row.blocks.is_empty())
+}
+
+/// Whether a text is the number or the name of a variable.
+fn is_variable(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }

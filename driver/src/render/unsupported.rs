@@ -46,6 +46,16 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
         "VAR, or a first value, in a subprogram without its main program" => {
             own("translate the program that calls this one: `-I FOLDER` finds both")
         }
+        _ if name.starts_with("time that goes on while") => own(
+            "delete the blocks that set and ask the timer, if they only tell a run in graphics from one at the machine",
+        ),
+        "whether a probe has touched" => {
+            own("probe with `G38.2`, which ends in an alarm where nothing is touched, and delete this check")
+        }
+        "data input of this kind" => own("delete these blocks, and set the parameter at the machine"),
+        _ if code.starts_with('#') && name.starts_with("place of the control's tables whose number") => {
+            own("write the number of the entry in its place: `#2001` for the length of entry 1")
+        }
         "pocket milling" => own(POCKET),
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),

@@ -342,7 +342,7 @@ impl<'j> Translation<'j> {
                 return Ok(());
             }
         } else {
-            self.writer.know_modes(as_there::stands(&program, self.legaliser.stands()));
+            self.writer.know_modes(&program, as_there::stands(&program, self.legaliser.stands()));
             self.legaliser.run_program(&mut program, &mut found);
         }
         as_there::calls_and_jumps(self.job, [&source, &program], &mut found);

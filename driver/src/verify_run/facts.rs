@@ -7,7 +7,7 @@
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
 use ncc_exec::verify::{Aspect, Difference};
-use ncc_exec::{Event, Exec, NOWHERE, STILL, by_control, touched};
+use ncc_exec::{Event, Exec, Kind, NOWHERE, STILL, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::{Axis, Modes};
@@ -206,6 +206,14 @@ impl Verifier {
         let mut notes = std::mem::take(&mut self.notes);
         let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedParameter { .. });
         notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
+        // A value that tells which code a block has is read with the text.
+        let with_text = |name: &str| {
+            let start = format!("variable {name} at the start");
+            reported.iter().any(|own| {
+                matches!(&own.fault, Fault::AssumedParameter { parameter, .. } if **parameter == *start)
+            })
+        };
+        notes.retain(|note| !matches!(&note.fault, Fault::ValueNotRead { name } if with_text(name)));
         notes.extend(told);
         notes.extend(self.take_untried());
         notes.extend(fed.map(|(at, [contour_in_source, inner])| {
@@ -439,6 +447,20 @@ pub fn come_to(exec: &Exec, stmts: &[Stmt]) -> u64 {
     let of = |stmt: &Stmt| touched(&stmt.op) | if stop(stmt) { OPTIONAL_STOP } else { 0 };
     let executed = stmts.iter().filter(|stmt| !exec.skips(stmt));
     executed.fold(exec.comes_to(stmts), |bits, stmt| bits | of(stmt))
+}
+
+/// What is refused where an arc ends nearly where it begins, and its start and end are one point in the target's
+/// digits: the target would make a whole circle of it. The ends have been found equal before the arcs are compared.
+pub(super) fn closed_by_rounding(difference: &Difference) -> Option<Fault> {
+    let arc = |event: &Option<Event>| match event.as_ref()?.kind {
+        Kind::Arc { plane, turn, full, .. } => Some((plane, turn, full)),
+        _ => None,
+    };
+    let (source, target) = (arc(&difference.source)?, arc(&difference.target)?);
+    let same = (source.0, source.1) == (target.0, target.1) && difference.aspect == Aspect::Arc;
+    (same && !source.2 && target.2).then(|| Fault::CannotSay {
+        what: "an arc so short that its start and end round to one point".into(),
+    })
 }
 
 /// What the target's control alone has done by itself, if two events differ by that.

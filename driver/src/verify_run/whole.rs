@@ -10,11 +10,11 @@ use ncc_ir::canon::Modes;
 use ncc_ir::computed::open::{literals, open_variables};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
-use ncc_ir::expr::value::Value;
+use ncc_ir::expr::value::{Value, Wrong};
 use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::{Taken, There, compares_nearly, otherwise, places};
+use ncc_passes::values::otherwise::{Taken, There, compares_nearly, computes_numbers, otherwise, places};
 use ncc_passes::values::variables::Renamed;
 
 use super::facts::{Other, tries_facts};
@@ -451,6 +451,7 @@ impl Verifier {
         let start = given.other_readings.iter().any(Option::is_some).then(|| run.clone());
         let ended = self.run_both(run, [source, target], given, set, to, forks);
         let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
+        let compared = run.comparison.events;
         let same = |other: &Program| {
             let mut run = start.clone();
             run.comparison.keep_pairs(false);
@@ -458,9 +459,12 @@ impl Verifier {
             let told = self.run_both(&mut run, [other, target], given, set, to, None);
             // Both may end in what a control stops at.
             match (&told, &ended) {
-                (Ok(()), _) => true,
+                // One that goes on for long is the same as far as it was looked at.
+                (Ok(()) | Err(Ended::Enough(_)), _) => true,
                 (Err(Ended::Source(one)), Err(Ended::Target(two))) => {
+                    // In that reading the source may end in an alarm where the output has not differed yet.
                     matches!(two.fault, Fault::NotReadBack { code } if code == one.fault.code())
+                        || run.comparison.events >= compared
                 }
                 _ => false,
             }
@@ -480,7 +484,12 @@ impl Verifier {
     }
 
     fn there(&self, given: &Given) -> There<'_> {
-        There { functions: &self.functions, fineness: self.fineness, near: given.near }
+        There {
+            functions: &self.functions,
+            fineness: self.fineness,
+            near: given.near,
+            equal_within: self.equal_within,
+        }
     }
 
     /// Runs both programs from where they begin.
@@ -514,6 +523,15 @@ impl Verifier {
                 // What is read back has not failed: the user has stopped ncc.
                 Err(Diagnostic { fault: fault @ Fault::Interrupted { .. }, .. }) => {
                     break Err(Ended::Source(Diagnostic::new(fault, runners[0].here())));
+                }
+                // The source's control reads nothing there.
+                Err(Diagnostic { fault: Fault::NoValue { what }, .. })
+                    if *what == *Wrong::NothingGiven.words() && computes_numbers(sides[0]) =>
+                {
+                    let what =
+                        "a variable whose number is computed, and which may have no value where it is read";
+                    let at = runners[0].here();
+                    break Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what: what.into() }, at)));
                 }
                 Err(fault) => {
                     let place = run.source_events.get(run.target_events.len());

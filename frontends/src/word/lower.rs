@@ -108,6 +108,8 @@ pub(super) struct Reported {
     pub(super) after_cycle: bool,
     pub(super) offset_with_z: bool,
     pub(super) skip: bool,
+    /// How the block-skip switch stands, as the user states it.
+    pub(super) switch: bool,
     /// That a T beside M06 is taken for the tool that is put in.
     pub(super) tool_change: bool,
     /// By which of two codes of distance the words of a return are read.

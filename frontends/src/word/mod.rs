@@ -32,7 +32,7 @@ mod spindle;
 mod tests;
 pub(crate) mod text;
 
-use ncc_dialects::Settings;
+use ncc_dialects::{BLOCK_SKIP, Settings};
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
 
@@ -292,8 +292,30 @@ impl Reader {
         again
     }
 
+    /// A block that can be skipped, where the user states how the switch stands.
+    #[cold]
+    fn state_switch(&mut self, out: &mut Batch) {
+        let on = match self.lower.settings.get(BLOCK_SKIP) {
+            "on" => true,
+            "off" => false,
+            _ => return,
+        };
+        if self.block.skip > self.lower.settings.dialect.block.skip_levels {
+            return;
+        }
+        if !std::mem::replace(&mut self.lower.reported.switch, true) {
+            let value = self.lower.settings.get(BLOCK_SKIP).into();
+            out.report(Fault::AssumedOption { option: BLOCK_SKIP.into(), value }, self.block.span);
+        }
+        self.block.with_switch(on);
+    }
+
     /// A block, whichever way it was read.
     fn meaning(&mut self, src: Source, out: &mut Batch) {
+        // What is read back is executed either way.
+        if self.block.skip != 0 && self.lower.assume {
+            self.state_switch(out);
+        }
         if self.sub_word(src, out) || self.program_word(src, out) {
             return;
         }

@@ -128,7 +128,8 @@ impl Lower {
                 b'G' | b'M' => {
                     let m = usize::from(word.letter == b'M');
                     let known = codes.len();
-                    self.code(at, word, codes, src, out);
+                    let stated = self.stated_code(word, block, src, out);
+                    self.code(at, stated.as_ref().unwrap_or(word), codes, src, out);
                     // The machine knows what is left out, and how many codes it takes with it.
                     if codes.get(known).is_some_and(|code| code.meaning == Meaning::LeftOut) {
                         continue;

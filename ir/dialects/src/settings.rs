@@ -32,6 +32,9 @@ pub const ANGLE_RANGE: &str = "angle_range";
 /// `milliseconds`.
 pub const COMPUTED_DWELL: &str = "computed_dwell";
 
+/// Option of a dictionary: where the block-skip switch stands, `switch` (either way), `on` or `off`.
+pub const BLOCK_SKIP: &str = "block_skip";
+
 /// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
 pub const DECIMAL_POINT: &str = "decimal_point";
 
@@ -158,6 +161,8 @@ pub struct Settings {
     /// The dictionary.
     pub dialect: &'static Dialect,
     chosen: BTreeMap<String, String>,
+    /// Whole numbers that variables hold at the start, as the user states them, by their names.
+    values: BTreeMap<String, i64>,
 }
 
 /// An option that the dialect does not have, or a value that the option does not take.
@@ -190,7 +195,7 @@ fn is_amount(text: &str) -> bool {
 impl Settings {
     /// The dialect with the working choice for every option.
     pub fn new(dialect: &'static Dialect) -> Settings {
-        Settings { dialect, chosen: BTreeMap::new() }
+        Settings { dialect, chosen: BTreeMap::new(), values: BTreeMap::new() }
     }
 
     /// Chooses a value.
@@ -212,6 +217,21 @@ impl Settings {
             self.dialect = in_milliseconds(self.dialect);
         }
         Ok(())
+    }
+
+    /// States the whole number that a variable holds at the start, by its name without signs: `8`, `_td`.
+    pub fn state_value(&mut self, name: &str, value: i64) {
+        self.values.insert(name.to_owned(), value);
+    }
+
+    /// The whole number that a variable is stated to hold at the start.
+    pub fn stated_value(&self, name: &str) -> Option<i64> {
+        self.values.get(name).copied()
+    }
+
+    /// Whether such a number is stated of any variable.
+    pub fn states_values(&self) -> bool {
+        !self.values.is_empty()
     }
 
     /// Whether the dictionary has this value for an option.

@@ -252,7 +252,8 @@ impl Writer {
         let number = name.bytes().all(|b| b.is_ascii_digit());
         let alike = self.o_words.subs.iter().filter(|other| other.eq_ignore_ascii_case(name)).count();
         let good = match number {
-            true => (1..=8).contains(&name.len()) && !name.starts_with('0'),
+            // By rs274: `o0` is one as any other, in a file `0.ngc` too.
+            true => (1..=8).contains(&name.len()) && (name == "0" || !name.starts_with('0')),
             false => name.len() <= 60 && name.bytes().all(fits),
         };
         match good && alike == 1 {

@@ -20,6 +20,11 @@ pub(crate) struct Saved {
     pub(crate) numbers: Vec<(Text, Var, i64)>,
     /// Where such codes are, and what tells the group.
     pub(crate) back: Vec<(Span, Told)>,
+    /// Variables that are set anywhere, each in its program, where values at the start are stated; `None` is one whose
+    /// number is computed.
+    pub(crate) set: Vec<(Text, Option<Var>)>,
+    /// M codes of which the number is a variable whose value at the start is stated: where, as the text has it, which.
+    pub(crate) stated: Vec<(Span, Text, Var)>,
 }
 
 /// What tells which group a code is of.

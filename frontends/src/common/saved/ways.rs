@@ -109,6 +109,15 @@ type Known = BTreeMap<String, Holds>;
 impl Saved {
     /// The text is over: whether each such variable has its value from its group on every way to the code.
     pub(crate) fn check(&self, out: &mut Batch) {
+        for (span, code, var) in &self.stated {
+            let main = |own: &Text| own.is_empty() || !matches!(var, Var::Local(_));
+            let sets =
+                |(own, set): &(Text, Option<Var>)| set.as_ref().is_none_or(|set| set == var && main(own));
+            if self.set.iter().any(sets) {
+                let name = "code of a variable that the program itself sets".into();
+                out.report(Fault::NotSupported { code: code.clone(), name }, *span);
+            }
+        }
         if self.back.is_empty() {
             return;
         }

@@ -179,7 +179,12 @@ impl Lower {
         Some(Kept { target: Target::Var(var), kind: Kind::Real, name })
     }
 
-    pub(in crate::siemens) fn indices(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Vec<Expr>> {
+    pub(in crate::siemens) fn indices(
+        &mut self,
+        place: &Place,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Vec<Expr>> {
         let mut at = Vec::with_capacity(place.index.len());
         for index in &place.index {
             let Some(index) = index else {

@@ -21,7 +21,7 @@ use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::saved::{ANY, Told, ways};
 use crate::common::setting::setting;
-use crate::common::words::{Value, Word};
+use crate::common::words::{Digits, Value, Word};
 use crate::word::facts::InForce;
 use crate::word::lower::Lower;
 use crate::word::sort::{Code, motion_of};
@@ -30,8 +30,12 @@ use crate::word::text::block::Block;
 impl Lower {
     /// A variable gets a value as the text has it.
     pub(in crate::word) fn saves(&mut self, to: &Target, value: &Expr) {
-        let Target::Var(var) = to else { return };
         let own = self.sub.as_ref().map(|sub| sub.name.clone()).unwrap_or_default();
+        if self.settings.states_values() {
+            let set = if let Target::Var(var) = to { Some(var.clone()) } else { None };
+            self.computes.saved.set.push((own.clone(), set));
+        }
+        let Target::Var(var) = to else { return };
         let node = match value {
             Expr::Num(number) => {
                 let number = number.whole().filter(|_| !matches!(var, Var::System(_)));
@@ -52,6 +56,29 @@ impl Lower {
     /// Whether a code is one of those that the text may compute.
     pub(in crate::word) fn may_be_computed(&self, word: &Word) -> bool {
         word.letter == b'G' && self.settings.dialect.formula.statements.contains(&Says::CodeOf)
+    }
+
+    /// An M code of which the number is a variable that the main program never sets, and whose value at the start the
+    /// user states: that code. Whether the program sets it anywhere is looked at when the whole text has been read.
+    pub(in crate::word) fn stated_code(
+        &mut self,
+        word: &Word,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Word> {
+        let Value::Computed(place) = word.value else { return None };
+        let Expr::Node(node) = block.exprs.get(usize::from(place))? else { return None };
+        let Node::Var(var) = &**node else { return None };
+        if word.letter != b'M' || self.sub.is_some() && matches!(var, Var::Local(_)) {
+            return None;
+        }
+        let number = self.settings.stated_value(&var.name())?;
+        let parameter = format!("variable {} at the start", var.name()).into();
+        out.report(Fault::AssumedParameter { parameter, value: number.to_string().into() }, word.span);
+        self.computes.saved.stated.push((word.span, src.text(word.span), var.clone()));
+        let value = Value::Number(Digits { mantissa: number, scale: 0, point: false });
+        Some(Word { value, ..*word })
     }
 
     /// The codes of a block of which the number is a variable: they come first, as modes do.

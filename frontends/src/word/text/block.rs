@@ -73,6 +73,22 @@ impl Block {
             && self.title.is_none()
     }
 
+    /// The block where the switch is stated: on, nothing is left of what can be skipped but comments; off, all of it.
+    pub(in crate::word) fn with_switch(&mut self, on: bool) {
+        self.skip = 0;
+        let tail = self.tail.take();
+        if !on {
+            return;
+        }
+        self.words.truncate(tail.unwrap_or(0));
+        if tail.is_none() {
+            self.names.clear();
+            self.statement = None;
+            self.settings.clear();
+            self.decision = None;
+        }
+    }
+
     pub(in crate::word) fn clear(&mut self) {
         self.words.clear();
         self.skip = 0;

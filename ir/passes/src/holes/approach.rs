@@ -5,7 +5,7 @@
 //! a rapid of its own, after which both ways are one. What cannot be mended so is left to
 //! `expand-cycles`.
 
-use crate::holes::expand_cycles::{is_one_way, level, sayable};
+use crate::holes::expand_cycles::{is_one_way, length_decides, level, sayable};
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
@@ -115,6 +115,9 @@ fn first_leg(
 ) -> Option<Leg> {
     let in_force = walk.at.cycle.as_ref()?;
     let way = target.caps.approach?;
+    if length_decides(walk, cycle.approach, way) {
+        return None;
+    }
     let mut other = cycle.clone();
     other.approach = way;
     if is_one_way(walk, in_force, way) {

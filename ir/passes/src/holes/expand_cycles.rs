@@ -396,9 +396,19 @@ fn must_expand(
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
 
+/// Whether the target alone chooses the way to the first hole by the tool's height, and a length waits for Z, which then
+/// decides too.
+pub(crate) fn length_decides(walk: &Walk, own: Approach, way: Approach) -> bool {
+    let by_height = |way| matches!(way, Approach::RaiseFirst | Approach::ClearFirst);
+    walk.waiting && by_height(way) && !by_height(own)
+}
+
 /// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
 pub(crate) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
     let cycle = &in_force.cycle;
+    if length_decides(walk, cycle.approach, way) {
+        return false;
+    }
     if cycle.approach == way {
         return true;
     }

@@ -32,12 +32,14 @@ pub(crate) struct State {
     turning: bool,
     /// The tool change over which it may have gone on, if nothing has been said of it since.
     open: Option<(Span, Option<u8>)>,
+    /// A canned cycle may be active.
+    cycle: bool,
 }
 
 impl State {
     /// A subprogram: its caller may have left the spindle turning.
     pub(crate) fn start_over(&mut self) {
-        *self = State { turning: true, open: None };
+        *self = State { turning: true, open: None, cycle: false };
     }
 
     /// The text of a main program ends, which may have no word for its end.
@@ -55,6 +57,15 @@ impl State {
                 diags.push(goes_on(at));
             }
             let sure = stmt.skip.is_none();
+            match stmt.op {
+                Op::StartCycle(_) => self.cycle = true,
+                Op::EndCycle | moves!() => self.cycle &= !sure,
+                Op::ChangeTool if up && self.cycle => {
+                    let what = "a tool change while a canned cycle is active";
+                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+                }
+                _ => {}
+            }
             if up && sure && matches!(stmt.op, Op::ProgramEnd) {
                 self.open = None;
             }

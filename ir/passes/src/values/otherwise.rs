@@ -6,10 +6,13 @@
 //! nothing where it adds up. Where an output differs from its source, and not from the
 //! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
 
+use crate::values::arithmetic::wraps;
 use crate::values::variables::{Fineness, as_rounded, expressions};
 use ncc_ir::computed::computes::NEARLY;
 use ncc_ir::expr::compared;
-use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
+use ncc_ir::expr::decimals::Decimals;
+use ncc_ir::expr::num::Num;
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Unary};
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 
@@ -46,6 +49,8 @@ pub struct There<'t> {
     pub fineness: Fineness,
     /// Whether its comparisons find real numbers equal that are nearly so, and the source's do not.
     pub near: bool,
+    /// How far apart two numbers are that its own comparisons find equal, in the unit of the numbers.
+    pub equal_within: Option<Num>,
 }
 
 /// Whether a program compares to within a part of the greater number.
@@ -59,15 +64,29 @@ pub fn compares_nearly(program: &Program) -> bool {
     found
 }
 
+/// Whether a program reads a variable whose number it computes.
+pub fn computes_numbers(program: &Program) -> bool {
+    let mut found = false;
+    for procedure in &mut program.clone().procedures {
+        expressions(&mut procedure.body, &mut |_, expr| {
+            let numbered = |element: &Element| matches!(element.of, Many::Numbered(_));
+            found |= expr.has(&|node| matches!(node, Node::Element(element) if numbered(element)));
+        });
+    }
+    found
+}
+
 /// The program with the other reading of what is taken for granted, for such a target; `None` where it has none.
 /// Expressions are read so up to a place of the text.
 pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -> Option<Program> {
     let mut other = program.clone();
     let mut found = taken.contains(&Taken::Together) && as_rounded(&mut other, there.fineness);
-    for procedure in &mut other.procedures {
+    let mut decimals = Decimals::of(program);
+    for (at, procedure) in other.procedures.iter_mut().enumerate() {
+        decimals.within(at);
         expressions(&mut procedure.body, &mut |stmt, expr| {
             if stmt.span.start <= until {
-                over(expr, taken, there, &mut found);
+                over(expr, taken, (there, &decimals), &mut found);
             }
         });
     }
@@ -77,10 +96,12 @@ pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -
 /// Where a program says what another reading changes, in the order of the text.
 pub fn places(program: &Program, taken: &[Taken], there: There) -> Vec<Span> {
     let mut places = Vec::new();
-    for procedure in &mut program.clone().procedures {
+    let mut decimals = Decimals::of(program);
+    for (at, procedure) in program.clone().procedures.iter_mut().enumerate() {
+        decimals.within(at);
         expressions(&mut procedure.body, &mut |stmt, expr| {
             let mut found = false;
-            over(expr, taken, there, &mut found);
+            over(expr, taken, (there, &decimals), &mut found);
             places.extend(found.then_some(stmt.span));
         });
     }
@@ -115,8 +136,8 @@ fn nearly(operator: Binary, a: &Expr, b: &Expr) -> Option<Node> {
     })
 }
 
-fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
-    e.parts_mut().for_each(|part| over(part, taken, there, found));
+fn over(e: &mut Expr, taken: &[Taken], (there, decimals): (There, &Decimals), found: &mut bool) {
+    e.parts_mut().for_each(|part| over(part, taken, (there, decimals), found));
     let Expr::Node(node) = e else { return };
     let functions = there.functions;
     let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));
@@ -125,19 +146,28 @@ fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
     // One that the target has is none that another stands for.
     let has = |function| functions.contains(&function);
     let other = match &**node {
-        Node::Call(Function::Near | Function::NearRatio, all) if apart => match &all[..] {
-            [a, b, _] => of(Binary::Equal, a, b),
-            _ => None,
-        },
+        Node::Call(Function::Near | Function::NearRatio, all) if apart => {
+            match (&all[..], there.equal_within) {
+                ([a, b, _], Some(tolerance)) => {
+                    let apart = vec![self::node(Node::Binary(Binary::Subtract, a.clone(), b.clone()))];
+                    let apart = self::node(Node::Call(Function::Abs, apart));
+                    Some(Node::Binary(Binary::Less, apart, Expr::Num(tolerance)))
+                }
+                ([a, b, _], None) => of(Binary::Equal, a, b),
+                _ => None,
+            }
+        }
         Node::Binary(operator, a, b) if apart && there.near => nearly(*operator, a, b),
         Node::Binary(operator, by, Expr::Num(limit)) if apart => {
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
         }
         Node::Call(Function::Remainder, all) if not_negative && !has(Function::Remainder) => match &all[..] {
-            [a, b] => of(Binary::Modulo, a, b),
+            [a, b] if !(has(Function::Ceiling) && wraps(a, b, decimals)) => of(Binary::Modulo, a, b),
             _ => None,
         },
         Node::Call(function, all) if not_negative && !has(*function) => match function {
+            // Written by the one that goes up.
+            Function::Floor if has(Function::Ceiling) => None,
             Function::Floor => Some(Node::Call(Function::Truncate, all.clone())),
             Function::Ceiling if has(Function::RoundUp) => Some(Node::Call(Function::RoundUp, all.clone())),
             Function::RoundUp if has(Function::Ceiling) => Some(Node::Call(Function::Ceiling, all.clone())),
