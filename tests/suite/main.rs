@@ -14,6 +14,7 @@ mod dialects;
 mod dictionary_form;
 mod diff;
 mod doctor;
+mod essay;
 mod everyday;
 mod expected;
 mod faults;

@@ -5,7 +5,7 @@
 //! a rapid of its own, after which both ways are one. What cannot be mended so is left to
 //! `expand-cycles`.
 
-use crate::holes::expand_cycles::{is_one_way, length_decides, level, sayable};
+use crate::holes::expand_cycles::{level, sayable};
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
@@ -13,10 +13,11 @@ use crate::support::write::{at, only, traverse};
 use crate::{Target, each_body};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::{Approach, Cycle, Pattern};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
-use ncc_ir::track::Tracker;
+use ncc_ir::track::{InForce, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -29,6 +30,55 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
 };
+
+/// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
+pub(crate) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
+    let cycle = &in_force.cycle;
+    if length_decides(walk, cycle.approach, way) {
+        return false;
+    }
+    if cycle.approach == way {
+        return true;
+    }
+    let Some(plane) = walk.at.plane(cycle.plane) else { return false };
+    let Some(retract) = in_force.retract else { return false };
+    let returns = cycle.return_level.known().or(walk.at.modes.return_level);
+    let leg = |way: Approach, level: Nanos| {
+        if cycle.approach != Approach::ClearFirst && way != Approach::ClearFirst {
+            // The others look at the level alone.
+            return Some(way.leg(level, level, retract, level));
+        }
+        let out = match returns {
+            _ if cycle.return_plane.is_some() => in_force.return_plane,
+            Some(ReturnLevel::Retract) => Some(retract),
+            Some(ReturnLevel::Initial) => in_force.initial.map(|initial| way.initial(initial, retract)),
+            None => None,
+        };
+        Some(way.leg(level, in_force.initial?, retract, out?))
+    };
+    let one = |level: Option<Nanos>| {
+        level.is_some_and(|level| {
+            let legs = [leg(cycle.approach, level), leg(way, level)];
+            legs[0].is_some() && legs[0] == legs[1]
+        })
+    };
+    if cycle.return_plane.is_some() {
+        return one(walk.at.position[plane.axes().2 as usize]) && one(in_force.return_plane);
+    }
+    one(walk.at.position[plane.axes().2 as usize])
+        && (returns == Some(ReturnLevel::Retract)
+            || one(in_force.initial)
+                && in_force
+                    .initial
+                    .is_some_and(|i| cycle.approach.initial(i, retract) == way.initial(i, retract)))
+}
+
+/// Whether the target alone chooses the way to the first hole by the tool's height, and a length waits for Z, which then
+/// decides too.
+pub(crate) fn length_decides(walk: &Walk, own: Approach, way: Approach) -> bool {
+    let by_height = |way| matches!(way, Approach::RaiseFirst | Approach::ClearFirst);
+    walk.waiting && by_height(way) && !by_height(own)
+}
 
 /// Writes out first legs that the target would make in another order.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

@@ -17,6 +17,7 @@
 //! absolute, for which they must be known.
 
 use crate::arcs::polar_words;
+use crate::holes::approach::is_one_way;
 use crate::holes::expand_patterns;
 use crate::holes::spindle_holes::with_spindle;
 use crate::pass::{Moment, Pass, Step};
@@ -394,55 +395,6 @@ fn must_expand(
     let cycle = &in_force.cycle;
     let same_way = target.caps.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
-}
-
-/// Whether the target alone chooses the way to the first hole by the tool's height, and a length waits for Z, which then
-/// decides too.
-pub(crate) fn length_decides(walk: &Walk, own: Approach, way: Approach) -> bool {
-    let by_height = |way| matches!(way, Approach::RaiseFirst | Approach::ClearFirst);
-    walk.waiting && by_height(way) && !by_height(own)
-}
-
-/// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
-pub(crate) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
-    let cycle = &in_force.cycle;
-    if length_decides(walk, cycle.approach, way) {
-        return false;
-    }
-    if cycle.approach == way {
-        return true;
-    }
-    let Some(plane) = walk.at.plane(cycle.plane) else { return false };
-    let Some(retract) = in_force.retract else { return false };
-    let returns = cycle.return_level.known().or(walk.at.modes.return_level);
-    let leg = |way: Approach, level: Nanos| {
-        if cycle.approach != Approach::ClearFirst && way != Approach::ClearFirst {
-            // The others look at the level alone.
-            return Some(way.leg(level, level, retract, level));
-        }
-        let out = match returns {
-            _ if cycle.return_plane.is_some() => in_force.return_plane,
-            Some(ReturnLevel::Retract) => Some(retract),
-            Some(ReturnLevel::Initial) => in_force.initial.map(|initial| way.initial(initial, retract)),
-            None => None,
-        };
-        Some(way.leg(level, in_force.initial?, retract, out?))
-    };
-    let one = |level: Option<Nanos>| {
-        level.is_some_and(|level| {
-            let legs = [leg(cycle.approach, level), leg(way, level)];
-            legs[0].is_some() && legs[0] == legs[1]
-        })
-    };
-    if cycle.return_plane.is_some() {
-        return one(walk.at.position[plane.axes().2 as usize]) && one(in_force.return_plane);
-    }
-    one(walk.at.position[plane.axes().2 as usize])
-        && (returns == Some(ReturnLevel::Retract)
-            || one(in_force.initial)
-                && in_force
-                    .initial
-                    .is_some_and(|i| cycle.approach.initial(i, retract) == way.initial(i, retract)))
 }
 
 /// A level of a cycle as an absolute word.

@@ -213,9 +213,6 @@ impl Over<'_> {
                 let one = of(Binary::Multiply, second, b.clone());
                 Some(of(Binary::Add, one, of(Binary::Multiply, first, a.clone())))
             }
-            (Function::Floor, [a]) if self.has(Function::Ceiling) && self.decimals.may_be_negative(a) => {
-                Some(negative(call(Function::Ceiling, negative(a.clone()))))
-            }
             (Function::Floor, [a]) if self.has(Function::Truncate) => {
                 self.never_negative(a, "what is rounded down");
                 Some(call(Function::Truncate, a.clone()))
@@ -223,16 +220,6 @@ impl Over<'_> {
             (Function::Ceiling, [a]) if self.has(Function::RoundUp) => {
                 self.never_negative(a, "what is rounded up");
                 Some(call(Function::RoundUp, a.clone()))
-            }
-            // Of a MOD of a number below zero the manuals say nothing.
-            (Function::Remainder, [a, b])
-                if self.has(Function::Ceiling)
-                    && self.decimals.may_be_negative(a)
-                    && wraps(a, b, self.decimals) =>
-            {
-                let less = negative(of(Binary::Divide, a.clone(), b.clone()));
-                let whole = of(Binary::Multiply, b.clone(), call(Function::Ceiling, less));
-                Some(of(Binary::Add, a.clone(), whole))
             }
             (Function::Remainder, [a, b]) => {
                 self.never_negative(a, "what is divided for a remainder");
@@ -282,11 +269,6 @@ impl Over<'_> {
     }
 }
 
-/// Whether a remainder that is never negative comes of rounding the quotient: of whole numbers, by one above zero.
-pub(crate) fn wraps(a: &Expr, b: &Expr, decimals: &Decimals) -> bool {
-    decimals.is_whole(a) && b.literal().and_then(|b| b.whole()).is_some_and(|b| b > 0)
-}
-
 /// Whether it is how many times a body is executed: rounded, and not less than none.
 fn is_count(function: Function, arguments: &[Expr]) -> bool {
     let whole = call_of(function, arguments);
@@ -295,10 +277,6 @@ fn is_count(function: Function, arguments: &[Expr]) -> bool {
 
 fn call_of(function: Function, arguments: &[Expr]) -> Expr {
     node(Node::Call(function, arguments.to_vec()))
-}
-
-fn negative(a: Expr) -> Expr {
-    node(Node::Unary(Unary::Negate, a))
 }
 
 /// 1 where something is less than zero, else 0.

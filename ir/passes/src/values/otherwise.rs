@@ -6,11 +6,9 @@
 //! nothing where it adds up. Where an output differs from its source, and not from the
 //! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
 
-use crate::values::arithmetic::wraps;
 use crate::values::variables::{Fineness, as_rounded, expressions};
 use ncc_ir::computed::computes::NEARLY;
 use ncc_ir::expr::compared;
-use ncc_ir::expr::decimals::Decimals;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Unary};
 use ncc_ir::program::Program;
@@ -81,12 +79,10 @@ pub fn computes_numbers(program: &Program) -> bool {
 pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -> Option<Program> {
     let mut other = program.clone();
     let mut found = taken.contains(&Taken::Together) && as_rounded(&mut other, there.fineness);
-    let mut decimals = Decimals::of(program);
-    for (at, procedure) in other.procedures.iter_mut().enumerate() {
-        decimals.within(at);
+    for procedure in &mut other.procedures {
         expressions(&mut procedure.body, &mut |stmt, expr| {
             if stmt.span.start <= until {
-                over(expr, taken, (there, &decimals), &mut found);
+                over(expr, taken, there, &mut found);
             }
         });
     }
@@ -96,12 +92,10 @@ pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -
 /// Where a program says what another reading changes, in the order of the text.
 pub fn places(program: &Program, taken: &[Taken], there: There) -> Vec<Span> {
     let mut places = Vec::new();
-    let mut decimals = Decimals::of(program);
-    for (at, procedure) in program.clone().procedures.iter_mut().enumerate() {
-        decimals.within(at);
+    for procedure in &mut program.clone().procedures {
         expressions(&mut procedure.body, &mut |stmt, expr| {
             let mut found = false;
-            over(expr, taken, (there, &decimals), &mut found);
+            over(expr, taken, there, &mut found);
             places.extend(found.then_some(stmt.span));
         });
     }
@@ -136,8 +130,8 @@ fn nearly(operator: Binary, a: &Expr, b: &Expr) -> Option<Node> {
     })
 }
 
-fn over(e: &mut Expr, taken: &[Taken], (there, decimals): (There, &Decimals), found: &mut bool) {
-    e.parts_mut().for_each(|part| over(part, taken, (there, decimals), found));
+fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
+    e.parts_mut().for_each(|part| over(part, taken, there, found));
     let Expr::Node(node) = e else { return };
     let functions = there.functions;
     let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));
@@ -162,12 +156,10 @@ fn over(e: &mut Expr, taken: &[Taken], (there, decimals): (There, &Decimals), fo
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
         }
         Node::Call(Function::Remainder, all) if not_negative && !has(Function::Remainder) => match &all[..] {
-            [a, b] if !(has(Function::Ceiling) && wraps(a, b, decimals)) => of(Binary::Modulo, a, b),
+            [a, b] => of(Binary::Modulo, a, b),
             _ => None,
         },
         Node::Call(function, all) if not_negative && !has(*function) => match function {
-            // Written by the one that goes up.
-            Function::Floor if has(Function::Ceiling) => None,
             Function::Floor => Some(Node::Call(Function::Truncate, all.clone())),
             Function::Ceiling if has(Function::RoundUp) => Some(Node::Call(Function::RoundUp, all.clone())),
             Function::RoundUp if has(Function::Ceiling) => Some(Node::Call(Function::Ceiling, all.clone())),
