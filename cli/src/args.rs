@@ -302,6 +302,9 @@ pub struct Translate {
     /// itself if it is named as the result with `.map.json` behind
     #[arg(long, value_name = "FILE", conflicts_with = "no_verify", help_heading = "What is reported")]
     pub map: Option<PathBuf>,
+    /// Print the program in between on stderr, each time that a pass has run: its name, or `all`
+    #[arg(long, value_name = "PASS", value_parser = crate::print_after::name, help_heading = "What is reported")]
+    pub print_after: Option<String>,
     /// How much is told.
     #[command(flatten)]
     pub telling: Telling,

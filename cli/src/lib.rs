@@ -18,6 +18,7 @@ pub mod machines;
 pub mod milling;
 mod order;
 pub mod plot;
+mod print_after;
 pub mod project;
 pub mod provenance;
 pub mod review;

@@ -27,6 +27,7 @@ use crate::files::{self, Destination, arrow};
 use crate::known::{self, Known};
 use crate::milling::{self, Assumed, Voice};
 use crate::order::Order;
+use crate::print_after::print_after;
 use crate::provenance::why;
 use crate::sugar::{Said, rewrite};
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
@@ -283,8 +284,10 @@ fn translated(
     }
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let asked = Asked { map: args.map.is_some(), annotate: args.annotate };
+    let watch = args.print_after.clone().map(print_after);
     let (mut outcome, record) = translate::translate_recording(&job, asked, &mut source.file)
         .map_err(|e| cannot_read(&e, &source))?;
+    drop(watch);
     if let Destination::File(folder) = &destination
         && folder.is_dir()
     {

@@ -91,6 +91,70 @@ pub const PASSES: &[Pass] = &[
         "executes what computes and decides, and writes straight blocks",
         Some(flow::flatten::run),
     ),
+    // Of a program that is kept whole.
+    Pass::whole("unused-labels", "leaves out labels that no jump leads to", None),
+    Pass::whole(
+        "values-at-start",
+        "sets variables to what the user states that they hold at the start",
+        None,
+    ),
+    Pass::whole(
+        "side-effects",
+        "says in words what codes of the source's control do besides their names",
+        None,
+    ),
+    Pass::whole("leave-out-output", "leaves out what is written to devices that the target has not", None),
+    Pass::whole("alarm-texts", "says texts of alarms in the target's characters", None),
+    Pass::whole("alarm-numbers", "numbers alarms as the target does", None),
+    Pass::whole(
+        "tool-names",
+        "puts the target machine's numbers in for names of tools, in a program that computes",
+        None,
+    ),
+    Pass::whole("leave-out-values", "leaves out of messages the values that the target cannot show", None),
+    Pass::whole(
+        "codes-put-back",
+        "puts modes that a program saves and puts back into words, where the target cannot save them",
+        None,
+    ),
+    Pass::whole(
+        "codes-without-alarms",
+        "takes computed codes without the alarm for those that are none",
+        None,
+    ),
+    Pass::whole(
+        "machine-cuts",
+        "says cuts in machine coordinates by work offsets that the program reads",
+        None,
+    ),
+    Pass::whole(
+        "planes-checked",
+        "checks the planes of computed cycles in the program, as the source's control does",
+        None,
+    ),
+    Pass::whole(
+        "computed-holes",
+        "says circles and lines of holes whose sizes are computed by their positions",
+        None,
+    ),
+    Pass::whole("exact-comparisons", "compares exactly what the target would find nearly equal", None),
+    Pass::whole("message-values", "shows values in messages with all their digits", None),
+    Pass::whole("control-forms", "says loops, branches and jumps in the target's forms", None),
+    Pass::whole("arithmetic", "computes with the functions that the target has", None),
+    Pass::whole("known-facts", "states modes anew where ways of a program that computes join", None),
+    Pass::whole("centres-from-start", "measures computed centres of arcs from their start", None),
+    Pass::whole(
+        "spindle-points",
+        "says places of the spindle that a program reads as the target has them",
+        None,
+    ),
+    Pass::whole("unit-in-force", "says what is counted in the unit in force", None),
+    Pass::whole("variables", "names variables as the target does", None),
+    Pass::whole(
+        "machine-numbers",
+        "puts the target machine's numbers of tools, lengths and offsets in",
+        None,
+    ),
     // Before the calls are written out: what callers disagree about may be all that is missing.
     Pass::whole(
         "specialise-procedures",
@@ -106,6 +170,11 @@ pub const PASSES: &[Pass] = &[
         "number-names",
         "gives subprograms numbers where the target calls by number",
         Some(flow::number_names::run),
+    ),
+    Pass::whole(
+        "computed-frames",
+        "says all that is in force of frames behind each statement, where a program computes",
+        None,
     ),
     // As a piece comes.
     frames::rotary_turns::PASS,
