@@ -4,17 +4,17 @@
 //! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
 //! difference; the caller decides where a released output goes.
 
-pub mod alone;
-pub mod as_there;
 pub mod difference;
 pub mod heading;
 pub mod judge;
+pub mod parametric;
 pub mod rewrite;
 pub mod split;
+pub mod standalone_subprogram;
 pub mod tools_by_name;
 mod translation;
 
-pub use as_there::{bore_shift, orientation, parameter};
+pub use parametric::{bore_shift, orientation, parameter};
 
 use std::io;
 

@@ -1,8 +1,8 @@
 //! One translation on its way: what is between source and output, piece by piece.
 
-use super::as_there::{self, target};
-use super::as_there::{bore_shift, orientation, parameter};
 use super::heading;
+use super::parametric::{self, target};
+use super::parametric::{bore_shift, orientation, parameter};
 
 use std::collections::{BTreeSet, HashMap};
 use std::io;
@@ -83,7 +83,7 @@ pub(super) struct Translation<'j> {
 impl<'j> Translation<'j> {
     pub(super) fn new(job: &'j Job) -> Translation<'j> {
         let mut legaliser =
-            Legaliser::new(&job.to.caps(), as_there::decimals(job), parameter(job, PECK_CLEARANCE));
+            Legaliser::new(&job.to.caps(), parametric::decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
         legaliser.set_fine_boring(bore_shift(job), orientation(job));
         // The text form can hold what any dialect can say.
@@ -261,7 +261,7 @@ impl<'j> Translation<'j> {
             passed_labels::run(&mut program);
             ran_whole("unused-labels", &program);
         }
-        let mut found = as_there::begin_with(self.job, &mut program);
+        let mut found = parametric::begin_with(self.job, &mut program);
         self.side_effects.run(&mut program.procedures, &mut found);
         ran_whole("side-effects", &program);
         if returns_alone(&source).is_some() {
@@ -272,7 +272,7 @@ impl<'j> Translation<'j> {
         self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {
             let mut told = left_out(&program, &self.job.to.caps());
-            as_there::alarms(self.job, &mut program, &mut told);
+            parametric::alarms(self.job, &mut program, &mut told);
             self.take(told, Told::Writer);
         }
         let (mut known, mut renamed, mut stands) = (Known::default(), Renamed::default(), HashMap::new());
@@ -290,7 +290,8 @@ impl<'j> Translation<'j> {
                 leave_out_values(&mut program, &caps, &mut found);
                 ran_whole("leave-out-values", &program);
                 let stands = self.legaliser.stands();
-                (known, renamed) = as_there::say(self.job, &mut program, there, stands, &mut found);
+                (known, renamed) =
+                    parametric::legalise_parametric(self.job, &mut program, there, stands, &mut found);
             }
             if there.is_some() && own_distance::others(&program, &known).is_empty() {
                 stands = known.modes();
@@ -342,10 +343,10 @@ impl<'j> Translation<'j> {
                 return Ok(());
             }
         } else {
-            self.writer.know_modes(&program, as_there::stands(&program, self.legaliser.stands()));
+            self.writer.know_modes(&program, parametric::stands(&program, self.legaliser.stands()));
             self.legaliser.run_program(&mut program, &mut found);
         }
-        as_there::calls_and_jumps(self.job, [&source, &program], &mut found);
+        parametric::calls_and_jumps(self.job, [&source, &program], &mut found);
         self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {
@@ -579,7 +580,7 @@ impl<'j> Translation<'j> {
             }
             _ => None,
         };
-        let path = as_there::path_at_start(self.job)
+        let path = parametric::path_at_start(self.job)
             .filter(|_| !self.sets_path && verified.is_none_or(|verified| verified.events > 0));
         self.take(path.into_iter().collect(), Told::Writer);
         let own = self.name();

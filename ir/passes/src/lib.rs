@@ -12,6 +12,7 @@ pub mod frames;
 pub mod holes;
 mod legalise;
 pub mod modes;
+pub mod parametric;
 pub mod pass;
 pub mod support;
 pub mod threads;
@@ -112,44 +113,22 @@ pub const PASSES: &[Pass] = &[
         None,
     ),
     Pass::whole("leave-out-values", "leaves out of messages the values that the target cannot show", None),
-    Pass::whole(
-        "codes-put-back",
-        "puts modes that a program saves and puts back into words, where the target cannot save them",
-        None,
-    ),
-    Pass::whole(
-        "codes-without-alarms",
-        "takes computed codes without the alarm for those that are none",
-        None,
-    ),
-    Pass::whole(
-        "machine-cuts",
-        "says cuts in machine coordinates by work offsets that the program reads",
-        None,
-    ),
-    Pass::whole(
-        "planes-checked",
-        "checks the planes of computed cycles in the program, as the source's control does",
-        None,
-    ),
-    Pass::whole(
-        "computed-holes",
-        "says circles and lines of holes whose sizes are computed by their positions",
-        None,
-    ),
-    Pass::whole("exact-comparisons", "compares exactly what the target would find nearly equal", None),
-    Pass::whole("message-values", "shows values in messages with all their digits", None),
-    Pass::whole("control-forms", "says loops, branches and jumps in the target's forms", None),
-    Pass::whole("arithmetic", "computes with the functions that the target has", None),
-    Pass::whole("known-facts", "states modes anew where ways of a program that computes join", None),
-    Pass::whole("centres-from-start", "measures computed centres of arcs from their start", None),
-    Pass::whole(
-        "spindle-points",
-        "says places of the spindle that a program reads as the target has them",
-        None,
-    ),
-    Pass::whole("unit-in-force", "says what is counted in the unit in force", None),
-    Pass::whole("variables", "names variables as the target does", None),
+    parametric::CODES_PUT_BACK,
+    parametric::CODES,
+    flow::expand_repeats::COMPUTED,
+    frames::machine_cuts::PASS,
+    holes::planes_checked::PASS,
+    holes::computed_holes::PASS,
+    values::exact_comparisons::PASS,
+    values::message_values::PASS,
+    flow::control_forms::PASS,
+    values::arithmetic::PASS,
+    parametric::KNOWN_FACTS,
+    arcs::centres_from_start::PASS,
+    frames::spindle_points::PASS,
+    values::unit_in_force::PASS,
+    parametric::DEPTH,
+    values::variables::PASS,
     Pass::whole(
         "machine-numbers",
         "puts the target machine's numbers of tools, lengths and offsets in",

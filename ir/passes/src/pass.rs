@@ -10,6 +10,7 @@ use ncc_ir::track::Tracker;
 
 use crate::Target;
 use crate::legalise::Legaliser;
+use crate::parametric::Parametric;
 use crate::support::walk::Walk;
 
 /// A pass on a whole program; the tracker says what holds before the main procedure.
@@ -26,13 +27,41 @@ pub struct Pass {
     pub alone: Option<Alone>,
     /// How the legaliser runs it on a piece of a program; `None` of one that it does not run so.
     pub(crate) step: Option<Step>,
+    /// How it is run on a program that computes; `None` of one that is not.
+    pub(crate) parametric: Option<Whole>,
 }
 
 impl Pass {
     /// One that is run by name alone, or by whoever keeps a program whole.
     pub(crate) const fn whole(name: &'static str, about: &'static str, alone: Option<Alone>) -> Pass {
-        Pass { name, about, alone, step: None }
+        Pass { name, about, alone, step: None, parametric: None }
     }
+
+    /// One that is run on programs that compute.
+    pub(crate) const fn parametric(
+        name: &'static str,
+        about: &'static str,
+        needed: Needed,
+        run: Run,
+    ) -> Pass {
+        let parametric = Some(Whole { needed, run });
+        Pass { name, about, alone: None, step: None, parametric }
+    }
+}
+
+/// What makes a pass on a program that computes needed.
+pub(crate) type Needed = fn(&Parametric, &Program) -> bool;
+
+/// Runs a pass on a program that computes.
+pub(crate) type Run = fn(&mut Program, &mut Parametric, &mut Vec<Diagnostic>);
+
+/// A pass on a program that computes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Whole {
+    /// What makes it needed.
+    pub(crate) needed: Needed,
+    /// Runs it.
+    pub(crate) run: Run,
 }
 
 /// When the legaliser runs a pass on a piece.

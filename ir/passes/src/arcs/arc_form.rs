@@ -29,6 +29,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(ARC) && !l.target.caps.arc_forms,
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.arcs, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece: which way the tool came.

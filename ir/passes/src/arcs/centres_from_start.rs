@@ -4,12 +4,21 @@
 //! Not here: centres that are written out, which become differences where the start is known, and those of targets
 //! whose words say from where they count.
 
+use crate::pass::Pass;
 use ncc_ir::canon::Axis;
 use ncc_ir::caps::Caps;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Program, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "centres-from-start",
+    "measures computed centres of arcs from their start",
+    |_, _| true,
+    |program, own, _| run(program, own.caps),
+);
 
 /// Says them so, for such a target.
 pub fn run(program: &mut Program, caps: &Caps) {

@@ -36,6 +36,7 @@ pub(crate) const PASS: Pass = Pass {
             }
         },
     }),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece.

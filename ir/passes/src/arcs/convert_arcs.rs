@@ -27,6 +27,7 @@ pub(crate) const FINE: Pass = Pass {
         |_, p| p.needs(ARC),
         |l, p| too_fine(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// By centre, from the start of the arc.

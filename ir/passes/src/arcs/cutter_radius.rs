@@ -27,6 +27,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(RADIUS),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.radius, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a program.

@@ -37,6 +37,7 @@ pub(crate) const PASS: Pass = Pass {
             p.needs |= if written { l.lacks & ARC } else { 0 };
         },
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a body.

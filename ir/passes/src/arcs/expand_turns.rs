@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(ARC) && !l.target.caps.arc_turns,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Most turns of one arc; more is a slip of the pen.

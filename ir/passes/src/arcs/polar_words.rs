@@ -27,6 +27,7 @@ pub(crate) const PASS: Pass = Pass {
     about: "says points by radius and angle in the target's form, or by coordinates",
     alone: Some(run),
     step: Step::at(Moment::Placing, |_, p| p.needs(POLAR), Legaliser::polar_words),
+    parametric: None,
 };
 
 /// What is known of the target's text.

@@ -20,6 +20,7 @@ mod worked_out;
 use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
+use crate::pass::Pass;
 use ncc_ir::computed::call_of::call_of;
 use ncc_ir::computed::changed::Changed;
 use ncc_ir::computed::computes::{Computes, Handed, Said, counted};
@@ -27,6 +28,14 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "control-forms",
+    "says loops, branches and jumps in the target's forms",
+    |_, _| true,
+    |program, own, _| run(program, own.target),
+);
 
 /// Says a program's control in the target's forms.
 pub fn run(program: &mut Program, computes: &Computes) {

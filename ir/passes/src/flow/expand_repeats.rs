@@ -20,11 +20,20 @@ use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 /// This pass.
+pub(crate) const COMPUTED: Pass = Pass::parametric(
+    "computed-repeats",
+    "writes out repetitions that the target cannot say where a program computes",
+    |_, _| true,
+    |program, own, found| where_it_computes(program, own.caps, found),
+);
+
+/// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "expand-repeats",
     about: "writes counted repetitions out",
     alone: Some(run),
     step: Step::at(Moment::Placing, |_, p| p.needs(CONTROL), |l, p| over(p.stmts, &l.target, p.diags)),
+    parametric: None,
 };
 
 /// Deepest nesting of repetitions of blocks.

@@ -20,6 +20,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(SKIP),
         |l, p| over(p.stmts, &mut l.skip, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Levels that were reported: bit n is level n.

@@ -37,6 +37,7 @@ pub(crate) const PASS: Pass = Pass {
             None => l.increments.note(p.stmts, &l.walk),
         },
     }),
+    parametric: None,
 };
 
 /// What is said of a word that cannot be written so.

@@ -9,6 +9,7 @@
 //! along axes whose offsets the target cannot be asked for. Not here: the tool's length, of which the cut is the
 //! target's own (`machine_moves`).
 
+use crate::pass::Pass;
 use crate::support::known_facts::{self, Known};
 use crate::support::write::exact;
 use crate::values::variables::{round, rounded};
@@ -23,6 +24,14 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::{Shifted, Tracker};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "machine-cuts",
+    "says cuts in machine coordinates by work offsets that the program reads",
+    |_, _| true,
+    |program, own, found| read(program, &own.entry, own.caps, found),
+);
 
 /// Whether a target says cuts in machine coordinates in its work offsets.
 pub(crate) fn in_work(caps: &Caps) -> bool {

@@ -49,6 +49,7 @@ pub(crate) const PASS: Pass = Pass {
             p.needs |= l.lacks & (EDGE | TABLE | LENGTH);
         },
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a body.

@@ -18,6 +18,7 @@ pub(crate) const PASS: Pass = Pass {
     about: "takes a target that cannot cancel a shift of the origin to start without one",
     alone: Some(run),
     step: Step::at(Moment::Placing, |_, p| p.needs(SHIFT), |l, p| over(p.stmts, &mut l.shift, p.diags)),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a program.

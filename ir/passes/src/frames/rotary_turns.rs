@@ -23,6 +23,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| l.rotary.is_used() && p.lines.is_none(),
         |l, p| l.rotary.check(p.stmts, &l.walk, p.diags),
     ),
+    parametric: None,
 };
 
 /// What both controls do, as far as it is known.

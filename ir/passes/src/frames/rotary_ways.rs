@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(TURN),
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Half a turn, in nanos of a degree. Less than that a plain word turns the same way on every machine, whether it

@@ -6,11 +6,20 @@
 //!
 //! Not here: targets that do not tell the length in force, for which it is refused by name.
 
+use crate::pass::Pass;
 use crate::values::variables::expressions;
 use ncc_ir::canon::Axis;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::Program;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "spindle-points",
+    "says places of the spindle that a program reads as the target has them",
+    |_, _| true,
+    |program, own, _| run(program, own.tells),
+);
 
 /// Puts the tip's place there. `tells` is whether the target answers a question, as it is set up.
 pub fn run(program: &mut Program, tells: &dyn Fn(&System) -> bool) {

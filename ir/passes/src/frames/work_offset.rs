@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(WORK),
         |l, p| over(p.stmts, &mut l.work, p.assumed, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a program.

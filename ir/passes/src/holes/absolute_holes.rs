@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(CYCLE) && !l.target.caps.incremental_cycles,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    parametric: None,
 };
 
 /// A pass.
@@ -37,6 +38,7 @@ pub(crate) const ALIKE: Pass = Pass {
         |l, p| p.needs(CYCLE) && l.target.caps.incremental_cycles && l.target.caps.cycles_measured_anew,
         |_, p| alike(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    parametric: None,
 };
 
 /// Makes them absolute.

@@ -29,6 +29,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(CYCLE),
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.

@@ -14,7 +14,16 @@ use ncc_ir::program::cycle::{First, Pattern, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 
 use crate::holes::pattern_forms;
+use crate::pass::Pass;
 use crate::support::write::rebuild;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "computed-holes",
+    "says circles and lines of holes whose sizes are computed by their positions",
+    |_, _| true,
+    |program, own, found| run(program, own.caps, found),
+);
 
 /// Degrees of a quarter turn, in nanos.
 const QUARTER: Nanos = 90 * ONE;

@@ -48,6 +48,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(CYCLE),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.cycles, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Most pecks of one hole; more is a slip of the pen.

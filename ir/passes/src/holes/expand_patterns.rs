@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(PATTERN),
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// A pass.
@@ -37,6 +38,7 @@ pub(crate) const REFORM: Pass = Pass {
         |_, p| p.needs(PATTERN),
         |l, p| reform(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Most holes of one pattern; more is a slip of the pen.

@@ -4,10 +4,23 @@
 //! The check stands before the cycle's call, as the source's own control makes it. It is taken away where it asks for
 //! just what the target's cycle will; one that asks for more stays.
 
+use crate::pass::Pass;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::cycle::{Cycle, CycleKind};
 use ncc_ir::program::{Control, Coord, Op, Program, Stmt};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "planes-checked",
+    "checks the planes of computed cycles in the program, as the source's control does",
+    |own, _| own.target.planes_alarm.is_some(),
+    |program, own, _| {
+        if let Some(alarm) = own.target.planes_alarm {
+            run(program, alarm, own.digits.decimals);
+        }
+    },
+);
 
 /// Takes checks away that the target's cycles make. `alarm` is theirs; `decimals` are the digits with which it states
 /// how far one plane is above the other.

@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(AT_ONCE),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.at_once, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What is remembered from piece to piece of a body.

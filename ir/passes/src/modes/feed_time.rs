@@ -52,6 +52,7 @@ pub(crate) const PASS: Pass = Pass {
             }
         },
     }),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece.

@@ -54,6 +54,7 @@ pub(crate) const AGAIN: Pass = Pass {
             }
         },
     }),
+    parametric: None,
 };
 
 /// A pass.
@@ -66,6 +67,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| l.is_measured(p) && !l.target.caps.feed_apart,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
     ),
+    parametric: None,
 };
 
 /// Whether feeds are said again behind a change of units: it is not known what the target makes of them, or it makes

@@ -22,6 +22,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| l.is_measured(p) && !l.target.caps.word_distance,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    parametric: None,
 };
 
 /// Measures them from program zero.

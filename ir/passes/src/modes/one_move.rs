@@ -24,6 +24,7 @@ pub(crate) const PASS: Pass = Pass {
     about: "puts an exact stop of one move, and its feed by time, into the block of the move",
     alone: Some(run),
     step: Step::at(Moment::Wording, |_, p| p.needs(MOVE), |l, p| over(p.stmts, &mut l.one)),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a body.

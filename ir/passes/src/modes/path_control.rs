@@ -28,6 +28,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(PATH),
         |l, p| over(p.stmts, &mut l.path, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a program.

@@ -39,6 +39,7 @@ pub(crate) const AS_CYCLES: Pass = Pass {
             p.needs |= l.lacks & CYCLE;
         },
     ),
+    parametric: None,
 };
 
 /// A pass.
@@ -51,6 +52,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.threads, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// The way out that belongs to a thread which is written with its way back.

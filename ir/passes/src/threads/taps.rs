@@ -36,6 +36,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(CYCLE),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.taps, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Digits of a pitch in millimetres that follows from feed and speed, as fine as pitches are compared.

@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, _| l.length_axis.is_used(),
         |l, p| l.length_axis.check(p.stmts, &l.walk, p.diags),
     ),
+    parametric: None,
 };
 
 /// Whether the two controls differ: by the plane in force, and by that of the call.

@@ -28,6 +28,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(TABLE) && l.target.caps.change_by_hand,
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.by_hand, p.diags),
     ),
+    parametric: None,
 };
 
 /// What is known of the tool in the spindle.

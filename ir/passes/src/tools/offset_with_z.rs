@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(LENGTH),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.length, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a body.

@@ -17,6 +17,7 @@ pub(crate) const PASS: Pass = Pass {
     about: "states the angle at which the spindle stops where the target needs it",
     alone: Some(run),
     step: Step::at(Moment::Wording, |_, _| true, |l, p| over(p.stmts, &mut l.angle, &l.target, p.diags)),
+    parametric: None,
 };
 
 /// What has been told.

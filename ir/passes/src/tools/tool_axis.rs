@@ -31,6 +31,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(TOOL_AXIS),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.axis, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a program.

@@ -23,6 +23,7 @@ pub(crate) const PASS: Pass = Pass {
             l.change.over(p.stmts, up, p.diags);
         },
     ),
+    parametric: None,
 };
 
 /// What the statements so far leave.

@@ -29,6 +29,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(EDGE | TABLE),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.edge, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// What the pass remembers from piece to piece of a body.

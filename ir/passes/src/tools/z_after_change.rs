@@ -33,6 +33,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| l.z_left.concerns(p.stmts),
         |l, p| l.z_left.over(p.stmts, &l.walk, p.diags),
     ),
+    parametric: None,
 };
 
 /// What is remembered from piece to piece.

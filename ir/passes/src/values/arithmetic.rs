@@ -8,6 +8,7 @@
 //!
 //! Not here: what a target has no way to say at all (`computes`), and variables (`variables`).
 
+use crate::pass::Pass;
 use crate::values::variables::expressions;
 use ncc_ir::computed::computes::{Computes, counted};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -17,6 +18,14 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "arithmetic",
+    "computes with the functions that the target has",
+    |_, _| true,
+    |program, own, found| run(program, own.target, own.tolerance, found),
+);
 
 /// Says what is computed with what the target has. `own` is the tolerance of the comparisons that the program's own
 /// control makes, if they have one.

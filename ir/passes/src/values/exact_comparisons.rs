@@ -4,11 +4,20 @@
 //! What one control compares to within a tolerance is the same there unless two numbers differ by less than that;
 //! the program is taken to compare none such, which is told. Execution tells whether it is so.
 
+use crate::pass::Pass;
 use crate::values::variables::expressions;
 use ncc_ir::computed::computes::Computes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
 use ncc_ir::program::Program;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "exact-comparisons",
+    "compares exactly what the target would find nearly equal",
+    |_, _| true,
+    |program, own, found| run(program, own.target, found),
+);
 
 /// Says comparisons without a tolerance.
 pub fn run(program: &mut Program, computes: &Computes, diags: &mut Vec<Diagnostic>) {

@@ -3,9 +3,22 @@
 //!
 //! Not here: values that are no variables, which are given to one before (`control_forms`).
 
+use crate::pass::Pass;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Piece, Program, Stmt};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "message-values",
+    "shows values in messages with all their digits",
+    |own, _| own.target.values_in_full.is_some(),
+    |program, own, found| {
+        if let Some(digits) = own.target.values_in_full {
+            run(program, digits, found);
+        }
+    },
+);
 
 /// Says the values of a program's messages with so many digits behind the point.
 pub fn run(program: &mut Program, digits: u8, diags: &mut Vec<Diagnostic>) {

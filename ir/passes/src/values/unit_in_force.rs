@@ -9,7 +9,16 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt};
 
+use crate::pass::Pass;
 use crate::values::variables::expressions;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "unit-in-force",
+    "says what is counted in the unit in force",
+    |own, _| own.others,
+    |program, own, _| run(program, own.target),
+);
 
 /// Says them so.
 pub fn run(program: &mut Program, there: &Computes) {

@@ -25,9 +25,18 @@ use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::{Control, Op, Program, Stmt};
 
+use crate::pass::Pass;
 pub use vacancy::{Question, questions};
 pub use words::Fineness;
 pub(crate) use words::{as_rounded, round, rounded};
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::parametric(
+    "variables",
+    "names variables as the target does",
+    |_, _| true,
+    |program, own, found| own.renamed = run(program, own.source, own.target, own.digits, found),
+);
 
 /// Variables of the main procedure, and those that all procedures see: what each is called in the target.
 #[derive(Clone, Debug, Default)]

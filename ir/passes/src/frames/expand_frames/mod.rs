@@ -43,6 +43,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(FRAME),
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.frames, &l.target, p.diags),
     ),
+    parametric: None,
 };
 
 /// Less than this is no share of an axis.

@@ -9,7 +9,6 @@ use ncc_dialects::{
 };
 use ncc_exec::world::Sideways;
 use ncc_ir::canon::Modes;
-use ncc_ir::computed::code_of;
 use ncc_ir::computed::computes::{Computes, Said};
 use ncc_ir::computed::open::open_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -19,14 +18,11 @@ use ncc_ir::program::valid::{deeper_calls, labels_twice};
 use ncc_ir::program::{Call, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_passes::arcs::centres_from_start;
-use ncc_passes::flow::{control_forms, expand_repeats};
-use ncc_passes::frames::{computed_frames, machine_cuts, spindle_points};
-use ncc_passes::holes::{computed_holes, planes_checked};
 use ncc_passes::modes::own_distance;
+use ncc_passes::parametric::Parametric;
 use ncc_passes::support::known_facts::{self, Known};
-use ncc_passes::values::variables::{self, Digits, Renamed};
-use ncc_passes::values::{alarm_numbers, arithmetic, exact_comparisons, message_values, unit_in_force};
+use ncc_passes::values::alarm_numbers;
+use ncc_passes::values::variables::{Digits, Renamed};
 use ncc_passes::watch::ran_whole;
 use ncc_passes::{Target, leave_out_output, output_elsewhere};
 
@@ -144,81 +140,39 @@ pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
 
 /// Says a program so. `stands` is what holds where it begins. What holds in it, and which variables became which,
 /// comes back.
-pub fn say(
+pub fn legalise_parametric(
     job: &Job,
     program: &mut Program,
     there: &Computes,
     stands: &Tracker,
     found: &mut Vec<Diagnostic>,
 ) -> (Known, Renamed) {
-    let mut known = Known::default();
     let (from, to) = (job.from.dialect, job.to.dialect);
+    let (source, caps) = (job.from.caps(), job.to.caps());
     let mut entry = stands.clone();
     entry.modes = entry.modes.or(program.assumed);
-    if from.id != to.id && !there.has(Said::CodeOf) {
-        known_facts::put_back(program, &entry, there);
-        ran_whole("codes-put-back", program);
-    }
-    for procedure in &mut program.procedures {
-        code_of::without_alarms(&mut procedure.body, &|control| there.says_number(control));
-    }
-    ran_whole("codes-without-alarms", program);
-    expand_repeats::where_it_computes(program, &job.to.caps(), found);
-    ran_whole("expand-repeats", program);
-    machine_cuts::read(program, &entry, &job.to.caps(), found);
-    ran_whole("machine-cuts", program);
+    let computes = source.computes.unwrap_or_default();
     let lengths = to.numbers(Quantity::Length);
-    if let Some(alarm) = there.planes_alarm {
-        planes_checked::run(program, alarm, lengths.decimals);
-        ran_whole("planes-checked", program);
-    }
-    computed_holes::run(program, &job.to.caps(), found);
-    ran_whole("computed-holes", program);
-    exact_comparisons::run(program, there, found);
-    ran_whole("exact-comparisons", program);
-    if let Some(digits) = there.values_in_full {
-        message_values::run(program, digits, found);
-        ran_whole("message-values", program);
-    }
-    control_forms::run(program, there);
-    ran_whole("control-forms", program);
-    arithmetic::run(program, there, from.formula.tolerance(), found);
-    ran_whole("arithmetic", program);
-    // Its own words are left as they are, where they say by themselves where they lead.
-    let own = to.program.o_words && from.id == to.id;
-    let computes = job.from.caps().computes.unwrap_or_default();
-    if there.restates && !own || computed_frames::behind_control(program) {
-        known = known_facts::run(program, &entry, from.id != to.id);
-        ran_whole("known-facts", program);
-    } else if computes.blocks != there.blocks {
-        // Words of another language lead to stretches of its blocks; what they say stays as it is.
-        known = known_facts::run(&mut program.clone(), &entry, true);
-        // Where a target's words have no mode of their own, the mode behind one that has is said anew.
-        let measures = job.from.caps().word_distance && !job.to.caps().word_distance;
-        if measures && !own_distance::places(program, &known).is_empty() {
-            known = known_facts::run(program, &entry, true);
-            ran_whole("known-facts", program);
-        }
-    }
-    centres_from_start::run(program, &job.to.caps());
-    ran_whole("centres-from-start", program);
-    let rows = || to.system.iter().filter(|row| row.counts(&job.to));
-    spindle_points::run(program, &|asked| rows().flat_map(SystemRow::says).any(|(said, _)| said == *asked));
-    ran_whole("spindle-points", program);
-    if from.id != to.id {
-        unit_in_force::run(program, there);
-        ran_whole("unit-in-force", program);
-    }
-    if computes.calls != there.calls {
-        found.extend(there.too_deep(program));
-    }
     let inch = lengths.increment_inch.unwrap_or(lengths.increment);
     let both = |row: &CodeRow| row.dwell.iter().any(|word| word.quantity == Quantity::Milliseconds);
     let seconds = to.code.iter().any(both).then(|| to.numbers(Quantity::Seconds).increment);
-    let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch], seconds };
-    let renamed = variables::run(program, &computes, there, digits, found);
-    ran_whole("variables", program);
-    (known, renamed)
+    let rows = || to.system.iter().filter(|row| row.counts(&job.to));
+    let mut own = Parametric {
+        caps: &caps,
+        target: there,
+        source: &computes,
+        word_distance: source.word_distance,
+        others: from.id != to.id,
+        keeps_words: to.program.o_words && from.id == to.id,
+        tolerance: from.formula.tolerance(),
+        digits: Digits { decimals: lengths.decimals, increments: [lengths.increment, inch], seconds },
+        tells: &|asked| rows().flat_map(SystemRow::says).any(|(said, _)| said == *asked),
+        entry,
+        known: Known::default(),
+        renamed: Renamed::default(),
+    };
+    own.say(program, found);
+    (own.known, own.renamed)
 }
 
 /// The modes that are in force where stretches of blocks begin in a program with subprograms, where no word counts in

@@ -1,0 +1,113 @@
+//! A program that computes, said with what the target computes with: forms of control, functions, known facts, and
+//! variables.
+//!
+//! The steps are rows of the table of passes, in its order. Not here: blocks between two statements of control, which the
+//! legaliser brings within the target's capabilities.
+
+use ncc_ir::caps::Caps;
+use ncc_ir::computed::code_of;
+use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::diag::Diagnostic;
+use ncc_ir::expr::num::Num;
+use ncc_ir::expr::system::System;
+use ncc_ir::program::Program;
+use ncc_ir::track::Tracker;
+
+use crate::PASSES;
+use crate::frames::computed_frames;
+use crate::modes::own_distance;
+use crate::pass::Pass;
+use crate::support::known_facts::{self, Known};
+use crate::values::variables::{Digits, Renamed};
+use crate::watch::ran_whole;
+
+/// What is known of both controls of a program that computes, and what the passes find out about it.
+pub struct Parametric<'p> {
+    /// What the target can say.
+    pub caps: &'p Caps,
+    /// What it computes with.
+    pub target: &'p Computes,
+    /// What the source's control computes with.
+    pub source: &'p Computes,
+    /// Whether words of the source say how they are measured, each by itself.
+    pub word_distance: bool,
+    /// Whether both are controls of other kinds.
+    pub others: bool,
+    /// Whether the program's own words of control stay, which say by themselves where they lead.
+    pub keeps_words: bool,
+    /// How far apart two numbers are that the source's comparisons find equal, if they have a tolerance.
+    pub tolerance: Option<Num>,
+    /// To which digits the target's words are rounded.
+    pub digits: Digits,
+    /// Whether the target tells this, where a program asks its control.
+    pub tells: &'p dyn Fn(&System) -> bool,
+    /// What holds where the program begins.
+    pub entry: Tracker,
+    /// What holds where stretches of its blocks begin.
+    pub known: Known,
+    /// Which variables became which.
+    pub renamed: Renamed,
+}
+
+impl Parametric<'_> {
+    /// Says a program so.
+    pub fn say(&mut self, program: &mut Program, found: &mut Vec<Diagnostic>) {
+        for pass in PASSES {
+            let Some(step) = pass.parametric.filter(|step| (step.needed)(self, program)) else { continue };
+            (step.run)(program, self, found);
+            ran_whole(pass.name, program);
+        }
+    }
+}
+
+/// Modes that are saved and put back are words, where the target cannot save them.
+pub(crate) const CODES_PUT_BACK: Pass = Pass::parametric(
+    "codes-put-back",
+    "puts modes that a program saves and puts back into words, where the target cannot save them",
+    |own, _| own.others && !own.target.has(Said::CodeOf),
+    |program, own, _| known_facts::put_back(program, &own.entry, own.target),
+);
+
+/// Computed codes are those that the target takes.
+pub(crate) const CODES: Pass = Pass::parametric(
+    "codes-without-alarms",
+    "takes computed codes without the alarm for those that are none",
+    |_, _| true,
+    |program, own, _| {
+        let target = own.target;
+        for procedure in &mut program.procedures {
+            code_of::without_alarms(&mut procedure.body, &|control| target.says_number(control));
+        }
+    },
+);
+
+/// Calls go no deeper than the target takes.
+pub(crate) const DEPTH: Pass = Pass::parametric(
+    "deep-calls",
+    "refuses calls that go deeper within one another than the target takes",
+    |own, _| own.source.calls != own.target.calls,
+    |program, own, found| found.extend(own.target.too_deep(program)),
+);
+
+/// Modes are said anew where ways join.
+pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
+    "known-facts",
+    "states modes anew where ways of a program that computes join",
+    |own, program| {
+        let restates = own.target.restates && !own.keeps_words || computed_frames::behind_control(program);
+        restates || own.source.blocks != own.target.blocks
+    },
+    |program, own, _| {
+        if own.target.restates && !own.keeps_words || computed_frames::behind_control(program) {
+            own.known = known_facts::run(program, &own.entry, own.others);
+            return;
+        }
+        // Words of another language lead to stretches of its blocks; what they say stays as it is.
+        own.known = known_facts::run(&mut program.clone(), &own.entry, true);
+        // Where a target's words have no mode of their own, the mode behind one that has is said anew.
+        let measures = own.word_distance && !own.caps.word_distance;
+        if measures && !own_distance::places(program, &own.known).is_empty() {
+            own.known = known_facts::run(program, &own.entry, true);
+        }
+    },
+);
