@@ -23,6 +23,7 @@ mod fold;
 mod generated;
 mod kept;
 mod laws;
+mod limits;
 mod machines;
 mod options;
 mod order;
