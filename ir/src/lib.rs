@@ -79,7 +79,7 @@
 //!
 //! # `Known` and `Entry`
 //!
-//! A fact on which a statement depends is a [`Fact`](program::Fact): `Known` if the procedure has said it on every way to
+//! A fact on which a statement depends is a [`Fact`](canon::Fact): `Known` if the procedure has said it on every way to
 //! the statement, `Entry` if it is whatever holds where the procedure begins. `X 5.u` in a subprogram is such a length:
 //! the caller has said `G20` or `G21`. Front-ends never guess. A fact that the main program relies on and never says is
 //! taken for granted from the dictionary, noted in [`Program::assumed`](program::Program::assumed), and told.

@@ -65,36 +65,36 @@ pub struct Legaliser {
     /// Whether any pass wants to know where the tool is.
     pub(crate) follow: bool,
     pub(crate) walk: Walk,
-    pub(crate) cycles: expand_cycles::State,
-    pub(crate) length: offset_with_z::State,
-    pub(crate) one: one_move::State,
-    pub(crate) work: work_offset::State,
-    pub(crate) shift: origin_shift::State,
-    pub(crate) path: path_control::State,
-    pub(crate) polar: polar_words::State,
-    pub(crate) corners: expand_corners::State,
-    pub(crate) angle: spindle_angle::State,
-    pub(crate) skip: skip_levels::State,
-    pub(crate) arcs: arc_form::State,
-    pub(crate) feed: feed_unit::State,
+    pub(crate) cycles: expand_cycles::ExpandCyclesState,
+    pub(crate) length: offset_with_z::OffsetWithZState,
+    pub(crate) one: one_move::OneMoveState,
+    pub(crate) work: work_offset::WorkOffsetState,
+    pub(crate) shift: origin_shift::OriginShiftState,
+    pub(crate) path: path_control::PathControlState,
+    pub(crate) polar: polar_words::PolarWordsState,
+    pub(crate) corners: expand_corners::ExpandCornersState,
+    pub(crate) angle: spindle_angle::SpindleAngleState,
+    pub(crate) skip: skip_levels::SkipLevelsState,
+    pub(crate) arcs: arc_form::ArcFormState,
+    pub(crate) feed: feed_unit::FeedUnitState,
     /// What holds after each call and label of a program that is kept whole.
     pub(crate) entries: Option<Rc<known_facts::Known>>,
-    pub(crate) times: feed_time::State,
-    pub(crate) edge: tool_edge::State,
-    pub(crate) radius: cutter_radius::State,
-    pub(crate) compensated: compensated_modes::State,
-    pub(crate) axis: tool_axis::State,
-    pub(crate) frames: expand_frames::State,
-    pub(crate) taps: taps::State,
-    pub(crate) threads: in_step::State,
-    pub(crate) machine: machine_moves::State,
-    pub(crate) change: tool_change::State,
-    pub(crate) at_once: at_once::State,
-    pub(crate) increments: frame_increments::State,
-    pub(crate) length_axis: length_axis::State,
-    pub(crate) by_hand: length_by_hand::State,
-    pub(crate) rotary: rotary_turns::State,
-    pub(crate) z_left: z_after_change::State,
+    pub(crate) times: feed_time::FeedTimeState,
+    pub(crate) edge: tool_edge::ToolEdgeState,
+    pub(crate) radius: cutter_radius::CutterRadiusState,
+    pub(crate) compensated: compensated_modes::CompensatedModesState,
+    pub(crate) axis: tool_axis::ToolAxisState,
+    pub(crate) frames: expand_frames::ExpandFramesState,
+    pub(crate) taps: taps::TapsState,
+    pub(crate) threads: in_step::ThreadsState,
+    pub(crate) machine: machine_moves::MachineMovesState,
+    pub(crate) change: tool_change::ToolChangeState,
+    pub(crate) at_once: at_once::AtOnceState,
+    pub(crate) increments: frame_increments::FrameIncrementsState,
+    pub(crate) length_axis: length_axis::LengthAxisState,
+    pub(crate) by_hand: length_by_hand::LengthByHandState,
+    pub(crate) rotary: rotary_turns::RotaryTurnsState,
+    pub(crate) z_left: z_after_change::ZAfterChangeState,
 }
 
 impl Legaliser {
@@ -133,37 +133,38 @@ impl Legaliser {
                     | AT_ONCE)
                 != 0
                 || caps.feed_ends_with_mode
-                || frame_increments::State::new(&Behaviours::default(), &caps.behaviours).is_used(),
+                || frame_increments::FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours)
+                    .is_used(),
             walk: Walk::default(),
-            cycles: expand_cycles::State::default(),
-            length: offset_with_z::State::default(),
-            one: one_move::State::default(),
-            work: work_offset::State::default(),
-            shift: origin_shift::State::default(),
-            path: path_control::State::default(),
-            polar: polar_words::State::default(),
-            corners: expand_corners::State::default(),
-            angle: spindle_angle::State::default(),
-            skip: skip_levels::State::default(),
-            arcs: arc_form::State::default(),
-            feed: feed_unit::State::default(),
+            cycles: expand_cycles::ExpandCyclesState::default(),
+            length: offset_with_z::OffsetWithZState::default(),
+            one: one_move::OneMoveState::default(),
+            work: work_offset::WorkOffsetState::default(),
+            shift: origin_shift::OriginShiftState::default(),
+            path: path_control::PathControlState::default(),
+            polar: polar_words::PolarWordsState::default(),
+            corners: expand_corners::ExpandCornersState::default(),
+            angle: spindle_angle::SpindleAngleState::default(),
+            skip: skip_levels::SkipLevelsState::default(),
+            arcs: arc_form::ArcFormState::default(),
+            feed: feed_unit::FeedUnitState::default(),
             entries: None,
-            times: feed_time::State::default(),
-            edge: tool_edge::State::default(),
-            radius: cutter_radius::State::default(),
-            compensated: compensated_modes::State::default(),
-            axis: tool_axis::State::default(),
-            frames: expand_frames::State::default(),
-            taps: taps::State::default(),
-            threads: in_step::State::default(),
-            machine: machine_moves::State::default(),
-            change: tool_change::State::default(),
-            at_once: at_once::State::new(caps),
-            increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
-            length_axis: length_axis::State::default(),
-            by_hand: length_by_hand::State::default(),
-            rotary: rotary_turns::State::default(),
-            z_left: z_after_change::State::default(),
+            times: feed_time::FeedTimeState::default(),
+            edge: tool_edge::ToolEdgeState::default(),
+            radius: cutter_radius::CutterRadiusState::default(),
+            compensated: compensated_modes::CompensatedModesState::default(),
+            axis: tool_axis::ToolAxisState::default(),
+            frames: expand_frames::ExpandFramesState::default(),
+            taps: taps::TapsState::default(),
+            threads: in_step::ThreadsState::default(),
+            machine: machine_moves::MachineMovesState::default(),
+            change: tool_change::ToolChangeState::default(),
+            at_once: at_once::AtOnceState::new(caps),
+            increments: frame_increments::FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours),
+            length_axis: length_axis::LengthAxisState::default(),
+            by_hand: length_by_hand::LengthByHandState::default(),
+            rotary: rotary_turns::RotaryTurnsState::default(),
+            z_left: z_after_change::ZAfterChangeState::default(),
         }
     }
 
@@ -190,7 +191,7 @@ impl Legaliser {
 
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
-        self.at_once = at_once::State::default();
+        self.at_once = at_once::AtOnceState::default();
         self.nothing_before();
     }
 
@@ -377,7 +378,7 @@ impl Legaliser {
         if self.follow && piece.needs(CONTROL | WORK | SHIFT | FRAME | MACHINE) {
             self.walk = piece.start.clone();
             if piece.needs(FRAME) && !piece.needs(ARC) {
-                self.arcs = arc_form::State::default();
+                self.arcs = arc_form::ArcFormState::default();
                 arc_form::follow(piece.stmts, &mut self.walk, &mut self.arcs);
             } else {
                 self.walk.pass(piece.stmts);

@@ -34,7 +34,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece: which way the tool came.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ArcFormState {
     heading: Heading,
 }
 
@@ -50,14 +50,14 @@ enum Heading {
 
 /// Writes them by their centre.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| over(body, walk, &mut ArcFormState::default(), target, diags));
 }
 
 /// The same for one piece of a body.
 pub(crate) fn over(
     body: &mut [Stmt],
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ArcFormState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -97,7 +97,7 @@ pub(crate) fn over(
 const TAIL: usize = 8;
 
 /// Follows a piece without such arcs.
-pub(crate) fn follow(body: &[Stmt], walk: &mut Walk, state: &mut State) {
+pub(crate) fn follow(body: &[Stmt], walk: &mut Walk, state: &mut ArcFormState) {
     let (most, tail) = body.split_at(body.len().saturating_sub(TAIL));
     if !most.is_empty() {
         walk.pass(most);
@@ -106,7 +106,7 @@ pub(crate) fn follow(body: &[Stmt], walk: &mut Walk, state: &mut State) {
     tail.iter().for_each(|stmt| state.step(stmt, walk));
 }
 
-impl State {
+impl ArcFormState {
     /// An arc by its centre, for the walk that stands before it; its computed words have at most so
     /// many digits.
     ///

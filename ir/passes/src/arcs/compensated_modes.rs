@@ -41,7 +41,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct CompensatedModesState {
     /// Whether compensation is on, or may be.
     pub(crate) on: bool,
     /// The switch for skipped blocks that alone decides about that: the level of the blocks that start it.
@@ -57,7 +57,7 @@ pub(crate) struct State {
     stopped: bool,
 }
 
-impl State {
+impl CompensatedModesState {
     /// Where control comes from elsewhere, and this holds.
     pub(crate) fn enter(&mut self, at: &Tracker, path: Option<&PathControl>) {
         (self.on, self.level_on) = (at.compensated, None);
@@ -112,7 +112,7 @@ impl State {
 /// `entries` is what holds after each call and label.
 pub(crate) fn over(
     stmts: &mut Vec<Stmt>,
-    state: &mut State,
+    state: &mut CompensatedModesState,
     entries: Option<&Known>,
     diags: &mut Vec<Diagnostic>,
 ) {

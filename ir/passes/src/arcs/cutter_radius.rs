@@ -32,7 +32,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct CutterRadiusState {
     /// Whether entry and exit were told.
     told: bool,
     /// Entries of the tables that were told.
@@ -41,7 +41,7 @@ pub(crate) struct State {
 
 /// Names radii as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = CutterRadiusState::default();
     each_body(program, entry, |body, walk| over(body, walk, &mut state, target, diags));
 }
 
@@ -49,7 +49,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut CutterRadiusState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {

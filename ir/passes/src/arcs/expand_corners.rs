@@ -42,14 +42,14 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ExpandCornersState {
     /// Statements from the last corner on whose next move has not come.
     held: Vec<Stmt>,
     /// The state before them.
     before: Option<Walk>,
 }
 
-impl State {
+impl ExpandCornersState {
     /// Whether a corner waits for its next move.
     pub(crate) fn is_busy(&self) -> bool {
         !self.held.is_empty()
@@ -77,7 +77,7 @@ fn cannot(what: &str) -> Fault {
 /// Writes them out.
 pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        let mut state = State::default();
+        let mut state = ExpandCornersState::default();
         over(body, walk, &mut state, target, Keep::Sayable, diags);
         state.flush(body, diags);
     });
@@ -119,7 +119,7 @@ struct Before {
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ExpandCornersState,
     target: &Target,
     keep: Keep,
     diags: &mut Vec<Diagnostic>,
@@ -419,7 +419,7 @@ fn end(op: &mut Op) -> Option<&mut Point> {
 fn leg(stmt: &mut Stmt, walk: &Walk, forms: bool) -> Known {
     if let Op::ArcForm(arc) = &stmt.op
         && !forms
-        && let Ok((op, _)) = arc_form::State::default().by_centre(arc, walk, EXACT)
+        && let Ok((op, _)) = arc_form::ArcFormState::default().by_centre(arc, walk, EXACT)
     {
         stmt.op = op;
     }

@@ -32,7 +32,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What is known of the target's text.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct PolarWordsState {
     /// Whether the last thing that moved in the plane was a polar point that was kept.
     chained: bool,
     /// Whether the text has another pole than the program.
@@ -44,7 +44,7 @@ pub(crate) struct State {
 /// Says them so.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, walk, &mut State::default(), target, true, diags);
+        over(body, walk, &mut PolarWordsState::default(), target, true, diags);
     });
 }
 
@@ -52,7 +52,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut PolarWordsState,
     target: &Target,
     keep: bool,
     diags: &mut Vec<Diagnostic>,
@@ -127,7 +127,13 @@ pub(crate) fn by_coordinates(polar: &Polar, walk: &Walk, target: &Target) -> Res
 }
 
 /// The statement of a pole in the target's form; nothing where that has none.
-fn pole(set: &SetPole, walk: &Walk, state: &mut State, target: &Target, form: PolarForm) -> Option<Op> {
+fn pole(
+    set: &SetPole,
+    walk: &Walk,
+    state: &mut PolarWordsState,
+    target: &Target,
+    form: PolarForm,
+) -> Option<Op> {
     (state.chained, state.pole_lost, state.words_lost) = (false, false, false);
     let fine = |value: &Expr| is_fine(value, walk, target);
     let sayable = match form {
@@ -143,7 +149,13 @@ fn pole(set: &SetPole, walk: &Walk, state: &mut State, target: &Target, form: Po
 }
 
 /// A polar point in the target's form, if it has one.
-fn kept(polar: &Polar, walk: &Walk, state: &mut State, target: &Target, form: PolarForm) -> Option<Op> {
+fn kept(
+    polar: &Polar,
+    walk: &Walk,
+    state: &mut PolarWordsState,
+    target: &Target,
+    form: PolarForm,
+) -> Option<Op> {
     if form == PolarForm::Any {
         return Some(Op::Polar(Box::new(polar.clone())));
     }

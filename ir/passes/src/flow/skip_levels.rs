@@ -25,18 +25,23 @@ pub(crate) const PASS: Pass = Pass {
 
 /// Levels that were reported: bit n is level n.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct SkipLevelsState {
     told: u16,
 }
 
 /// Makes the levels one, or refuses them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = SkipLevelsState::default();
     each_body(program, entry, |body, _| over(body, &mut state, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut [Stmt], state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn over(
+    body: &mut [Stmt],
+    state: &mut SkipLevelsState,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     let highest = target.caps.skip_levels;
     for stmt in body {
         let Some(level) = stmt.skip.filter(|l| *l > highest) else { continue };

@@ -50,7 +50,7 @@ const LINEAR: [bool; AXES] = [true, true, true, false, false, false];
 
 /// How the change counts on both sides, and which axes have had no word since one.
 #[derive(Clone, Debug, Default)]
-pub struct State {
+pub struct FrameIncrementsState {
     /// Whether the source's control includes it.
     from: bool,
     /// Whether the target's does.
@@ -116,9 +116,9 @@ impl Pending {
     }
 }
 
-impl State {
+impl FrameIncrementsState {
     /// For the source's control, and the target's, which may include the change where that is open.
-    pub fn new(source: &Behaviours, target: &Behaviours) -> State {
+    pub fn new(source: &Behaviours, target: &Behaviours) -> FrameIncrementsState {
         let included = Behaviour::FrameOffsetIncremental;
         let from = source.does(included);
         let to = target.does(included) || target.is_open(included);
@@ -127,7 +127,7 @@ impl State {
             if to { Pending { axes: [Some(None); AXES], ..Pending::default() } } else { Pending::default() };
         // What is open is the same fact of the same machine.
         let alike = |all: &Behaviours| (all.get(included), all.is_open(included));
-        State { from, to, same: alike(source) == alike(target), pending, over: false }
+        FrameIncrementsState { from, to, same: alike(source) == alike(target), pending, over: false }
     }
 
     /// Nothing is in front of the program: its caller has said all that was to be said.
@@ -136,9 +136,9 @@ impl State {
     }
 
     /// What the source's control makes of the words, by itself; what is left is the target's.
-    pub(crate) fn take_source(&mut self) -> State {
+    pub(crate) fn take_source(&mut self) -> FrameIncrementsState {
         self.same = false;
-        let source = State { to: false, pending: Pending::default(), ..self.clone() };
+        let source = FrameIncrementsState { to: false, pending: Pending::default(), ..self.clone() };
         self.from = false;
         source
     }
@@ -479,7 +479,7 @@ fn changes(op: &Op, plane: Option<Plane>, rotated: &[bool; AXES]) -> Option<[boo
 
 /// What a body is walked with.
 struct Way<'s> {
-    state: &'s mut State,
+    state: &'s mut FrameIncrementsState,
     /// What may be pending where each procedure begins and ends.
     program: &'s HashMap<Text, [Pending; 2]>,
     diags: &'s mut Vec<Diagnostic>,
@@ -558,7 +558,7 @@ impl Way<'_> {
 
     /// Makes incremental words of axes that a change is pending for absolute.
     fn absolute(&self, op: &mut Op, walk: &Walk) -> Result<(), ()> {
-        let State { from, to, pending, .. } = &*self.state;
+        let FrameIncrementsState { from, to, pending, .. } = &*self.state;
         if let Op::ArcForm(arc) = op
             && let Shape::Through(via) = &arc.shape
         {

@@ -54,7 +54,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct MachineMovesState {
     /// The length that is in force in the source and was put off in the target.
     put_off: Option<u32>,
     /// A return to a point of the machine that may have left none of the length.
@@ -67,7 +67,7 @@ pub(crate) struct State {
     motion_lost: bool,
 }
 
-impl State {
+impl MachineMovesState {
     /// Whether something waits for the statements that come.
     pub(crate) fn is_busy(&self) -> bool {
         self.put_off.is_some()
@@ -80,14 +80,16 @@ impl State {
 
 /// Brings the moves into the target's form.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| {
+        over(body, walk, &mut MachineMovesState::default(), target, diags)
+    });
 }
 
 /// The same for one piece of a body.
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut MachineMovesState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -111,7 +113,7 @@ pub(crate) fn over(
 fn take(
     mut stmt: Stmt,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut MachineMovesState,
     target: &Target,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
@@ -220,7 +222,7 @@ fn take(
 }
 
 /// Says the length anew that was put off, before a statement that needs it.
-fn length_again(stmt: &mut Stmt, state: &mut State, made: &mut Rebuild) {
+fn length_again(stmt: &mut Stmt, state: &mut MachineMovesState, made: &mut Rebuild) {
     let Some(entry) = state.put_off.take() else { return };
     let mut again = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(i64::from(entry))));
     (again.skip, again.joined) = (stmt.skip, stmt.joined);
@@ -268,7 +270,7 @@ fn cut(
     machine: Stmt,
     mut stmt: Stmt,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut MachineMovesState,
     caps: &Caps,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
@@ -309,7 +311,7 @@ fn in_other_form(
     mut machine: Stmt,
     with_z: bool,
     in_force: Option<u32>,
-    state: &mut State,
+    state: &mut MachineMovesState,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -332,7 +334,7 @@ fn in_other_form(
 }
 
 /// Puts the tool's length off, if one may be in force and a move of Z is measured without it.
-fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut State, at: Span) -> bool {
+fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut MachineMovesState, at: Span) -> bool {
     let off = with_z && in_force != Some(0) && state.put_off.is_none();
     if off {
         match in_force {
@@ -375,7 +377,7 @@ fn by_machine_zero(
     stmt: Stmt,
     reference: &Reference,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut MachineMovesState,
     target: &Target,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,

@@ -23,19 +23,19 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct OriginShiftState {
     /// Whether the target was taken to start without a shift.
     pub(crate) none: bool,
 }
 
 /// Takes the cancelling statements out.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = OriginShiftState::default();
     each_body(program, entry, |body, _| over(body, &mut state, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut OriginShiftState, diags: &mut Vec<Diagnostic>) {
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
         if stmt.op != Op::ClearFrame(FrameSlot::Shift) {
             return made.push(stmt);
@@ -46,7 +46,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State, diags: &mut Vec<Diag
 }
 
 /// Takes for granted that the target starts without a shift, and tells it once.
-pub(crate) fn take(state: &mut State, at: Span, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn take(state: &mut OriginShiftState, at: Span, diags: &mut Vec<Diagnostic>) {
     if !state.none {
         let fault = Fault::AssumedMode { fact: ModeName::OriginShift, value: "none".into() };
         diags.push(Diagnostic::new(fault, at));

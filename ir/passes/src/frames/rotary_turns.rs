@@ -28,7 +28,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What both controls do, as far as it is known.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct RotaryTurnsState {
     /// Values that either may have, a bit each.
     values: u8,
     /// Whether somebody has stated both, so that nothing is left to be asked.
@@ -37,8 +37,8 @@ pub(crate) struct State {
     asked: u8,
 }
 
-impl State {
-    pub(crate) fn new(source: &Behaviours, target: &Behaviours, other_control: bool) -> State {
+impl RotaryTurnsState {
+    pub(crate) fn new(source: &Behaviours, target: &Behaviours, other_control: bool) -> RotaryTurnsState {
         let way = Behaviour::RotaryTurn;
         let of = |all: &Behaviours| {
             let open = (0..way.values().len() as u8).filter(|value| !way.is_rare(*value));
@@ -46,7 +46,7 @@ impl State {
             if all.is_open(way) { open } else { 1 << all.get(way) }
         };
         let values = if other_control { of(source) | of(target) } else { 0 };
-        State { values, stated: !source.is_open(way) && !target.is_open(way), asked: 0 }
+        RotaryTurnsState { values, stated: !source.is_open(way) && !target.is_open(way), asked: 0 }
     }
 
     /// Whether there is more than one.

@@ -31,7 +31,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct WorkOffsetState {
     /// The work offset that the target's own one stands for.
     pub(crate) only: Option<u16>,
     told: bool,
@@ -42,7 +42,7 @@ pub(crate) struct State {
     raw: bool,
 }
 
-impl State {
+impl WorkOffsetState {
     /// Whether it must be shown what follows.
     pub(crate) fn is_busy(&self) -> bool {
         self.idle.is_some()
@@ -108,7 +108,7 @@ fn cannot_name(offset: u16, span: Span) -> Diagnostic {
 
 /// Takes the work offsets out, or refuses them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = WorkOffsetState::default();
     let assumed = entry.modes;
     each_body(program, entry, |body, _| over(body, &mut state, &assumed, target, diags));
 }
@@ -116,7 +116,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 /// The same for one piece of a body.
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
-    state: &mut State,
+    state: &mut WorkOffsetState,
     assumed: &Modes,
     target: &Target,
     diags: &mut Vec<Diagnostic>,

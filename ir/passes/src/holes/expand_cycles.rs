@@ -56,7 +56,7 @@ const MOST_PECKS: i64 = 100_000;
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ExpandCyclesState {
     /// The cycle in force is being expanded.
     expanding: bool,
     /// Feed that is stated again at every hole.
@@ -74,10 +74,10 @@ struct Owed {
 
 /// Expands the cycles that the target cannot say, and their patterns.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| over(body, walk, &mut Default::default(), target, diags));
 }
 
-impl State {
+impl ExpandCyclesState {
     /// Whether statements of a cycle that is not there any more are to come.
     pub(crate) fn is_busy(&self) -> bool {
         self.expanding
@@ -88,7 +88,7 @@ impl State {
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ExpandCyclesState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -206,7 +206,7 @@ fn ends(op: &Op) -> bool {
     matches!(op, Op::Position(_) | Op::ProgramEnd | Op::BeginAgain | moves!() | flow!())
 }
 
-impl State {
+impl ExpandCyclesState {
     /// States a feed that no hole has stated, in a block of its own before `next`.
     fn pay(&mut self, next: &mut Stmt, made: &mut Rebuild) {
         if let Some(owed) = self.owed.take() {

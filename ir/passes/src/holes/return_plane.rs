@@ -305,7 +305,7 @@ fn level_is_free(body: &[Stmt]) -> bool {
 pub(crate) fn mends(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
     let (mut trial, mut diags) = (body.to_vec(), Vec::new());
     over(&mut trial, &mut walk.clone(), target, &mut diags);
-    let mut state = expand_cycles::State::default();
+    let mut state = expand_cycles::ExpandCyclesState::default();
     expand_cycles::over(&mut trial, &mut walk.clone(), &mut state, target, &mut diags);
     diags.is_empty()
 }

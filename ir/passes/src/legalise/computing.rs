@@ -97,8 +97,8 @@ impl Legaliser {
         own.compensated.refused = self.compensated.refused;
         own.entries.clone_from(&self.entries);
         own.enter(first);
-        own.taps = taps::State::entered(&own.walk.at);
-        own.at_once = crate::legalise::at_once::State::default();
+        own.taps = taps::TapsState::entered(&own.walk.at);
+        own.at_once = crate::legalise::at_once::AtOnceState::default();
         own.increments = self.increments.clone();
         own.z_left = self.z_left;
         own.z_left.start_over();
@@ -230,7 +230,7 @@ struct Region<'l> {
     levels: bool,
     diags: &'l mut Vec<Diagnostic>,
     /// What has been taken for granted of the origin's shift.
-    shift: origin_shift::State,
+    shift: origin_shift::OriginShiftState,
 }
 
 impl Region<'_> {

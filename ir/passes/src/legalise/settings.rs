@@ -86,10 +86,10 @@ impl Legaliser {
         self.feed_again = feed_unit::says_again(&self.target);
         self.times_differ = feed_time::differs(&self.target);
         let own = &self.target.caps.behaviours;
-        self.increments = frame_increments::State::new(&source, own);
-        self.length_axis = length_axis::State::new(&source, own);
-        self.z_left = z_after_change::State::new(&source, own);
-        self.rotary = rotary_turns::State::new(&source, own, self.target.other_control);
+        self.increments = frame_increments::FrameIncrementsState::new(&source, own);
+        self.length_axis = length_axis::LengthAxisState::new(&source, own);
+        self.z_left = z_after_change::ZAfterChangeState::new(&source, own);
+        self.rotary = rotary_turns::RotaryTurnsState::new(&source, own, self.target.other_control);
         self.follow |= self.feed_again || self.times_differ;
         self.follow |= self.increments.is_used() || self.length_axis.is_used() || self.rotary.is_used();
     }

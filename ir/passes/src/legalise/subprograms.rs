@@ -151,21 +151,21 @@ impl Legaliser {
         }
         for procedure in procedures {
             self.walk = Walk::new(Tracker::unknown());
-            self.cycles = expand_cycles::State::default();
-            self.taps = taps::State::default();
-            self.feed = feed_unit::State::default();
-            self.threads = in_step::State::default();
+            self.cycles = expand_cycles::ExpandCyclesState::default();
+            self.taps = taps::TapsState::default();
+            self.feed = feed_unit::FeedUnitState::default();
+            self.threads = in_step::ThreadsState::default();
             self.edge.start_over();
             self.axis.start_over();
             self.path.start_over();
-            self.one = one_move::State::default();
-            self.polar = polar_words::State::default();
-            self.corners = expand_corners::State::default();
-            self.arcs = arc_form::State::default();
+            self.one = one_move::OneMoveState::default();
+            self.polar = polar_words::PolarWordsState::default();
+            self.corners = expand_corners::ExpandCornersState::default();
+            self.arcs = arc_form::ArcFormState::default();
             self.frames.start_over();
-            self.machine = machine_moves::State::default();
+            self.machine = machine_moves::MachineMovesState::default();
             self.change.start_over();
-            self.at_once = at_once::State::default();
+            self.at_once = at_once::AtOnceState::default();
             self.z_left.start_over();
             self.enter(procedure.body.first());
             self.run(&mut procedure.body, &Modes::default(), None, diags);

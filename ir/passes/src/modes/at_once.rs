@@ -31,7 +31,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What is remembered from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct AtOnceState {
     /// Another length is in force, and no absolute Z has been named since.
     length: bool,
     /// The target's first blocks say no length, and no absolute Z has been named since.
@@ -40,11 +40,11 @@ pub(crate) struct State {
     motion: bool,
 }
 
-impl State {
+impl AtOnceState {
     /// The start of a main program: without a length, where the target's first blocks say so.
-    pub(crate) fn new(caps: &Caps) -> State {
+    pub(crate) fn new(caps: &Caps) -> AtOnceState {
         let start = caps.starts_without_length;
-        State { length: start && caps.length_at_once, start, motion: false }
+        AtOnceState { length: start && caps.length_at_once, start, motion: false }
     }
 
     /// Whether further statements must be looked at.
@@ -71,7 +71,7 @@ impl State {
 pub(crate) fn over(
     stmts: &[Stmt],
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut AtOnceState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -86,7 +86,7 @@ fn over_one(
     op: &Op,
     stmt: &Stmt,
     walk: &Walk,
-    state: &mut State,
+    state: &mut AtOnceState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -169,7 +169,7 @@ fn over_one(
 }
 
 /// A move that says itself which it is.
-fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut AtOnceState, diags: &mut Vec<Diagnostic>) {
     state.motion = false;
     let first = to.get(Axis::Z).filter(|_| state.start && stmt.skip.is_none());
     if first.is_some_and(|word| word.distance == Fact::Known(Distance::Incremental)) {
@@ -180,7 +180,7 @@ fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut State, diags: &mut Vec
 }
 
 /// Axis words: an absolute Z settles where the tool stands, and another one depends on it.
-fn names(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+fn names(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut AtOnceState, diags: &mut Vec<Diagnostic>) {
     let Some(word) = to.get(Axis::Z).filter(|_| state.length || state.start) else { return };
     match word.distance.known().or(walk.at.modes.distance) {
         // With the switch on, it is not said.

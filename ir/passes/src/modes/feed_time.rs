@@ -57,7 +57,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct FeedTimeState {
     /// What the feed counts in the source, where the output has another feed.
     by_time: Option<FeedMode>,
     /// Whether the source has said that mode again since, so that F alone is missing.
@@ -94,7 +94,7 @@ fn turns(to: &Point) -> bool {
     to.axes[3..].iter().any(Option::is_some)
 }
 
-impl State {
+impl FeedTimeState {
     /// Whether statements may concern it.
     pub(crate) fn concerns(&self, stmts: &[Stmt], walk: &Walk) -> bool {
         self.by_time.is_some()
@@ -123,14 +123,16 @@ impl State {
 
 /// Runs it alone.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, None, diags));
+    each_body(program, entry, |body, walk| {
+        over(body, walk, &mut FeedTimeState::default(), target, None, diags)
+    });
 }
 
 /// Writes such moves so that the target takes the same time.
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut FeedTimeState,
     target: &Target,
     entries: Option<&Known>,
     diags: &mut Vec<Diagnostic>,
@@ -206,7 +208,7 @@ pub(crate) fn over(
     });
 }
 
-impl State {
+impl FeedTimeState {
     /// A block by its time.
     fn by_time(&mut self, stmt: &mut Stmt, before: &Tracker, time: Num, target: &Target, made: &mut Rebuild) {
         let mut said = Vec::new();

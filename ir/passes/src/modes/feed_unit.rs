@@ -81,7 +81,7 @@ pub(crate) fn says_again(target: &Target) -> bool {
 
 /// Feed in force, and whether the units have changed since it was said, or a code has ended it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct FeedUnitState {
     /// The feed of the source, in the unit in which its number counts now.
     feed: Option<Num>,
     /// What it was before the units changed, if that made it another.
@@ -96,16 +96,16 @@ pub(crate) struct State {
     enters: bool,
 }
 
-impl State {
+impl FeedUnitState {
     /// A subprogram begins.
     pub(crate) fn enter(&mut self) {
         self.enters = true;
     }
 
     /// Where control comes from elsewhere, and this holds.
-    pub(crate) fn entered(at: &Tracker) -> State {
+    pub(crate) fn entered(at: &Tracker) -> FeedUnitState {
         let by_time = at.modes.feed_mode == Some(FeedMode::InverseTime);
-        State { feed: at.feed, by_time, lost: at.stale_feed, ..State::default() }
+        FeedUnitState { feed: at.feed, by_time, lost: at.stale_feed, ..FeedUnitState::default() }
     }
 
     /// Whether a feed waits to be said again.
@@ -154,7 +154,7 @@ impl State {
 pub(crate) fn again(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut FeedUnitState,
     target: &Target,
     entries: Option<&Known>,
     diags: &mut Vec<Diagnostic>,
@@ -169,7 +169,7 @@ pub(crate) fn again(
         if std::mem::replace(&mut after_flow, matches!(stmt.op, flow!()))
             && let Some(at) = entries.and_then(|known| known.before(&stmt))
         {
-            *state = State { ended: state.ended, ..State::entered(at) };
+            *state = FeedUnitState { ended: state.ended, ..FeedUnitState::entered(at) };
             entries.into_iter().for_each(|known| known.feeds(&stmt, &mut walk.at));
         }
         let cuts = match stmt.op.unwrapped() {
@@ -234,7 +234,7 @@ pub(crate) fn again(
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         over(body, &mut walk.clone(), target);
-        again(body, walk, &mut State::default(), target, None, diags);
+        again(body, walk, &mut FeedUnitState::default(), target, None, diags);
     });
 }
 

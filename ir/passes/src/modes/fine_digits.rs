@@ -14,7 +14,7 @@ use ncc_ir::program::{Op, Stmt};
 
 /// What is known from piece to piece of a program.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct FineDigitsState {
     /// Of the source's control, if it cuts digits off and the target's does not.
     increments: Option<Increments>,
     distance: Option<Distance>,
@@ -22,11 +22,15 @@ pub(crate) struct State {
     told: bool,
 }
 
-impl State {
-    pub(crate) fn new(source: &Behaviours, target: &Behaviours, increments: Option<Increments>) -> State {
+impl FineDigitsState {
+    pub(crate) fn new(
+        source: &Behaviours,
+        target: &Behaviours,
+        increments: Option<Increments>,
+    ) -> FineDigitsState {
         let digits = Behaviour::FineDigits;
         let cuts = source.surely(digits) && !target.surely(digits);
-        State { increments: increments.filter(|_| cuts), ..State::default() }
+        FineDigitsState { increments: increments.filter(|_| cuts), ..FineDigitsState::default() }
     }
 
     /// Whether there is anything to do.

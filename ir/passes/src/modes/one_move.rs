@@ -29,14 +29,14 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct OneMoveState {
     /// The feed is the time of a move.
     by_time: bool,
     /// What waits for its move: a stop, a corner, then a feed.
     held: [Option<Stmt>; 3],
 }
 
-impl State {
+impl OneMoveState {
     /// Whether the feed of a move may have to wait for it, or anything does.
     pub(crate) fn is_busy(&self) -> bool {
         self.by_time || self.held.iter().any(Option::is_some)
@@ -85,14 +85,14 @@ fn apart(mut stmt: Stmt) -> Stmt {
 pub(crate) fn run(program: &mut Program, _: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk: &mut Walk| {
         let by_time = walk.at.modes.feed_mode == Some(FeedMode::InverseTime);
-        let mut state = State { by_time, ..State::default() };
+        let mut state = OneMoveState { by_time, ..OneMoveState::default() };
         over(body, &mut state);
         state.flush(body);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State) {
+pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut OneMoveState) {
     let input = std::mem::take(body);
     let mut made = Rebuild::new(input.len());
     for stmt in input {
@@ -153,7 +153,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State) {
 }
 
 /// Puts what waits, with the feed or without, into the block of the statement that takes it up.
-fn take_up(mut stmt: Stmt, state: &mut State, most: usize, made: &mut Rebuild) {
+fn take_up(mut stmt: Stmt, state: &mut OneMoveState, most: usize, made: &mut Rebuild) {
     let leads_away = matches!(stmt.op, flow!() | Op::ProgramEnd | Op::BeginAgain);
     for held in &mut state.held[..most] {
         let Some(mut held) = held.take() else { continue };

@@ -33,7 +33,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct PathControlState {
     /// The mode that the program has said last.
     said: Option<PathControl>,
     /// The mode that is to be said again before the block behind the next move, and whether that move
@@ -43,7 +43,7 @@ pub(crate) struct State {
     told: u64,
 }
 
-impl State {
+impl PathControlState {
     /// Whether a mode waits to be said again.
     pub(crate) fn is_busy(&self) -> bool {
         self.again.is_some()
@@ -63,7 +63,7 @@ impl State {
 
 /// Brings modes and advice into the target's words.
 pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = PathControlState::default();
     each_body(program, entry, |body, _| {
         state.start_over();
         over(body, &mut state, target, diags);
@@ -71,7 +71,12 @@ pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    state: &mut PathControlState,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     let caps = &target.caps;
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
         if !stmt.joined
@@ -143,7 +148,7 @@ fn sayable(
     control: &PathControl,
     caps: &Caps,
     at: Span,
-    state: &mut State,
+    state: &mut PathControlState,
     diags: &mut Vec<Diagnostic>,
 ) -> PathControl {
     let mut own = control.clone();

@@ -89,7 +89,7 @@ pub struct SideEffects {
     /// this.
     only_sense: Option<Op>,
     /// Digits that the source's control cuts off.
-    fine: fine_digits::State,
+    fine: fine_digits::FineDigitsState,
     tools: ToolWords,
     /// What F counts on arcs in the source, to be stated before compensation starts; `None`: the same in the target, or the
     /// target has no code for it.
@@ -152,7 +152,7 @@ impl SideEffects {
             length_known: true,
             length_next: None,
             only_sense: None,
-            fine: fine_digits::State::new(&source, &target, increments),
+            fine: fine_digits::FineDigitsState::new(&source, &target, increments),
             tools: ToolWords::default(),
             arc_feed: None,
             arc_feed_said: false,

@@ -67,7 +67,7 @@ struct WayOut {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ThreadsState {
     /// Feed and speed in force.
     pub(crate) said: Said,
     /// What is written already, and has to come next.
@@ -80,7 +80,7 @@ pub(crate) struct State {
     held: bool,
 }
 
-impl State {
+impl ThreadsState {
     /// Whether something is to come yet.
     pub(crate) fn is_busy(&self) -> bool {
         self.way_out.is_some() || self.owed.is_some() || self.lost
@@ -124,7 +124,7 @@ impl State {
 /// Says them as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        let mut state = State::default();
+        let mut state = ThreadsState::default();
         over(body, walk, &mut state, target, diags);
         state.finish(body, diags);
     });
@@ -134,7 +134,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ThreadsState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -258,7 +258,7 @@ fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
 }
 
 /// Says again the feed that a lead has taken the place of, in the block that needs it.
-fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(), Fault> {
+fn give_back(state: &mut ThreadsState, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(), Fault> {
     let Some(feed) = state.owed else {
         let says = |op: &Op| match op {
             Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd | Op::BeginAgain => true,
@@ -307,7 +307,7 @@ fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(
     Ok(())
 }
 
-impl State {
+impl ThreadsState {
     /// The end of the body.
     pub(crate) fn finish(&mut self, body: &[Stmt], diags: &mut Vec<Diagnostic>) {
         if self.way_out.take().is_some() {
@@ -327,7 +327,7 @@ fn cannot<T>(what: &str) -> Result<T, Fault> {
 fn said(
     m: &mut Synchronised,
     way_out: Option<WayOut>,
-    state: &mut State,
+    state: &mut ThreadsState,
     (walk, before, block): (&Walk, &[Option<Nanos>; AXES], (Span, Option<u8>)),
     speed: Said,
     threads: Threads,

@@ -54,7 +54,7 @@ pub(crate) struct Said {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct TapsState {
     /// Feed and speed in force.
     pub(crate) said: Said,
     /// A tap has been changed and is in force, and relies on feed or speed staying as they are.
@@ -73,11 +73,11 @@ pub(crate) struct State {
     by_minute: bool,
 }
 
-impl State {
+impl TapsState {
     /// The state of a stretch of blocks to which control may come from several places: `known` is what holds there.
-    pub(crate) fn entered(known: &Tracker) -> State {
+    pub(crate) fn entered(known: &Tracker) -> TapsState {
         let said = Said { feed: known.feed, speed: known.speed };
-        State { said, entered: known.fed, ..State::default() }
+        TapsState { said, entered: known.fed, ..TapsState::default() }
     }
 
     /// Whether the feed that a stretch leaves in force is another than the program's, which is not known.
@@ -165,14 +165,14 @@ impl Said {
 
 /// Says them as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| over(body, walk, &mut TapsState::default(), target, diags));
 }
 
 /// The same for one piece of a body.
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut TapsState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -284,7 +284,7 @@ pub(crate) fn over(
 
 /// What cannot be said of a spindle that is switched while a cycle is in force whose end has to say what
 /// the spindle does.
-fn turned(stmt: &Stmt, state: &State) -> Option<&'static str> {
+fn turned(stmt: &Stmt, state: &TapsState) -> Option<&'static str> {
     let stops =
         matches!(stmt.op, Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_));
     let may_end = stmt.skip.is_some() && matches!(stmt.op, Op::StartCycle(_) | Op::EndCycle);
@@ -303,7 +303,7 @@ pub(crate) const LOST: &str = "a tap's feed in the place of one that only the ru
 const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
 
 /// The feed by the minute of a tap whose feed by the turn has more digits than the target writes, where it has fewer.
-fn by_minute(cycle: &Cycle, walk: &Walk, state: &State, target: &Target) -> Option<Num> {
+fn by_minute(cycle: &Cycle, walk: &Walk, state: &TapsState, target: &Target) -> Option<Num> {
     let CycleKind::Tap(tap) = &cycle.kind else { return None };
     let name = cycle.kind.name();
     let by_feed =
@@ -325,7 +325,7 @@ fn by_minute(cycle: &Cycle, walk: &Walk, state: &State, target: &Target) -> Opti
 fn fit(
     cycle: &mut Cycle,
     walk: &Walk,
-    state: &mut State,
+    state: &mut TapsState,
     target: &Target,
 ) -> Result<Option<Option<Expr>>, Fault> {
     let name = cycle.kind.name();

@@ -30,19 +30,19 @@ pub(crate) const PASS: Pass = Pass {
 
 /// Whether the two controls differ: by the plane in force, and by that of the call.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct LengthAxisState {
     in_plane: bool,
     at_call: bool,
-    moves: length_moves::State,
+    moves: length_moves::LengthMovesState,
 }
 
-impl State {
-    pub(crate) fn new(source: &Behaviours, target: &Behaviours) -> State {
+impl LengthAxisState {
+    pub(crate) fn new(source: &Behaviours, target: &Behaviours) -> LengthAxisState {
         let differ = |behaviour| source.does(behaviour) != target.does(behaviour);
-        State {
+        LengthAxisState {
             in_plane: differ(Behaviour::LengthAxisInPlane),
             at_call: differ(Behaviour::LengthAxisAtCall),
-            moves: length_moves::State::new(source, target),
+            moves: length_moves::LengthMovesState::new(source, target),
         }
     }
 

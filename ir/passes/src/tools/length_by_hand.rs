@@ -33,7 +33,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What is known of the tool in the spindle.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct LengthByHandState {
     /// Whether Z has moved by its length, or without; `None` if it has not moved.
     used: Option<bool>,
     /// Whether a length that the program states itself may be in force.
@@ -44,7 +44,7 @@ pub(crate) struct State {
     refused: bool,
 }
 
-impl State {
+impl LengthByHandState {
     /// Whether further moves are to be looked at.
     pub(crate) fn is_busy(&self) -> bool {
         self.used.is_none()
@@ -52,7 +52,12 @@ impl State {
 }
 
 /// Leaves lengths out of a piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut LengthByHandState,
+    diags: &mut Vec<Diagnostic>,
+) {
     rebuild(body, |stmt, made| {
         walk.enter(stmt.skip);
         if walk.commands_z(&stmt.op) && !state.stated {
@@ -81,7 +86,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
     });
 }
 
-impl State {
+impl LengthByHandState {
     /// A length is called up.
     fn calls(&mut self, entry: Option<i64>, stmt: &Stmt, walk: &Walk, diags: &mut Vec<Diagnostic>) {
         match (entry, walk.at.tool) {

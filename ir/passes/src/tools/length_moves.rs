@@ -22,7 +22,7 @@ use ncc_ir::program::{Move, Op, Point, Stmt};
 
 /// Whether such moves are to be written, and where Z stands.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct LengthMovesState {
     used: bool,
     z: Place,
 }
@@ -39,10 +39,10 @@ enum Place {
     Unknown,
 }
 
-impl State {
-    pub(crate) fn new(source: &Behaviours, target: &Behaviours) -> State {
+impl LengthMovesState {
+    pub(crate) fn new(source: &Behaviours, target: &Behaviours) -> LengthMovesState {
         let moves = Behaviour::LengthWithoutAxis;
-        State { used: source.surely(moves) && !target.surely(moves), z: Place::Machine }
+        LengthMovesState { used: source.surely(moves) && !target.surely(moves), z: Place::Machine }
     }
 
     /// Whether the two controls differ.

@@ -31,7 +31,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct OffsetWithZState {
     waiting: Option<Waiting>,
     /// Number of the present block.
     block: u64,
@@ -53,13 +53,13 @@ struct Waiting {
 /// Moves the offsets.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        let mut state = State::default();
+        let mut state = OffsetWithZState::default();
         over(body, walk, &mut state, diags);
         state.flush(body, diags);
     });
 }
 
-impl State {
+impl OffsetWithZState {
     /// Whether an offset waits.
     pub(crate) fn is_busy(&self) -> bool {
         self.waiting.is_some()
@@ -82,7 +82,12 @@ impl Waiting {
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut OffsetWithZState,
+    diags: &mut Vec<Diagnostic>,
+) {
     let input = std::mem::take(body);
     let mut made = Rebuild::new(input.len() + 1);
     for stmt in input {
@@ -174,7 +179,7 @@ fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
 }
 
 /// Puts a waiting offset into the block of the statement that takes it up.
-fn take_up(stmt: Stmt, state: &mut State, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
+fn take_up(stmt: Stmt, state: &mut OffsetWithZState, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
     let Some(waiting) = &mut state.waiting else { return made.push(stmt) };
     if waiting.skip.is_some() && waiting.skip != stmt.skip {
         cannot(diags, waiting.span);

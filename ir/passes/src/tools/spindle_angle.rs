@@ -22,21 +22,26 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What has been told.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct SpindleAngleState {
     zero: bool,
     own: bool,
 }
 
 /// States angles where they need to be stated.
 pub(crate) fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = SpindleAngleState::default();
     for procedure in &mut program.procedures {
         over(&mut procedure.body, &mut state, target, diags);
     }
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(stmts: &mut [Stmt], state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn over(
+    stmts: &mut [Stmt],
+    state: &mut SpindleAngleState,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     for stmt in stmts {
         let Op::OrientSpindle(angle) = &mut stmt.op else { continue };
         if angle.is_none() && !target.caps.own_stop {

@@ -36,7 +36,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ToolAxisState {
     tip: Known,
     tilt: Known,
     /// Whether the length that comes next was said already with the word before it.
@@ -90,7 +90,7 @@ impl Known {
     }
 }
 
-impl State {
+impl ToolAxisState {
     /// Whether lengths are this pass's business too.
     pub(crate) fn is_busy(&self) -> bool {
         self.tip.met
@@ -111,7 +111,7 @@ pub(crate) fn is_length(op: &Op) -> bool {
 
 /// Says them as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut state = State::default();
+    let mut state = ToolAxisState::default();
     let mut first = true;
     each_body(program, entry, |body, walk| {
         if !std::mem::replace(&mut first, false) {
@@ -125,7 +125,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ToolAxisState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -290,7 +290,7 @@ fn with_length(
     on: bool,
     behind: Option<u32>,
     in_force: Option<u32>,
-    state: &mut State,
+    state: &mut ToolAxisState,
     made: &mut Rebuild,
 ) -> Result<(), &'static str> {
     let length = |entry: u32| Op::UseToolLengthOffset(Expr::int(i64::from(entry)));

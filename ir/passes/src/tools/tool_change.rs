@@ -28,7 +28,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the statements so far leave.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ToolChangeState {
     /// The spindle may turn.
     turning: bool,
     /// The tool change over which it may have gone on, if nothing has been said of it since.
@@ -37,10 +37,10 @@ pub(crate) struct State {
     cycle: bool,
 }
 
-impl State {
+impl ToolChangeState {
     /// A subprogram: its caller may have left the spindle turning.
     pub(crate) fn start_over(&mut self) {
-        *self = State { turning: true, open: None, cycle: false };
+        *self = ToolChangeState { turning: true, open: None, cycle: false };
     }
 
     /// The text of a main program ends, which may have no word for its end.

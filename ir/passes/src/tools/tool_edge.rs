@@ -34,7 +34,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ToolEdgeState {
     /// Tools of which the assumption has been told.
     told: Vec<u32>,
     /// A tool change, or the edge that comes with it, after which Z has not been commanded.
@@ -60,13 +60,13 @@ const REFUSED: Expr = Expr::int(1);
 /// Puts one in the other's place, as the target has it.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        let mut state = State::default();
+        let mut state = ToolEdgeState::default();
         over(body, walk, &mut state, target, diags);
         state.finish(diags);
     });
 }
 
-impl State {
+impl ToolEdgeState {
     /// Whether a tool change waits for the length that is in force after it.
     pub(crate) fn is_busy(&self) -> bool {
         self.waiting.is_some()
@@ -96,7 +96,7 @@ impl State {
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ToolEdgeState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -137,7 +137,7 @@ fn cannot(what: String) -> Fault {
 fn to_entries(
     mut stmt: Stmt,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ToolEdgeState,
     target: &Target,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
@@ -233,7 +233,7 @@ fn remove(made: &mut Rebuild, place: usize) {
 fn to_edges(
     mut stmt: Stmt,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ToolEdgeState,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -328,7 +328,7 @@ fn behind(waiting: &Waiting, made: &Rebuild) -> Option<usize> {
 fn in_force(
     stmt: &mut Stmt,
     walk: &Walk,
-    state: &mut State,
+    state: &mut ToolEdgeState,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
 ) {

@@ -38,7 +38,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What is remembered from piece to piece.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ZAfterChangeState {
     /// Whether the target alone takes Z up.
     used: bool,
     /// Where the source has left Z before the change, if no word has moved it since.
@@ -47,10 +47,10 @@ pub(crate) struct State {
     up: bool,
 }
 
-impl State {
-    pub(crate) fn new(source: &Behaviours, target: &Behaviours) -> State {
+impl ZAfterChangeState {
+    pub(crate) fn new(source: &Behaviours, target: &Behaviours) -> ZAfterChangeState {
         let change = Behaviour::ZAtChange;
-        State { used: target.surely(change) && !source.does(change), left: None, up: false }
+        ZAfterChangeState { used: target.surely(change) && !source.does(change), left: None, up: false }
     }
 
     /// The same where control comes from elsewhere.

@@ -51,19 +51,19 @@ const NOTHING: f64 = 1e-12;
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct State {
+pub(crate) struct ExpandFramesState {
     /// The frames in force, and where the tool stands in the program's own coordinates.
-    framed: Option<Box<(Set, Walk, arc_form::State)>>,
+    framed: Option<Box<(Set, Walk, arc_form::ArcFormState)>>,
     /// Whether a chain may be in force that the target says as it stands.
     chained: bool,
 }
 
 /// Works the frames in.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| over(body, walk, &mut Default::default(), target, diags));
 }
 
-impl State {
+impl ExpandFramesState {
     /// Whether a frame is in force.
     pub(crate) fn is_busy(&self) -> bool {
         self.framed.is_some()
@@ -76,7 +76,7 @@ impl State {
 
     /// At the start of another body.
     pub(crate) fn start_over(&mut self) {
-        *self = State::default();
+        *self = ExpandFramesState::default();
     }
 
     /// Passes over statements of which none is this pass's business.
@@ -162,7 +162,7 @@ fn sets_origin(op: &Op) -> bool {
 pub(crate) fn over(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
-    state: &mut State,
+    state: &mut ExpandFramesState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -171,7 +171,7 @@ pub(crate) fn over(
     }
     let (set, inner, arcs) = match state.framed.take() {
         Some(framed) => *framed,
-        None => (Set::NONE, walk.clone(), arc_form::State::default()),
+        None => (Set::NONE, walk.clone(), arc_form::ArcFormState::default()),
     };
     let mut frames = Frames { set, inner, arcs, outer: walk, target, chained: state.chained };
     rebuild(body, |stmt, made| frames.take(stmt, made, diags));
@@ -220,7 +220,7 @@ struct Frames<'f> {
     /// Where the tool stands as the program sees it.
     inner: Walk,
     /// Which way it came.
-    arcs: arc_form::State,
+    arcs: arc_form::ArcFormState,
     /// Where it stands as what is made sees it.
     outer: &'f mut Walk,
     target: &'f Target,
