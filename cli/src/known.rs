@@ -17,6 +17,7 @@ use ncc_dialects::{
     builtins, load,
 };
 use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::review::verify::hashes::Named;
 use ncc_ir::canon::Units;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
@@ -253,13 +254,15 @@ impl Known {
 
     /// The texts that a dialect is made of: its own, then its base's and so on; each with the dialect's
     /// name and, of a shop's, its file.
-    pub fn texts(&self, id: &str) -> Vec<(&str, Option<&Path>, &str)> {
+    pub fn texts(&self, id: &str) -> Vec<Named<'_>> {
         let mut texts = Vec::new();
         let mut next = self.get(id);
         while let Some(dialect) = next {
             let shop = self.shops.iter().position(|shop| shop.id == dialect.id);
             let text = match shop.and_then(|at| self.texts.get(at)) {
-                Some((file, text)) => Some((dialect.id.as_str(), Some(file.as_path()), text.as_str())),
+                Some((file, text)) => {
+                    Some((dialect.id.as_str(), Some(file.display().to_string()), text.as_str()))
+                }
                 None => builtin_ids()
                     .position(|other| other == dialect.id)
                     .and_then(builtin_text)

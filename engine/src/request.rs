@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 /// A request.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(tag = "verb", rename_all = "kebab-case")]
+#[serde(tag = "verb", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Request {
     /// Translates a program. Outputs: `output` if it is released, `report`, `messages`.
     Translate(Translate),
@@ -26,13 +26,23 @@ pub enum Request {
     /// Compares them as strictly as a translation is verified. Outputs: `document` (the certificate), `messages`.
     Verify(Two),
     /// Explains a message. Output: `output`, the page.
-    Explain {
-        /// Its code: `NC0107`.
-        code: String,
-    },
+    Explain(Explain),
     /// Lists the dialects. Output: `document`, a list of objects with `id` and `title`.
-    Dialects,
+    Dialects(Nothing),
 }
+
+/// A message.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Explain {
+    /// Its code: `NC0107`.
+    pub code: String,
+}
+
+/// No fields.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Nothing {}
 
 /// A program and how it is read.
 #[derive(Clone, Debug, Deserialize)]
@@ -52,6 +62,9 @@ pub struct One {
     /// Its units at power-on.
     #[serde(default)]
     pub units: Option<Units>,
+    /// Whether it is for a mill, whatever it looks like.
+    #[serde(default)]
+    pub assume_milling: bool,
 }
 
 /// Two programs.
@@ -109,6 +122,9 @@ pub struct Translate {
     /// Verdicts that would not stop and shall.
     #[serde(default)]
     pub deny: Vec<String>,
+    /// Whether it is for a mill, whatever it looks like.
+    #[serde(default)]
+    pub assume_milling: bool,
     /// Whether open questions are answered with ncc's own readings.
     #[serde(default)]
     pub assume: bool,

@@ -22,6 +22,7 @@ use ncc_driver::review::diff::tell::Account;
 use ncc_driver::review::diff::{json, motion};
 use ncc_driver::review::stream::Course;
 use ncc_driver::review::verify::document::{Call, Document, Word};
+use ncc_driver::review::verify::hashes::{self, Named};
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
 use ncc_driver::source::called::{Library, gather};
@@ -35,7 +36,7 @@ use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 use ncc_time::Model;
 
-use crate::request::{self, One, Request, Translate, Two};
+use crate::request::{self, Explain, One, Request, Translate, Two};
 
 /// Outputs by their names.
 pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
@@ -68,11 +69,11 @@ fn verb(request: &Request, files: &Files, messages: &mut Buffer) -> Result<(Exit
         Request::Time(one) => timed(one, files, messages),
         Request::Diff(two) => differ(two, files, messages),
         Request::Verify(two) => verified(two, files, messages),
-        Request::Explain { code } => match explain::page(code) {
+        Request::Explain(Explain { code }) => match explain::page(code) {
             Some(page) => Ok((Exit::Done, vec![("output", page.as_bytes().to_vec())])),
             None => Err(Problem::usage(format!("there is no message {code}"), "codes look like NC0107")),
         },
-        Request::Dialects => {
+        Request::Dialects(_) => {
             let all: Vec<_> = ncc_dialects::builtins()
                 .map(|dialect| serde_json::json!({ "id": dialect.id, "title": dialect.title }))
                 .collect();
@@ -99,18 +100,14 @@ impl Library for InMemory<'_> {
     }
 }
 
-/// A file as a source; one that is for no mill is refused.
-fn open(name: &str, files: &Files) -> Result<Source, Problem> {
+/// A file as a source; one that is for no mill is refused, unless the user says that it is for one.
+fn open(name: &str, milling: bool, files: &Files, messages: &mut Buffer) -> Result<Source, Problem> {
     let text = files.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
     let mut source = Source::of(Cursor::new(text.clone()), name);
-    match not_milling::refusal(&mut source, false)? {
-        Some(refusal) => Err(Problem {
-            exit: Exit::Refused,
-            message: format!("{name}: {}", refusal.reason()),
-            help: vec!["ncc is for milling programs".to_owned()],
-        }),
-        None => Ok(source),
-    }
+    let Some(refusal) = not_milling::refusal(&mut source, milling)? else { return Ok(source) };
+    refusal.print(messages).map_err(|e| Problem::file("read", name, &e))?;
+    // It has been told.
+    Err(Problem { exit: Exit::Refused, message: String::new(), help: Vec::new() })
 }
 
 /// A machine's profile by the name of one that comes with ncc, or of a file.
@@ -129,6 +126,19 @@ fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Profile>>, Pr
             "ncc machines test shows them",
         )
     })
+}
+
+/// The texts that a dialect is made of: its own, then its base's and so on.
+fn texts(id: &str) -> Vec<Named<'static>> {
+    let mut texts = Vec::new();
+    let mut next = ncc_dialects::builtin(id);
+    while let Some(dialect) = next {
+        let own = ncc_dialects::builtin_ids().position(|own| own == dialect.id);
+        let text = own.and_then(ncc_dialects::builtin_text);
+        texts.extend(text.map(|(name, text)| (name, None, text)));
+        next = dialect.base.as_deref().and_then(ncc_dialects::builtin);
+    }
+    texts
 }
 
 /// A dialect by its name; of no name and of `auto`, none.
@@ -187,7 +197,7 @@ fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
 
 fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("translate", &asked.file, &e);
-    let mut source = open(&asked.file, files)?;
+    let mut source = open(&asked.file, asked.assume_milling, files, messages)?;
     let machines = Machines {
         from: profile(asked.machine_from.as_deref(), files)?,
         to: profile(asked.machine_to.as_deref(), files)?,
@@ -222,6 +232,7 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         values,
         program_number: asked.program_number,
         called: source.called.clone(),
+        assumed: source.assumed.clone(),
         rivals,
         questions: if asked.assume { Policy::Assume } else { Policy::Ask },
         allow: verdicts(&asked.allow)?,
@@ -243,8 +254,8 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
 }
 
 /// A program that is executed.
-fn side(one: &One, files: &Files) -> Result<Side, Problem> {
-    let mut source = open(&one.file, files)?;
+fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
+    let mut source = open(&one.file, one.assume_milling, files, messages)?;
     let profile = profile(one.machine.as_deref(), files)?;
     let machines = Machines { from: profile.clone(), to: profile };
     let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
@@ -260,7 +271,7 @@ fn side(one: &One, files: &Files) -> Result<Side, Problem> {
 fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("read", &one.file, &e);
     let profile = profile(one.machine.as_deref(), files)?;
-    let Side { mut source, job } = side(one, files)?;
+    let Side { mut source, job } = side(one, files, messages)?;
     let limits = check::limits(profile.as_deref(), None);
     let course = check::drive::drive(&job, limits, 0, &mut source).map_err(cannot)?;
     let program = told::tell(&told::Graded::default(), &job, &mut source, course).map_err(cannot)?;
@@ -274,7 +285,7 @@ fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Out
 fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
     let profile = profile(one.machine.as_deref(), files)?;
-    let Side { mut source, job } = side(one, files)?;
+    let Side { mut source, job } = side(one, files, messages)?;
     let model = Model::default();
     let (machine, _) = profile.as_deref().map(Profile::machine).unwrap_or_default().assumed(model);
     let plan = Plan {
@@ -304,11 +315,11 @@ fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outpu
 }
 
 /// Both programs of a comparison, and how far lengths may be apart.
-fn sides(two: &Two, files: &Files) -> Result<([Side; 2], Option<i64>), Problem> {
+fn sides(two: &Two, files: &Files, messages: &mut Buffer) -> Result<([Side; 2], Option<i64>), Problem> {
     let wrong = || Problem::usage("the tolerance is no length in mm", "\"tolerance\": \"0.01\"");
     let tolerance =
         two.tolerance.as_deref().map(|text| given::decimal(text).ok_or_else(wrong)).transpose()?;
-    Ok(([side(&two.a, files)?, side(&two.b, files)?], tolerance))
+    Ok(([side(&two.a, files, messages)?, side(&two.b, files, messages)?], tolerance))
 }
 
 /// Tells what keeps programs from being compared.
@@ -323,7 +334,7 @@ fn not_compared(messages: &mut Buffer, sides: &mut [Side; 2], courses: &[Course;
 
 fn differ(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("compare", "the programs", &e);
-    let (mut sides, tolerance) = sides(two, files)?;
+    let (mut sides, tolerance) = sides(two, files, messages)?;
     let found = motion::motion(&mut sides, tolerance).map_err(cannot)?;
     if found.refused() {
         not_compared(messages, &mut sides, &found.courses).map_err(cannot)?;
@@ -337,14 +348,17 @@ fn differ(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outp
 
 fn verified(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("compare", "the programs", &e);
-    let (mut sides, tolerance) = sides(two, files)?;
+    let (mut sides, tolerance) = sides(two, files, messages)?;
     let found = pair::compare(&mut sides, tolerance.unwrap_or_default()).map_err(cannot)?;
     not_compared(messages, &mut sides, &found.courses).map_err(cannot)?;
+    let machines = [two.a.machine.as_deref(), two.b.machine.as_deref()];
+    let read = |name: &str| files.get(name).cloned().ok_or_else(|| io::ErrorKind::NotFound.into());
     let call = Call {
         files: [two.a.file.clone(), two.b.file.clone()],
-        machines: [two.a.machine.clone(), two.b.machine.clone()],
+        machines: machines.map(|name| name.map(str::to_owned)),
         tolerance,
-        ..Call::default()
+        dictionaries: hashes::dictionaries(&sides, &texts),
+        profiles: hashes::profiles(machines, &sides, &read).map_err(cannot)?,
     };
     let document = Document::of(&found, &mut sides, &call).map_err(cannot)?;
     let exit = match document.verdict() {

@@ -4,8 +4,6 @@
 //! what is written down of it, `text` tells it, `hashes` name what it rests on; certificates are checked
 //! again by `cert`. Not here: how two programs differ in all their parts (`diff`).
 
-mod hashes;
-
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +16,7 @@ use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::questions;
 use ncc_driver::render::{About, human};
 use ncc_driver::review::verify::document::{Call, Document};
+use ncc_driver::review::verify::hashes;
 use ncc_driver::review::verify::text;
 use ncc_ir::expr::num::Nanos;
 
@@ -216,8 +215,8 @@ pub(crate) fn call(
         files,
         machines: machines.map(|name| name.map(str::to_owned)),
         tolerance,
-        dictionaries: hashes::dictionaries(sides, known),
-        profiles: hashes::profiles(machines, sides)?,
+        dictionaries: hashes::dictionaries(sides, &|id| known.texts(id)),
+        profiles: hashes::profiles(machines, sides, &|name| std::fs::read(name))?,
     })
 }
 

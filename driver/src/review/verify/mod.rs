@@ -2,5 +2,6 @@
 //! and the certificate, [`text`] is the document for people.
 
 pub mod document;
+pub mod hashes;
 pub mod pair;
 pub mod text;

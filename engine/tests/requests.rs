@@ -1,0 +1,77 @@
+//! Requests as a host makes them: what comes back, and what is refused.
+
+use ncc_engine::Engine;
+
+const PART: &str = "G21 G90 G17 G40\nG00 Z50.\nG00 X10. Y5.\nM30\n";
+
+/// The code of a request about a file, and its outputs.
+fn done(files: &[(&str, &str)], request: &str) -> (u8, Engine) {
+    let mut engine = Engine::default();
+    files.iter().for_each(|(name, text)| engine.put(name, text.as_bytes().to_vec()));
+    (engine.run(request), engine)
+}
+
+fn text(engine: &Engine, name: &str) -> String {
+    String::from_utf8_lossy(engine.output(name).unwrap_or_default()).into_owned()
+}
+
+#[test]
+fn what_is_no_request_is_told() {
+    for wrong in [
+        "",
+        "{}",
+        r#"{ "verb": "melt" }"#,
+        r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "siemens", "colour": 1 }"#,
+        r#"{ "verb": "explain", "code": "NC0107", "file": "part.nc" }"#,
+        r#"{ "verb": "dialects", "file": "part.nc" }"#,
+        r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "nosuch" }"#,
+        r#"{ "verb": "translate", "file": "part.nc", "from": "haas" }"#,
+        r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "siemens", "pass": ["refuse"] }"#,
+    ] {
+        let (code, engine) = done(&[("part.nc", PART)], wrong);
+        assert_eq!(code, 2, "{wrong}: {}", text(&engine, "messages"));
+        assert!(text(&engine, "messages").starts_with("error: "), "{wrong}");
+        assert!(engine.output("output").is_none());
+    }
+    let (code, engine) = done(&[], r#"{ "verb": "check", "file": "part.nc" }"#);
+    assert_eq!((code, text(&engine, "messages").contains("no such file")), (4, true));
+}
+
+#[test]
+fn a_program_calls_another_by_its_name() {
+    let main = "O1\nG21 G90 G17 G94 G40 G49 G80 G54\nM98 P1234\nM30\n";
+    let request = r#"{ "verb": "translate", "file": "main.nc", "from": "fanuc", "to": "haas" }"#;
+    let (code, engine) = done(&[("main.nc", main)], request);
+    assert_eq!(code, 1, "{}", text(&engine, "messages"));
+    let files = [("main.nc", main), ("O1234.nc", "O1234\nG90 G17 G00 X5.\nM99\n")];
+    let (code, engine) = done(&files, request);
+    assert_eq!(code, 0, "{}", text(&engine, "messages"));
+    assert!(text(&engine, "output").contains("CALLED: O1234.NC"), "{}", text(&engine, "output"));
+}
+
+#[test]
+fn what_is_for_no_mill_is_refused_unless_it_is_said() {
+    let lathe =
+        "G50 S2000\nT0101\nG96 S200 M03\nG00 X50. Z2.\nG71 U2. R1.\nG71 P10 Q20 U0.5 W0.1 F0.3\nM30\n";
+    let (code, engine) =
+        done(&[("part.nc", lathe)], r#"{ "verb": "check", "file": "part.nc", "from": "fanuc" }"#);
+    assert_eq!(code, 1);
+    assert!(text(&engine, "messages").contains("lathe"), "{}", text(&engine, "messages"));
+    assert!(engine.output("findings").is_none());
+    let request = r#"{ "verb": "check", "file": "part.nc", "from": "fanuc", "assume_milling": true }"#;
+    let (_, engine) = done(&[("part.nc", lathe)], request);
+    assert!(engine.output("findings").is_some());
+}
+
+#[test]
+fn a_certificate_names_what_it_rests_on() {
+    let one = r#"{ "file": "part.nc", "from": "haas", "machine": "haas-vf2" }"#;
+    let request = format!(r#"{{ "verb": "verify", "a": {one}, "b": {one} }}"#);
+    let (code, engine) = done(&[("part.nc", PART)], &request);
+    assert_eq!(code, 0, "{}", text(&engine, "messages"));
+    let document = text(&engine, "document");
+    assert!(
+        document.contains("\"dictionaries\": [\n    {") && document.contains("\"name\": \"haas-vf2\""),
+        "{document}"
+    );
+}
