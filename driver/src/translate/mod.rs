@@ -7,12 +7,15 @@
 pub mod difference;
 pub mod heading;
 pub mod judge;
+mod outcome;
 pub mod parametric;
+mod pipeline;
 pub mod rewrite;
 pub mod split;
 pub mod standalone_subprogram;
 pub mod tools_by_name;
 mod translation;
+mod writing;
 
 pub use parametric::{bore_shift, orientation, parameter};
 

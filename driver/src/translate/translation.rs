@@ -4,37 +4,27 @@ use super::heading;
 use super::parametric::{self, target};
 use super::parametric::{bore_shift, orientation, parameter};
 
-use std::collections::{BTreeSet, HashMap};
-use std::io;
+use std::collections::BTreeSet;
 
-use ncc_backends::{Head, Origin, Writer};
+use ncc_backends::{Head, Writer};
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
-use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
-use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
-use ncc_ir::program::{Lines, Op, Program, ProgramName, Stmt};
-use ncc_ir::source::Span;
+use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::{Told, rests_on};
-use ncc_passes::flow::given_back::left_out;
-use ncc_passes::flow::passed_labels;
-use ncc_passes::frames::machine_cuts;
-use ncc_passes::modes::own_distance;
+use ncc_passes::Legaliser;
 use ncc_passes::modes::side_effects::SideEffects;
-use ncc_passes::support::known_facts::Known;
 use ncc_passes::tools::machine_numbers::Renumbering;
-use ncc_passes::values::variables::Renamed;
-use ncc_passes::watch::{ran, ran_whole};
-use ncc_passes::{Legaliser, leave_out_values};
 
-use crate::job::{Failure, Job, Outcome, Output, Rest};
+use crate::job::{Job, Output, Rest};
 use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Trace};
-use crate::questions::{Policy, Question};
-use crate::translate::rewrite::{self, Folder};
-use crate::verify_run::{Stop, Verifier, fixed};
+use crate::questions::Question;
+use crate::translate::rewrite::Folder;
+use crate::verify_run::{Stop, Verifier};
 
 /// Pass that executes what is computed.
 pub(super) const FLATTEN: &str = "flatten";
@@ -162,327 +152,11 @@ impl<'j> Translation<'j> {
         self.check(|v| v.head(&text));
     }
 
-    /// A piece of the source.
-    pub(super) fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
-        self.reader.read(text, base, &mut self.batch);
-        self.take_diagnostics();
-        // What the target computes is looked at by execution.
-        self.batch.whole |= machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
-        if self.batch.whole || !self.job.passes.is_empty() {
-            return Ok(());
-        }
-        self.count();
-        let mut stmts = std::mem::take(&mut self.batch.stmts);
-        self.streamed(&mut stmts, false)?;
-        stmts.clear();
-        self.batch.stmts = stmts;
-        Ok(())
-    }
-
-    /// Statements of a program that streams.
-    pub(super) fn streamed(&mut self, stmts: &mut Vec<Stmt>, over: bool) -> io::Result<()> {
-        if self.errors > 0 {
-            return Ok(());
-        }
-        let assumed = self.batch.assumed;
-        let mut found = Vec::new();
-        let unfolded = self.folder.as_mut().map(|folder| folder.piece(stmts, &assumed, over, &mut found));
-        self.state_given(stmts);
-        let renumbers = self.renumbering.touches(stmts);
-        let there = self.taken_there(stmts, &assumed, &mut found);
-        let lines = Lines::of(stmts);
-        let passes = lines.is_some_and(|lines| self.side_effects.passes(lines));
-        let switches = !passes && self.side_effects.touches(stmts);
-        let touched = unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts, lines);
-        // What the passes take for granted holds for the source as well.
-        let original = touched.then(|| unfolded.unwrap_or_else(|| stmts.clone()));
-        if !passes {
-            self.side_effects.over(stmts, &mut found);
-            ran("side-effects", stmts);
-        }
-        if touched {
-            self.renumbering.over(stmts, &mut found);
-            ran("machine-numbers", stmts);
-        }
-        self.legaliser.run(stmts, &there, lines, &mut found);
-        if let Some(original) = original {
-            self.take_parameters(&found);
-            self.check(|v| v.source(&original, &assumed));
-        }
-        self.write_main(stmts, &there, &mut found);
-        self.take(found, Told::Writer);
-        self.release_text(&assumed, (!touched).then_some(&stmts[..]))
-    }
-
-    /// The end of the source.
-    pub(super) fn end(&mut self) -> io::Result<()> {
-        self.reader.finish(&mut self.batch);
-        self.take_diagnostics();
-        if self.errors > 0 {
-            return Ok(());
-        }
-        self.count();
-        if self.batch.whole || !self.job.passes.is_empty() {
-            return self.end_whole();
-        }
-        let mut stmts = std::mem::take(&mut self.batch.stmts);
-        self.streamed(&mut stmts, true)?;
-        stmts.clear();
-        let assumed = self.batch.assumed;
-        let there = self.renumbering.modes(&assumed);
-        let mut found = Vec::new();
-        self.legaliser.finish(&mut stmts, &mut found);
-        self.write_main(&stmts, &there, &mut found);
-        self.foot(&there, &mut found);
-        self.writer.finish(&mut self.text, &mut found);
-        self.take(found, Told::Writer);
-        self.release_text(&assumed, None)?;
-        self.check(Verifier::finish);
-        self.trace_events()
-    }
-
-    /// The end of a program of which the rest was kept whole.
-    pub(super) fn end_whole(&mut self) -> io::Result<()> {
-        let assumed = self.batch.assumed;
-        let mut body = self.folder.as_mut().map(Folder::held).unwrap_or_default();
-        body.append(&mut self.batch.stmts);
-        let mut procedures = vec![self.batch.main(body)];
-        procedures.append(&mut self.batch.procedures);
-        let name = self.batch.name.clone();
-        let source = self.by_itself(Program { name, assumed, procedures });
-        let source = self.with_parameters(source);
-        let unknown = leads_nowhere(&source);
-        if !unknown.is_empty() {
-            self.take(unknown, Told::Reader);
-            return Ok(());
-        }
-        let mut program = source.clone();
-        if self.job.from.dialect.program.macro_b {
-            passed_labels::run(&mut program);
-            ran_whole("unused-labels", &program);
-        }
-        let mut found = parametric::begin_with(self.job, &mut program);
-        self.side_effects.run(&mut program.procedures, &mut found);
-        ran_whole("side-effects", &program);
-        if returns_alone(&source).is_some() {
-            self.legaliser.nothing_before();
-        }
-        self.legaliser.frame_increments(&mut program, !self.job.passes.is_empty(), &mut found);
-        ran_whole("frame-increments", &program);
-        self.take(found, Told::Writer);
-        if !self.job.to.dialect.can.everything {
-            let mut told = left_out(&program, &self.job.to.caps());
-            parametric::alarms(self.job, &mut program, &mut told);
-            self.take(told, Told::Writer);
-        }
-        let (mut known, mut renamed, mut stands) = (Known::default(), Renamed::default(), HashMap::new());
-        let mut own_distance = BTreeSet::new();
-        let computes = anything(&source).is_some() && !self.executes_computed();
-        if computes {
-            self.renumbering.tool_names(&mut program);
-            ran_whole("tool-names", &program);
-            let caps = self.job.to.caps();
-            // What is folded or rewritten by name must be known when it is.
-            let plainly = self.job.passes.is_empty() && self.folder.is_none();
-            let there = caps.computes.as_deref().filter(|_| plainly);
-            let mut found = Vec::new();
-            if let Some(there) = there {
-                leave_out_values(&mut program, &caps, &mut found);
-                ran_whole("leave-out-values", &program);
-                let stands = self.legaliser.stands();
-                (known, renamed) =
-                    parametric::legalise_parametric(self.job, &mut program, there, stands, &mut found);
-            }
-            if there.is_some() && own_distance::others(&program, &known).is_empty() {
-                stands = known.modes();
-            }
-            if there.is_some() && self.job.from.caps().word_distance {
-                own_distance = own_distance::places(&program, &known);
-                if !caps.word_distance
-                    && let Err(refusal) = own_distance::refused(&own_distance, &program)
-                {
-                    found.push(refusal);
-                }
-            }
-            let refused = |found: &[Diagnostic]| found.iter().any(|d| d.fault.gravity() == Gravity::Error);
-            found.extend(computing(&program, there).filter(|_| !refused(&found)));
-            if refused(&found) {
-                self.take(found, Told::Reader);
-                return Ok(());
-            }
-            self.take_parameters(&found);
-            self.take(found, Told::Writer);
-        }
-        if self.is_refused_alone(&source) {
-            return Ok(());
-        }
-        program.procedures.first_mut().into_iter().for_each(|main| self.state_given(&mut main.body));
-        let mut found = Vec::new();
-        let start = Tracker { position: self.job.start, modes: assumed, ..Tracker::default() };
-        let entry = self.folder.as_ref().map_or(&start, |folder| &folder.entry);
-        let mut passes = self.job.passes.clone();
-        if self.folder.is_some() {
-            passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
-        }
-        rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
-        self.legaliser.frame_increments(&mut program, false, &mut found);
-        ran_whole("frame-increments", &program);
-        if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
-            self.take(found, Told::Writer);
-            return Ok(());
-        }
-        let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
-        let there = self.taken_there(main, &assumed, &mut found);
-        self.renumbering.run(&mut program, &mut found);
-        ran_whole("machine-numbers", &program);
-        if computes {
-            self.legaliser.run_computing(&mut program, &known, &mut found);
-            self.writer.know(&program, &own_distance, stands);
-            if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
-                self.take(found, Told::Writer);
-                return Ok(());
-            }
-        } else {
-            self.writer.know_modes(&program, parametric::stands(&program, self.legaliser.stands()));
-            self.legaliser.run_program(&mut program, &mut found);
-        }
-        parametric::calls_and_jumps(self.job, [&source, &program], &mut found);
-        self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
-        self.take_parameters(&found);
-        for (at, procedure) in program.procedures.iter().enumerate() {
-            match at {
-                0 => {
-                    self.write_main(&procedure.body, &there, &mut found);
-                    self.foot(&there, &mut found);
-                }
-                _ => self.writer.procedure(procedure, &mut self.text, &mut found),
-            }
-        }
-        self.writer.finish(&mut self.text, &mut found);
-        self.take(found, Told::Writer);
-        let text = self.finished_text()?;
-        let inherited = self.inherited(&assumed);
-        let base = u32::try_from(self.written).unwrap_or(u32::MAX);
-        let mut trace = self.trace.take();
-        self.check(|v| {
-            v.whole_telling((&source, &renamed), &text, base, &inherited, &mut |pairs| {
-                if let Some(trace) = &mut trace {
-                    trace.pairs(pairs);
-                }
-            })
-        });
-        self.trace = trace;
-        self.output.push(&text)
-    }
-
-    /// Whether what comes behind reading takes everything that is computed: a target that can say everything, as
-    /// it is; or the pass that executes it.
-    pub(super) fn executes_computed(&self) -> bool {
-        match self.job.passes.first() {
-            Some(pass) => pass.name == FLATTEN,
-            None => self.job.to.dialect.can.everything && self.folder.is_none(),
-        }
-    }
-
-    /// The text written so far, with what was asked beside it; notes where it comes from.
-    pub(super) fn finished_text(&mut self) -> io::Result<Vec<u8>> {
-        let mut text = std::mem::take(&mut self.text);
-        if self.annotator.is_none() && self.trace.is_none() {
-            return Ok(text);
-        }
-        let origins: Vec<Origin> = self.writer.take_origins();
-        if let Some(annotator) = &mut self.annotator {
-            text = annotator.apply(&text, &origins, &mut self.writer)?;
-        }
-        if let Some(trace) = &mut self.trace {
-            trace.text(&text, origins)?;
-        }
-        Ok(text)
-    }
-
-    /// Notes the events that the verification has found.
-    pub(super) fn trace_events(&mut self) -> io::Result<()> {
-        let (Some(trace), Some(verifier)) = (&mut self.trace, &mut self.verifier) else { return Ok(()) };
-        let (pairs, over) = verifier.take_pairs();
-        trace.pairs(&pairs);
-        trace.over(over.map_or(trace.bytes(), u64::from))
-    }
-
-    /// What was taken for granted of the source, in the target machine's numbers. Those that it has not
-    /// are refused at the first of the statements that rely on them.
-    pub(super) fn taken_there(
-        &mut self,
-        stmts: &[Stmt],
-        assumed: &Modes,
-        found: &mut Vec<Diagnostic>,
-    ) -> Modes {
-        let at = stmts.iter().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).or(stmts.first());
-        self.renumbering.check_modes(assumed, at.map_or(Span::default(), |s| s.span), found);
-        self.renumbering.modes(assumed)
-    }
-
-    /// Writes statements of the main procedure; the shop's last lines go before the end of the program.
-    pub(super) fn write_main(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) {
-        let taken = assumed.without(&self.given);
-        let lines = self.job.machines.layout().footer;
-        let end = stmts.iter().position(|s| matches!(s.op, Op::ProgramEnd | Op::BeginAgain));
-        let Some(end) = end.filter(|_| !self.footed && !lines.is_empty()) else {
-            return self.writer.write(stmts, &taken, &mut self.text, found);
-        };
-        let block = (0..=end).rev().find(|at| !stmts[*at].joined).unwrap_or(end);
-        self.writer.write(&stmts[..block], &taken, &mut self.text, found);
-        self.foot(assumed, found);
-        self.writer.write(&stmts[block..], &taken, &mut self.text, found);
-    }
-
-    /// Writes the shop's last lines, once.
-    pub(super) fn foot(&mut self, assumed: &Modes, found: &mut Vec<Diagnostic>) {
-        if std::mem::replace(&mut self.footed, true) {
-            return;
-        }
-        let lines = self.job.machines.layout().footer;
-        let comments: Vec<Stmt> =
-            lines.iter().map(|line| Stmt::new(Span::default(), Op::Comment(line.as_str().into()))).collect();
-        // What becomes of the shop's own words is no account of the source.
-        let mut silent = Vec::new();
-        let taken = assumed.without(&self.given);
-        self.writer.write(&comments, &taken, &mut self.text, &mut silent);
-        silent.retain(|d| d.fault.gravity() == Gravity::Error);
-        found.append(&mut silent);
-    }
-
     /// Lets the verification know what the passes took for granted, and what they folded.
     pub(super) fn take_parameters(&mut self, found: &[Diagnostic]) {
         if let Some(verifier) = &mut self.verifier {
             verifier.take(found, self.job);
         }
-    }
-
-    /// Makes statements of facts that always hold for the source's control, and not for the
-    /// target's, as soon as the program relies on them. (A target with a safe start states them there.)
-    pub(super) fn state_given(&mut self, stmts: &mut Vec<Stmt>) {
-        if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
-            return;
-        }
-        let always = fixed(self.job.from.dialect).without(&fixed(self.job.to.dialect));
-        let relied = self.batch.assumed;
-        let at =
-            stmts.iter().position(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).unwrap_or(stmts.len());
-        let Some(span) = stmts.get(at).map(|s| s.span) else { return };
-        let mut new = Vec::new();
-        if let (Some(d), Some(_), None) = (always.distance, relied.distance, self.given.distance) {
-            self.given.distance = Some(d);
-            new.push(Stmt::new(span, Op::SetDistanceMode(d)));
-        }
-        if let (Some(u), Some(_), None) = (always.units, relied.units, self.given.units) {
-            self.given.units = Some(u);
-            new.push(Stmt::new(span, Op::UseLengthUnits(u)));
-        }
-        if let (Some(p), Some(_), None) = (always.plane, relied.plane, self.given.plane) {
-            self.given.plane = Some(p);
-            new.push(Stmt::new(span, Op::SelectPlane(p)));
-        }
-        stmts.splice(at..at, new);
     }
 
     /// Assumed facts that the output does not state itself, in the target machine's numbers, and what
@@ -496,25 +170,6 @@ impl<'j> Translation<'j> {
             no_origin_shift: taken.no_origin_shift.or(facts.no_origin_shift),
             ..facts
         }
-    }
-
-    /// Verifies the text written so far and passes it on; `said` are the statements that it says, if
-    /// they are the source's own.
-    pub(super) fn release_text(&mut self, assumed: &Modes, said: Option<&[Stmt]>) -> io::Result<()> {
-        let text = self.finished_text()?;
-        let inherited = self.inherited(assumed);
-        // Places in the output are told by a map alone, which refuses a base that does not fit.
-        let base = u32::try_from(self.written).unwrap_or(u32::MAX);
-        self.check(|v| match said {
-            Some(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
-            None => v.target(&text, base, &inherited),
-        });
-        self.trace_events()?;
-        self.output.push(&text)?;
-        self.written += text.len() as u64;
-        self.text = text;
-        self.text.clear();
-        Ok(())
     }
 
     /// A step of the verification, as long as there is something to verify.
@@ -563,73 +218,6 @@ impl<'j> Translation<'j> {
             self.refused |= self.job.refuses(&diagnostic);
             self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
             self.diagnostics.push(diagnostic);
-        }
-    }
-
-    pub(super) fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
-        let verified = match &mut self.verifier {
-            Some(verifier) if self.errors == 0 && !self.failed => {
-                let notes = verifier.take_notes(&self.diagnostics);
-                if let Some(levels) = verifier.sampled() {
-                    let warning = Fault::SkipSettingsSampled { levels };
-                    self.diagnostics.push(Diagnostic::new(warning, Span::default()));
-                }
-                let covered = verifier.covered();
-                self.take(notes, Told::Writer);
-                Some(covered)
-            }
-            _ => None,
-        };
-        let path = parametric::path_at_start(self.job)
-            .filter(|_| !self.sets_path && verified.is_none_or(|verified| verified.events > 0));
-        self.take(path.into_iter().collect(), Told::Writer);
-        let own = self.name();
-        let renamed = own.number.filter(|_| own.number != self.batch.name.number);
-        if let Some(number) = renamed.filter(|n| self.numbers.contains(n)) {
-            let name = number.to_string().into();
-            self.take(vec![Diagnostic::new(Fault::ProgramTwice { name }, Span::default())], Told::Writer);
-        }
-        let mut text = Vec::new();
-        let mut found = Vec::new();
-        let head = Head { name: own, lines: self.head_lines(&hash) };
-        let program_number = head.name.number.filter(|_| self.job.to.dialect.program.main_number().is_some());
-        self.writer.head(&head, &mut text, &mut found);
-        self.take(found, Told::Writer);
-        if self.verifier.is_some() {
-            let job = self.job;
-            self.check(|_| Verifier::new(job).head(&text));
-        }
-        self.output.set_head(text);
-        let release = if self.refused {
-            Err(Failure::Refused)
-        } else if self.failed {
-            Err(Failure::VerificationFailed)
-        } else if self.job.questions == Policy::Ask && !self.questions.is_empty() {
-            Err(Failure::Refused)
-        } else {
-            Ok(())
-        };
-        let mut counts = [0; Verdict::ALL.len()];
-        for diagnostic in &self.diagnostics {
-            if let Gravity::Verdict(verdict) = diagnostic.fault.gravity() {
-                counts[verdict as usize] += 1;
-            }
-        }
-        let told: u64 = counts.iter().sum();
-        counts[Verdict::Exact as usize] = self.statements.saturating_sub(told);
-        Outcome {
-            diagnostics: self.diagnostics,
-            program_number,
-            renumbered: self.renumbering.used().clone(),
-            rests: self.rests,
-            questions: self.questions,
-            verified,
-            release,
-            output: self.output,
-            counts,
-            source_sha256: hash,
-            source_bytes: bytes,
-            blocks: self.blocks,
         }
     }
 }

@@ -9,6 +9,7 @@ use ncc_exec::maps::Maps;
 use ncc_machines::Profile;
 
 use super::*;
+use crate::job::{Failure, Outcome};
 use crate::machines::pair::Machines;
 
 const PART: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nS500 M03\nG00 X0. Y0.\nG43 H23 Z5.\nG01 Z-1. F100.\nX10.\nY10.\nG00 Z50.\nT4 M06\nG43 H4 Z5.\nG55\nG00 X1. Y2. Z3.\nM30\n%\n";

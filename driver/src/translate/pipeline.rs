@@ -1,0 +1,409 @@
+//! The way from what was read to what is released: one list of steps, for a piece of a program that streams and for a
+//! program that is kept whole. What a step does to the one and to the other stands beside one another.
+//!
+//! A piece holds no label, call or variable, so that most steps leave it alone; but its source is compared while the rest
+//! of the program is not yet read, which is why it is folded first of all.
+
+use std::collections::{BTreeSet, HashMap};
+use std::io;
+
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
+use ncc_ir::program::{Lines, Program, Stmt};
+use ncc_ir::track::Tracker;
+use ncc_machines::reading::Told;
+use ncc_passes::flow::given_back::left_out;
+use ncc_passes::flow::passed_labels;
+use ncc_passes::frames::machine_cuts;
+use ncc_passes::leave_out_values;
+use ncc_passes::modes::own_distance;
+use ncc_passes::support::known_facts::Known;
+use ncc_passes::values::variables::Renamed;
+use ncc_passes::watch::{ran, ran_whole};
+
+use super::parametric::{self, target};
+use super::translation::{FLATTEN, Translation};
+use crate::translate::rewrite::{self, Folder};
+
+/// What goes through the steps at once.
+enum Part {
+    /// Some blocks of a program that streams.
+    Piece(Piece),
+    /// A program that is kept whole, from its first label, call, loop or variable on.
+    Kept(Box<Kept>),
+}
+
+/// Some blocks on their way.
+struct Piece {
+    stmts: Vec<Stmt>,
+    /// Whether the source ends behind them.
+    over: bool,
+    /// The blocks as they were read, where a pass changes them.
+    original: Option<Vec<Stmt>>,
+    /// Set where they are nothing but straight moves.
+    lines: Option<Lines>,
+    /// What was taken for granted of the source, in the target machine's numbers.
+    there: Modes,
+    found: Vec<Diagnostic>,
+}
+
+impl Piece {
+    fn new(stmts: Vec<Stmt>, over: bool) -> Piece {
+        let (lines, there) = (None, Modes::default());
+        Piece { stmts, over, original: None, lines, there, found: Vec::new() }
+    }
+}
+
+/// A kept program on its way.
+struct Kept {
+    /// As it was read.
+    source: Program,
+    program: Program,
+    /// What is known where something is computed; absent where nothing is, or the target's text says all of it.
+    computed: Option<Computed>,
+    /// Which of the source's variables became which.
+    renamed: Renamed,
+    /// What was taken for granted of the source, in the target machine's numbers.
+    there: Modes,
+    /// What the steps from the passes that were asked for on have found.
+    found: Vec<Diagnostic>,
+}
+
+/// What is known of a program that computes.
+#[derive(Default)]
+struct Computed {
+    facts: Known,
+    /// Places of words that count in another distance mode than their block's.
+    own_distance: BTreeSet<u32>,
+    /// What is in force where stretches of blocks begin.
+    stands: HashMap<u32, Modes>,
+}
+
+/// A step has refused the program; why is told already.
+struct Refused;
+
+impl Translation<'_> {
+    /// A piece of the source.
+    pub(super) fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
+        self.reader.read(text, base, &mut self.batch);
+        self.take_diagnostics();
+        // What the target computes is looked at by execution.
+        self.batch.whole |= machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
+        if self.batch.whole || !self.job.passes.is_empty() {
+            return Ok(());
+        }
+        self.count();
+        self.streamed(false)
+    }
+
+    /// The end of the source.
+    pub(super) fn end(&mut self) -> io::Result<()> {
+        self.reader.finish(&mut self.batch);
+        self.take_diagnostics();
+        if self.errors > 0 {
+            return Ok(());
+        }
+        self.count();
+        if self.batch.whole || !self.job.passes.is_empty() {
+            let kept = self.kept();
+            return self.send(&mut Part::Kept(Box::new(kept)));
+        }
+        self.streamed(true)?;
+        self.end_stream()
+    }
+
+    /// Sends what was read of a program that streams.
+    fn streamed(&mut self, over: bool) -> io::Result<()> {
+        let mut part = Part::Piece(Piece::new(std::mem::take(&mut self.batch.stmts), over));
+        let sent = self.send(&mut part);
+        if let Part::Piece(Piece { mut stmts, .. }) = part {
+            // Its memory serves the next piece.
+            stmts.clear();
+            self.batch.stmts = stmts;
+        }
+        sent
+    }
+
+    /// Sends a part through all the steps; not further than to one that refuses it.
+    fn send(&mut self, part: &mut Part) -> io::Result<()> {
+        match self.rewrite(part) {
+            Ok(()) => self.release(part),
+            Err(Refused) => Ok(()),
+        }
+    }
+
+    /// All steps before the release, in their order.
+    fn rewrite(&mut self, part: &mut Part) -> Result<(), Refused> {
+        self.begin(part)?;
+        self.write_side_effects(part);
+        self.say_computed(part)?;
+        self.run_asked_passes(part)?;
+        self.put_machine_numbers(part);
+        self.legalise(part)?;
+        self.write(part);
+        Ok(())
+    }
+
+    /// The program that is kept, put together from all that was read.
+    fn kept(&mut self) -> Kept {
+        let mut body = self.folder.as_mut().map(Folder::held).unwrap_or_default();
+        body.append(&mut self.batch.stmts);
+        let mut procedures = vec![self.batch.main(body)];
+        procedures.append(&mut self.batch.procedures);
+        let name = self.batch.name.clone();
+        let source = self.by_itself(Program { name, assumed: self.batch.assumed, procedures });
+        let source = self.with_parameters(source);
+        let (renamed, there) = (Renamed::default(), Modes::default());
+        Kept { program: source.clone(), source, computed: None, renamed, there, found: Vec::new() }
+    }
+
+    /// Folds a piece where that is asked for, and keeps what was read where a later step changes it. Sees that a kept
+    /// program leads nowhere but into itself, and sets the variables that the user states.
+    fn begin(&mut self, part: &mut Part) -> Result<(), Refused> {
+        match part {
+            Part::Piece(piece) => {
+                if self.errors > 0 {
+                    return Err(Refused);
+                }
+                let Piece { stmts, over, found, .. } = piece;
+                let assumed = self.batch.assumed;
+                let unfolded = self.folder.as_mut().map(|folder| folder.piece(stmts, &assumed, *over, found));
+                self.state_given(stmts);
+                let renumbers = self.renumbering.touches(stmts);
+                piece.there = self.taken_there(stmts, &assumed, found);
+                let lines = Lines::of(stmts);
+                piece.lines = lines;
+                let plain = lines.is_some_and(|lines| self.side_effects.passes(lines));
+                let switches = !plain && self.side_effects.touches(stmts);
+                let touched =
+                    unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts, lines);
+                piece.original = touched.then(|| unfolded.unwrap_or_else(|| stmts.clone()));
+            }
+            Part::Kept(kept) => {
+                let unknown = leads_nowhere(&kept.source);
+                if !unknown.is_empty() {
+                    self.take(unknown, Told::Reader);
+                    return Err(Refused);
+                }
+                if self.job.from.dialect.program.macro_b {
+                    passed_labels::run(&mut kept.program);
+                    ran_whole("unused-labels", &kept.program);
+                }
+                let found = parametric::begin_with(self.job, &mut kept.program);
+                self.take(found, Told::Writer);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what codes of the source's control do besides their names. In a kept program also what counts from the
+    /// frame in force, and what the target has no device for.
+    fn write_side_effects(&mut self, part: &mut Part) {
+        match part {
+            Part::Piece(Piece { stmts, lines, found, .. }) => {
+                if !lines.is_some_and(|lines| self.side_effects.passes(lines)) {
+                    self.side_effects.over(stmts, found);
+                    ran("side-effects", stmts);
+                }
+            }
+            Part::Kept(kept) => {
+                let program = &mut kept.program;
+                let mut found = Vec::new();
+                self.side_effects.run(&mut program.procedures, &mut found);
+                ran_whole("side-effects", program);
+                if returns_alone(&kept.source).is_some() {
+                    self.legaliser.nothing_before();
+                }
+                self.legaliser.frame_increments(program, !self.job.passes.is_empty(), &mut found);
+                ran_whole("frame-increments", program);
+                self.take(found, Told::Writer);
+                if !self.job.to.dialect.can.everything {
+                    let mut told = left_out(program, &self.job.to.caps());
+                    parametric::alarms(self.job, program, &mut told);
+                    self.take(told, Told::Writer);
+                }
+            }
+        }
+    }
+
+    /// Says what a kept program computes as the target computes. A piece computes nothing.
+    fn say_computed(&mut self, part: &mut Part) -> Result<(), Refused> {
+        let Part::Kept(kept) = part else { return Ok(()) };
+        if anything(&kept.source).is_none() || self.executes_computed() {
+            return Ok(());
+        }
+        let program = &mut kept.program;
+        self.renumbering.tool_names(program);
+        ran_whole("tool-names", program);
+        let caps = self.job.to.caps();
+        // What is folded or rewritten by name must be known when it is.
+        let plainly = self.job.passes.is_empty() && self.folder.is_none();
+        let there = caps.computes.as_deref().filter(|_| plainly);
+        let mut found = Vec::new();
+        let mut computed = Computed::default();
+        if let Some(there) = there {
+            leave_out_values(program, &caps, &mut found);
+            ran_whole("leave-out-values", program);
+            let stands = self.legaliser.stands();
+            (computed.facts, kept.renamed) =
+                parametric::legalise_parametric(self.job, program, there, stands, &mut found);
+            if own_distance::others(program, &computed.facts).is_empty() {
+                computed.stands = computed.facts.modes();
+            }
+            if self.job.from.caps().word_distance {
+                computed.own_distance = own_distance::places(program, &computed.facts);
+                if !caps.word_distance
+                    && let Err(refusal) = own_distance::refused(&computed.own_distance, program)
+                {
+                    found.push(refusal);
+                }
+            }
+        }
+        found.extend(computing(program, there).filter(|_| !refuses(&found)));
+        kept.computed = Some(computed);
+        if refuses(&found) {
+            self.take(found, Told::Reader);
+            return Err(Refused);
+        }
+        self.take_parameters(&found);
+        self.take(found, Told::Writer);
+        Ok(())
+    }
+
+    /// Runs the passes that are asked for by name, and those that fold, over a kept program. (A piece is folded as it
+    /// begins; other passes that are asked for keep a program whole.)
+    fn run_asked_passes(&mut self, part: &mut Part) -> Result<(), Refused> {
+        let Part::Kept(kept) = part else { return Ok(()) };
+        if self.is_refused_alone(&kept.source) {
+            return Err(Refused);
+        }
+        let Kept { program, found, .. } = &mut **kept;
+        program.procedures.first_mut().into_iter().for_each(|main| self.state_given(&mut main.body));
+        let start = Tracker { position: self.job.start, modes: self.batch.assumed, ..Tracker::default() };
+        let entry = self.folder.as_ref().map_or(&start, |folder| &folder.entry);
+        let mut passes = self.job.passes.clone();
+        if self.folder.is_some() {
+            passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
+        }
+        rewrite::run(&passes, program, &target(self.job), entry, found);
+        self.legaliser.frame_increments(program, false, found);
+        ran_whole("frame-increments", program);
+        self.unless_refused(found)
+    }
+
+    /// Puts the target machine's numbers of tools, offsets and programs in.
+    fn put_machine_numbers(&mut self, part: &mut Part) {
+        match part {
+            Part::Piece(Piece { stmts, original, found, .. }) => {
+                if original.is_some() {
+                    self.renumbering.over(stmts, found);
+                    ran("machine-numbers", stmts);
+                }
+            }
+            Part::Kept(kept) => {
+                let Kept { program, there, found, .. } = &mut **kept;
+                let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
+                let assumed = self.batch.assumed;
+                *there = self.taken_there(main, &assumed, found);
+                self.renumbering.run(program, found);
+                ran_whole("machine-numbers", program);
+            }
+        }
+    }
+
+    /// Brings the part within what the target can say. The source of a piece is executed here, as what the passes take
+    /// for granted holds for it as well.
+    fn legalise(&mut self, part: &mut Part) -> Result<(), Refused> {
+        match part {
+            Part::Piece(Piece { stmts, original, lines, there, found, .. }) => {
+                self.legaliser.run(stmts, there, *lines, found);
+                if let Some(original) = original {
+                    self.take_parameters(found);
+                    let assumed = self.batch.assumed;
+                    self.check(|v| v.source(original, &assumed));
+                }
+            }
+            Part::Kept(kept) => {
+                let Kept { program, found, computed, source, .. } = &mut **kept;
+                match computed.take() {
+                    Some(Computed { facts, own_distance, stands }) => {
+                        self.legaliser.run_computing(program, &facts, found);
+                        self.writer.know(program, &own_distance, stands);
+                        self.unless_refused(found)?;
+                    }
+                    None => {
+                        let stands = parametric::stands(program, self.legaliser.stands());
+                        self.writer.know_modes(program, stands);
+                        self.legaliser.run_program(program, found);
+                    }
+                }
+                parametric::calls_and_jumps(self.job, [source, program], found);
+                let subprograms = program.procedures.iter().skip(1);
+                self.numbers = subprograms.filter_map(|p| p.name.parse().ok()).collect();
+                self.take_parameters(found);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the part in the target's words.
+    fn write(&mut self, part: &mut Part) {
+        let found = match part {
+            Part::Piece(Piece { stmts, there, found, .. }) => {
+                self.write_main(stmts, there, found);
+                found
+            }
+            Part::Kept(kept) => {
+                let Kept { program, there, found, .. } = &mut **kept;
+                let mut procedures = program.procedures.iter();
+                if let Some(main) = procedures.next() {
+                    self.write_main(&main.body, there, found);
+                    self.foot(there, found);
+                }
+                for procedure in procedures {
+                    self.writer.procedure(procedure, &mut self.text, found);
+                }
+                self.writer.finish(&mut self.text, found);
+                found
+            }
+        };
+        let found = std::mem::take(found);
+        self.take(found, Told::Writer);
+    }
+
+    /// Reads the text back, compares what both sides do, and passes the text on.
+    fn release(&mut self, part: &mut Part) -> io::Result<()> {
+        let assumed = self.batch.assumed;
+        match part {
+            Part::Piece(Piece { stmts, original, .. }) => {
+                self.release_text(&assumed, original.is_none().then_some(&stmts[..]))
+            }
+            Part::Kept(kept) => self.release_kept(&kept.source, &kept.renamed),
+        }
+    }
+
+    /// Whether what comes behind reading takes everything that is computed: a target that can say everything, as
+    /// it is; or the pass that executes it.
+    pub(super) fn executes_computed(&self) -> bool {
+        match self.job.passes.first() {
+            Some(pass) => pass.name == FLATTEN,
+            None => self.job.to.dialect.can.everything && self.folder.is_none(),
+        }
+    }
+
+    /// Takes what was found, and goes no further, where there is an error in it.
+    fn unless_refused(&mut self, found: &mut Vec<Diagnostic>) -> Result<(), Refused> {
+        if !refuses(found) {
+            return Ok(());
+        }
+        let found = std::mem::take(found);
+        self.take(found, Told::Writer);
+        Err(Refused)
+    }
+}
+
+/// Whether there is an error in what was found.
+fn refuses(found: &[Diagnostic]) -> bool {
+    found.iter().any(|diagnostic| diagnostic.fault.gravity() == Gravity::Error)
+}

@@ -1,0 +1,163 @@
+//! The text of a translation: writing it, with the shop's own lines and the facts that the source's control always has,
+//! and passing it on once it is verified.
+
+use std::io;
+
+use ncc_backends::Origin;
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_machines::reading::Told;
+use ncc_passes::values::variables::Renamed;
+
+use super::translation::Translation;
+use crate::verify_run::{Verifier, fixed};
+
+impl Translation<'_> {
+    /// Makes statements of facts that always hold for the source's control, and not for the
+    /// target's, as soon as the program relies on them. (A target with a safe start states them there.)
+    pub(super) fn state_given(&mut self, stmts: &mut Vec<Stmt>) {
+        if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
+            return;
+        }
+        let always = fixed(self.job.from.dialect).without(&fixed(self.job.to.dialect));
+        let relied = self.batch.assumed;
+        let at =
+            stmts.iter().position(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).unwrap_or(stmts.len());
+        let Some(span) = stmts.get(at).map(|s| s.span) else { return };
+        let mut new = Vec::new();
+        if let (Some(d), Some(_), None) = (always.distance, relied.distance, self.given.distance) {
+            self.given.distance = Some(d);
+            new.push(Stmt::new(span, Op::SetDistanceMode(d)));
+        }
+        if let (Some(u), Some(_), None) = (always.units, relied.units, self.given.units) {
+            self.given.units = Some(u);
+            new.push(Stmt::new(span, Op::UseLengthUnits(u)));
+        }
+        if let (Some(p), Some(_), None) = (always.plane, relied.plane, self.given.plane) {
+            self.given.plane = Some(p);
+            new.push(Stmt::new(span, Op::SelectPlane(p)));
+        }
+        stmts.splice(at..at, new);
+    }
+
+    /// What was taken for granted of the source, in the target machine's numbers. Those that it has not
+    /// are refused at the first of the statements that rely on them.
+    pub(super) fn taken_there(
+        &mut self,
+        stmts: &[Stmt],
+        assumed: &Modes,
+        found: &mut Vec<Diagnostic>,
+    ) -> Modes {
+        let at = stmts.iter().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).or(stmts.first());
+        self.renumbering.check_modes(assumed, at.map_or(Span::default(), |s| s.span), found);
+        self.renumbering.modes(assumed)
+    }
+
+    /// Writes statements of the main procedure; the shop's last lines go before the end of the program.
+    pub(super) fn write_main(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) {
+        let taken = assumed.without(&self.given);
+        let lines = self.job.machines.layout().footer;
+        let end = stmts.iter().position(|s| matches!(s.op, Op::ProgramEnd | Op::BeginAgain));
+        let Some(end) = end.filter(|_| !self.footed && !lines.is_empty()) else {
+            return self.writer.write(stmts, &taken, &mut self.text, found);
+        };
+        let block = (0..=end).rev().find(|at| !stmts[*at].joined).unwrap_or(end);
+        self.writer.write(&stmts[..block], &taken, &mut self.text, found);
+        self.foot(assumed, found);
+        self.writer.write(&stmts[block..], &taken, &mut self.text, found);
+    }
+
+    /// Writes the shop's last lines, once.
+    pub(super) fn foot(&mut self, assumed: &Modes, found: &mut Vec<Diagnostic>) {
+        if std::mem::replace(&mut self.footed, true) {
+            return;
+        }
+        let lines = self.job.machines.layout().footer;
+        let comments: Vec<Stmt> =
+            lines.iter().map(|line| Stmt::new(Span::default(), Op::Comment(line.as_str().into()))).collect();
+        // What becomes of the shop's own words is no account of the source.
+        let mut silent = Vec::new();
+        let taken = assumed.without(&self.given);
+        self.writer.write(&comments, &taken, &mut self.text, &mut silent);
+        silent.retain(|d| d.fault.gravity() == Gravity::Error);
+        found.append(&mut silent);
+    }
+
+    /// What was held back to the end of a program that streams.
+    pub(super) fn end_stream(&mut self) -> io::Result<()> {
+        let mut stmts = Vec::new();
+        let assumed = self.batch.assumed;
+        let there = self.renumbering.modes(&assumed);
+        let mut found = Vec::new();
+        self.legaliser.finish(&mut stmts, &mut found);
+        self.write_main(&stmts, &there, &mut found);
+        self.foot(&there, &mut found);
+        self.writer.finish(&mut self.text, &mut found);
+        self.take(found, Told::Writer);
+        self.release_text(&assumed, None)?;
+        self.check(Verifier::finish);
+        self.trace_events()
+    }
+
+    /// Verifies the text written so far and passes it on; `said` are the statements that it says, if
+    /// they are the source's own.
+    pub(super) fn release_text(&mut self, assumed: &Modes, said: Option<&[Stmt]>) -> io::Result<()> {
+        let text = self.finished_text()?;
+        let inherited = self.inherited(assumed);
+        // Places in the output are told by a map alone, which refuses a base that does not fit.
+        let base = u32::try_from(self.written).unwrap_or(u32::MAX);
+        self.check(|v| match said {
+            Some(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
+            None => v.target(&text, base, &inherited),
+        });
+        self.trace_events()?;
+        self.output.push(&text)?;
+        self.written += text.len() as u64;
+        self.text = text;
+        self.text.clear();
+        Ok(())
+    }
+
+    /// Verifies the text of a program that was kept whole, and passes it on.
+    pub(super) fn release_kept(&mut self, source: &Program, renamed: &Renamed) -> io::Result<()> {
+        let text = self.finished_text()?;
+        let inherited = self.inherited(&self.batch.assumed);
+        let base = u32::try_from(self.written).unwrap_or(u32::MAX);
+        let mut trace = self.trace.take();
+        self.check(|v| {
+            v.whole_telling((source, renamed), &text, base, &inherited, &mut |pairs| {
+                if let Some(trace) = &mut trace {
+                    trace.pairs(pairs);
+                }
+            })
+        });
+        self.trace = trace;
+        self.output.push(&text)
+    }
+
+    /// The text written so far, with what was asked beside it; notes where it comes from.
+    pub(super) fn finished_text(&mut self) -> io::Result<Vec<u8>> {
+        let mut text = std::mem::take(&mut self.text);
+        if self.annotator.is_none() && self.trace.is_none() {
+            return Ok(text);
+        }
+        let origins: Vec<Origin> = self.writer.take_origins();
+        if let Some(annotator) = &mut self.annotator {
+            text = annotator.apply(&text, &origins, &mut self.writer)?;
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.text(&text, origins)?;
+        }
+        Ok(text)
+    }
+
+    /// Notes the events that the verification has found.
+    pub(super) fn trace_events(&mut self) -> io::Result<()> {
+        let (Some(trace), Some(verifier)) = (&mut self.trace, &mut self.verifier) else { return Ok(()) };
+        let (pairs, over) = verifier.take_pairs();
+        trace.pairs(&pairs);
+        trace.over(over.map_or(trace.bytes(), u64::from))
+    }
+}
