@@ -91,13 +91,13 @@ pub fn for_target(list: Vec<Plain>, job: &Job) -> Vec<Plain> {
 /// The events without messages that a control does not show: one that shows none while the program runs may show those with
 /// which it stops.
 pub fn as_shown(list: Vec<Plain>, dialect: &str) -> Vec<Plain> {
-    let Some(caps) = builtin(dialect).map(|dialect| &dialect.caps).filter(|caps| !caps.messages) else {
+    let Some(caps) = builtin(dialect).map(|dialect| &dialect.caps).filter(|caps| !caps.modes.messages) else {
         return list;
     };
     let stops = |at: usize| list.get(at + 1).is_some_and(|next| next.what == Happening::Stop);
     let shown = |(at, event): &(usize, &Plain)| match event.what {
         Happening::MessageCleared => false,
-        Happening::Message => caps.stop_messages && stops(*at),
+        Happening::Message => caps.modes.stop_messages && stops(*at),
         _ => true,
     };
     list.iter().enumerate().filter(shown).map(|(_, event)| *event).collect()

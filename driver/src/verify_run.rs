@@ -3,13 +3,14 @@
 
 pub mod facts;
 pub mod forks;
+mod levels;
 pub mod twice;
 pub mod whole;
 pub mod with_facts;
 pub mod worlds;
 
 pub use facts::stops_differ;
-use facts::{Other, closed_by_rounding, done_by_target, looked_at, tries_facts};
+use facts::{Other, closed_by_rounding, done_by_target, looked_at};
 use twice::Outliving;
 use with_facts::MOST_WITH_FACT;
 pub use worlds::worlds_of;
@@ -143,13 +144,13 @@ pub fn fixed(dialect: &Dialect) -> Modes {
 
 /// How a control says alarms.
 pub fn alarms_of(settings: &Settings) -> Option<Alarms> {
-    settings.caps().computes.and_then(|computes| computes.alarms.clone())
+    settings.caps().flow.computes.and_then(|computes| computes.alarms.clone())
 }
 
 /// Whether a control writes to devices.
 pub fn writes(settings: &Settings) -> bool {
     settings.dialect.can.everything
-        || settings.caps().computes.is_some_and(|computes| computes.has(Said::Output))
+        || settings.caps().flow.computes.is_some_and(|computes| computes.has(Said::Output))
 }
 
 /// What a dialect's numbers resolve.
@@ -238,16 +239,16 @@ impl Verifier {
                 .flat_map(|run| [&mut run.source, &mut run.target])
                 .for_each(Exec::between_controls);
         }
-        if !job.to.dialect.caps.messages {
+        if !job.to.dialect.caps.modes.messages {
             // Their loss is a verdict of its own, that stops unless it is allowed.
-            let stops = job.to.dialect.caps.stop_messages;
+            let stops = job.to.dialect.caps.modes.stop_messages;
             runs.iter_mut().for_each(|run| run.source.mute(stops));
         }
         if !writes(&job.to) {
             runs.iter_mut().for_each(|run| run.source.without_output());
         }
         // Nobody has put other values in the messages of a program that is executed.
-        let in_full = job.to.caps().computes.and_then(|there| there.values_in_full);
+        let in_full = job.to.caps().flow.computes.and_then(|there| there.values_in_full);
         if let Some(digits) = in_full.filter(|_| job.passes.is_empty()) {
             runs.iter_mut().for_each(|run| run.source.values_in_full(digits));
         }
@@ -267,15 +268,21 @@ impl Verifier {
             levels: 0,
             renamed: !renaming.is_empty(),
             watched: false,
-            one_level: job.to.dialect.caps.skip_levels <= 1,
+            one_level: job.to.dialect.caps.flow.skip_levels <= 1,
             start: job.start,
             stood: false,
             own_facts: own_facts(job),
             given: job.given.clone(),
             fineness: fineness(job),
-            near: job.to.caps().computes.is_some_and(|computes| computes.near),
-            functions: job.to.caps().computes.map(|computes| computes.functions.clone()).unwrap_or_default(),
-            equal_within: job.to.caps().computes.and_then(|computes| computes.equal_within),
+            near: job.to.caps().flow.computes.is_some_and(|computes| computes.near),
+            functions: job
+                .to
+                .caps()
+                .flow
+                .computes
+                .map(|computes| computes.functions.clone())
+                .unwrap_or_default(),
+            equal_within: job.to.caps().flow.computes.and_then(|computes| computes.equal_within),
             last: Span::default(),
             outliving: Vec::new(),
             assumed: Modes::default(),
@@ -532,43 +539,6 @@ impl Verifier {
             }
         }
         self.stood = true;
-    }
-
-    /// Adds the settings that a new level of block skip makes.
-    fn fork(&mut self, levels: u16) {
-        let new = levels & !self.levels;
-        for level in (1..=u32::from(MOST_LEVELS)).filter(|l| new & 1 << l != 0) {
-            let bit = 1u16 << level;
-            let first = self.levels == 0;
-            let all = self.levels;
-            self.levels |= bit;
-            if self.one_level && !first {
-                let all = self.runs.iter_mut().chain(&mut self.others);
-                for run in all.filter(|run| run.skip != 0) {
-                    run.skip |= bit;
-                    run.source.set_skip(run.skip);
-                }
-                continue;
-            }
-            let many = self.levels.count_ones() > ALL_SETTINGS;
-            let keeps = |skip: u16| !many || skip.count_ones() <= 1 || skip == all;
-            let target = |skip| if self.one_level { 1 << 1 } else { skip };
-            let further = |runs: &[Run]| -> Vec<Run> {
-                runs.iter().filter(|run| keeps(run.skip)).map(|run| run.skipping(bit, target)).collect()
-            };
-            let (further, mut others) = (further(&self.runs), further(&self.others));
-            others.retain(|run| tries_facts(run.skip, self.levels));
-            self.others.extend(others);
-            self.runs.extend(further);
-        }
-    }
-
-    /// Adds the settings of levels that the output has and the source has not. (A target with one
-    /// level has no further ones.)
-    fn fork_for_target(&mut self, levels: &[u16]) {
-        if !self.one_level {
-            self.fork(levels.iter().fold(0, |all, level| all | level));
-        }
     }
 
     /// Decisions that go one way alone, which has been told where they stand.

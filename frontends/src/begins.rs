@@ -90,7 +90,7 @@ pub(crate) fn work_offset(know: &mut Know<u16>, dialect: &Dialect, at: Span, out
     let Some(offset) = take(know, &mut out.assumed.work_offset, &dialect.power_on.work_offset) else {
         return;
     };
-    if dialect.caps.work_offsets == 0 {
+    if dialect.caps.frames.work_offsets == 0 {
         out.report(Fault::AssumedWorkOffset { offset }, at);
     } else {
         report(out, at, ModeName::WorkOffset, Some(&offset.to_string()));

@@ -245,7 +245,7 @@ fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
 fn programs(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
     use crate::schema::ProgramRow;
     let (mut numbers, mut names) = (BTreeMap::new(), BTreeMap::new());
-    let digits = dialect.caps.call_digits;
+    let digits = dialect.caps.flow.call_digits;
     for row in &schema.program {
         let program = row.get_ref();
         let span = program.number.span.clone();

@@ -19,7 +19,7 @@ use crate::schema::{ToolRow, WorkOffsetRow};
 /// both machines name any; programs by what either says, as their controls call by number or by name.
 pub fn maps(from: Option<&Profile>, to: Option<&Profile>, target: &Dialect) -> Maps {
     let mut maps = numbers(from, to, target);
-    let Some(to) = to.filter(|_| !target.caps.tool_names) else { return maps };
+    let Some(to) = to.filter(|_| !target.caps.tools.names) else { return maps };
     // Whose length has another number is known only where numbers go by names altogether.
     let told = |tool: &Tool| tool.entry == tool.number || maps.tools.is_some();
     let named = tools(to).into_iter().filter(|(_, tool)| told(tool));
@@ -30,8 +30,8 @@ pub fn maps(from: Option<&Profile>, to: Option<&Profile>, target: &Dialect) -> M
 /// The maps of what the source calls by numbers, and of programs.
 fn numbers(from: Option<&Profile>, to: Option<&Profile>, target: &Dialect) -> Maps {
     let mut maps = Maps::default();
-    if target.caps.calls {
-        programs(from, to, target.caps.call_digits > 0, &mut maps);
+    if target.caps.flow.calls {
+        programs(from, to, target.caps.flow.call_digits > 0, &mut maps);
     }
     let (Some(from), Some(to)) = (from, to) else { return maps };
     let (ours, theirs) = (tools(from), tools(to));

@@ -190,7 +190,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedContourPath => (Side::From, Place::Confirmed(CONTOUR_PATH.to_owned())),
         Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
         Fault::AssumedRadius { .. } => {
-            let side = if to.caps.radii.entry { Side::To } else { Side::From };
+            let side = if to.caps.compensation.radii.entry { Side::To } else { Side::From };
             (side, Place::Confirmed(RADIUS_IS_ENTRY.to_owned()))
         }
         Fault::AssumedEdge { .. } => {

@@ -72,7 +72,7 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
     }
     // The one work offset of a control without words for it is the one that is named.
     let only = judge.outcome.diagnostics.iter().find_map(|d| match d.fault {
-        Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => Some(offset),
+        Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.frames.work_offsets == 0 => Some(offset),
         _ => None,
     });
     let what = format!("{}/{} to {to}", program.dialect, program.file);

@@ -75,7 +75,7 @@ fn takes(dialect: &str, text: &str) -> bool {
     let skips = text.lines().any(|line| line.starts_with('/'));
     code(["M7", "M07"], Meaning::MistOn)
         && code(["M1", "M01"], Meaning::OptionalProgramStop)
-        && (!skips || d.caps.skip_levels > 0)
+        && (!skips || d.caps.flow.skip_levels > 0)
 }
 
 /// What a sketch is does not depend on its spelling.
@@ -167,7 +167,7 @@ fn there_and_back() {
 
 /// The work offset that the only one of a control without words for it stands for.
 fn only(there: &Outcome, through: &str) -> Option<u16> {
-    let silent = builtin(through).is_some_and(|d| d.caps.work_offsets == 0);
+    let silent = builtin(through).is_some_and(|d| d.caps.frames.work_offsets == 0);
     let named = there.diagnostics.iter().find_map(|d| match d.fault {
         Fault::AssumedWorkOffset { offset } => Some(offset),
         _ => None,

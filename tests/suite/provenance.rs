@@ -102,7 +102,7 @@ fn pairs(job: &Job, source: &[u8], output: &[u8]) -> Result<Vec<Pair>, String> {
     let of = |behaviours| World { behaviours, ..world.clone() };
     let (mut a, mut b): (Vec<Event>, Vec<Event>) =
         (execute(&a, &of(job.source_behaviours()), 0)?, execute(&b, &of(job.target_behaviours()), 0)?);
-    if !job.to.dialect.caps.messages {
+    if !job.to.dialect.caps.modes.messages {
         a.retain(|event| !matches!(event.kind, Kind::Message(_)));
     }
     // The verification has judged them already; here they are only paired.

@@ -66,7 +66,9 @@ fn emitted_programs_make_the_same_moves() {
             pairs += 1;
             // The one work offset of a control without words for it is the one that is named.
             let only = outcome.diagnostics.iter().find_map(|d| match d.fault {
-                Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => Some(offset),
+                Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.frames.work_offsets == 0 => {
+                    Some(offset)
+                }
                 _ => None,
             });
             let within = Tolerance {

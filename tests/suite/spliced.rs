@@ -45,7 +45,9 @@ fn blocks_in_other_programs() {
                     }
                     // The one work offset of a control without words for it is the one that is named.
                     let only = outcome.diagnostics.iter().find_map(|d| match d.fault {
-                        Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => {
+                        Fault::AssumedWorkOffset { offset }
+                            if job.to.dialect.caps.frames.work_offsets == 0 =>
+                        {
                             Some(offset)
                         }
                         _ => None,

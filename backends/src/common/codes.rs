@@ -525,7 +525,7 @@ impl Codes {
         groups.dedup();
         let find = Finder { dialect, groups };
         let code = |meaning| find.code(meaning);
-        let last = match dialect.caps.work_offsets {
+        let last = match dialect.caps.frames.work_offsets {
             u16::MAX => 0,
             last => last,
         };
@@ -562,7 +562,7 @@ impl Codes {
                 Some((code(Meaning::StartCompensationByDiameter(s))?, letter))
             }),
             radius_entry: find.role(Role::RadiusEntry),
-            own_radius: dialect.caps.radii.tool,
+            own_radius: dialect.caps.compensation.radii.tool,
             machine: [false, true].map(|length| {
                 let either = [false, true].into_iter();
                 either.filter_map(|rapid| code(Meaning::UseMachineCoordinates { length, rapid })).next()

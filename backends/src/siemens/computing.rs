@@ -156,7 +156,7 @@ impl Writer {
     pub(super) fn structure(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let span = stmt.span;
         self.words.spelling(None)?;
-        let computes = self.dialect.caps.computes.as_ref();
+        let computes = self.dialect.caps.flow.computes.as_ref();
         if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
             return self.entry_of_number(&entry, stmt, sink);
         }

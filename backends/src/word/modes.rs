@@ -46,7 +46,7 @@ impl Writer {
                 // Where the level is fixed, the cycle itself carries it.
                 None if self.dialect.cycles.return_level.is_some() => Ok(None),
                 // Where there are no cycles, nothing returns.
-                None if self.dialect.caps.cycles.is_empty() => Ok(None),
+                None if self.dialect.caps.holes.cycles.is_empty() => Ok(None),
                 // Where every call of a cycle states its plane, there is none.
                 None if self.dialect.states_return_planes() => Ok(None),
                 None => Err(cannot("the return level of cycles")),
@@ -59,7 +59,7 @@ impl Writer {
                 match code {
                     Some(code) => Ok(Some(code)),
                     // A control with one work offset has no word for it.
-                    None if self.dialect.caps.work_offsets == 0 => Ok(None),
+                    None if self.dialect.caps.frames.work_offsets == 0 => Ok(None),
                     None => Err(cannot(format!("work offset {n}"))),
                 }
             }

@@ -129,7 +129,7 @@ impl Writer {
 
     /// Axis words that do whatever is in force.
     pub(crate) fn position(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        if !self.dialect.caps.inherits_motion {
+        if !self.dialect.caps.flow.inherits_motion {
             return Err(cannot("a position that does what the caller has in force"));
         }
         self.call_up_now(stmt, sink)?;

@@ -178,7 +178,7 @@ impl Writer {
             Op::OptionalProgramStop => self.m_code(Rank::Stop, codes.optional_stop, "an optional stop", sink),
             Op::ProgramEnd => self.m_code(Rank::Stop, codes.end, "the program's end", sink),
             Op::BeginAgain => self.m_code(Rank::Stop, codes.again, "a program that begins again", sink),
-            Op::Message(text) if self.dialect.caps.stop_messages => {
+            Op::Message(text) if self.dialect.caps.modes.stop_messages => {
                 self.stop_text = Some(text.clone());
                 Ok(())
             }

@@ -3,7 +3,7 @@
 use ncc_dialects::{CallKind, CallRow, ParameterRole};
 
 use super::Row;
-use super::codes::must_show;
+use super::proof::must_show;
 use super::proof::{Bench, Said, refusal};
 
 /// The rows of the calls.

@@ -10,6 +10,7 @@
 
 pub mod calls;
 pub mod codes;
+pub mod cycles;
 pub mod form;
 pub mod local_call;
 pub mod names;

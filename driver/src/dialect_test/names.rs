@@ -3,7 +3,8 @@
 use ncc_dialects::{FrameWord, Meaning, NameMeaning, NameRole, NameRow};
 
 use super::Row;
-use super::codes::{must_show, said};
+use super::codes::said;
+use super::proof::must_show;
 use super::proof::{Bench, Said, Tried, in_place, refusal};
 
 /// The rows of the words of several letters.

@@ -8,6 +8,7 @@ use ncc_backends::{Head, Layout, Numbering, Writer};
 use ncc_dialects::{Dialect, Settings, builtin};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
+use ncc_ir::caps::LengthsOf;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
 
@@ -88,7 +89,7 @@ impl Bench {
         let mut bench = Bench { dialect, settings, begin: Vec::new(), end: "PROGRAM_END()".to_owned() };
         for line in BEGIN {
             let edge = line.contains("USE_TOOL_EDGE");
-            if line.contains("CHANGE_TOOL") && edge != (dialect.caps.tool_edges == Some(true)) {
+            if line.contains("CHANGE_TOOL") && edge != (dialect.caps.tools.lengths_of == LengthsOf::Edges) {
                 continue;
             }
             let before = bench.begin.len();
@@ -429,4 +430,13 @@ pub fn refusal(
         failed: Some(format!("meant: refused as {name}")),
         sure,
     }
+}
+
+/// The row's word must stand in what was written, else nothing was shown of it.
+pub fn must_show(mut tried: Tried, word: &str) -> Tried {
+    let shown = tried.written.iter().any(|line| in_place(line, word, "").is_some());
+    if tried.failed.is_none() && !shown {
+        tried.failed = Some(format!("{word} is not written: another word is taken"));
+    }
+    tried
 }

@@ -108,7 +108,7 @@ fn said(d: &Dialect, row: &Address) -> Vec<Said> {
             .into(),
         Role::ToolEdge => ["2", "0"].map(|n| Said::new(format!("said USE_TOOL_EDGE({n})"))).into(),
         Role::Call => vec![with_procedure(7, Said::new("CALL(7)"))],
-        Role::RadiusEntry if d.caps.radii.entry => {
+        Role::RadiusEntry if d.caps.compensation.radii.entry => {
             one("START_CUTTER_RADIUS_COMPENSATION(right, 21) & said STRAIGHT_TRAVERSE(X 10mm)".to_owned())
         }
         // Where nothing reads it, it has to be refused by name.

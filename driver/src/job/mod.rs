@@ -182,7 +182,7 @@ impl Job {
     /// is assumed to do the same, or, a list of events, leaves it out. Nothing is known there of the target's Z.
     pub fn takes_way_up(&self) -> bool {
         let caps = &self.to.dialect.caps;
-        let says = caps.references.home || caps.machine_coordinates;
+        let says = caps.machine.references.home || caps.machine.coordinates;
         let change = Behaviour::ZAtChange;
         self.from.behaviours().surely(change) && !self.to.behaviours().does(change) && !says
     }
@@ -213,7 +213,7 @@ impl Job {
             radii: self.machines.from.as_ref().map(|machine| machine.tables().radii).unwrap_or_default(),
             listing: false,
             arc_feed: ArcFeed::of(&self.source_behaviours()),
-            feed_decimals: self.to.dialect.caps.feed_decimals,
+            feed_decimals: self.to.dialect.caps.modes.feed_decimals,
         }
     }
 

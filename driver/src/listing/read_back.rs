@@ -93,9 +93,9 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     world.backs_off = BACKS_OFF;
     world.length_by_change = true;
     world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
-    world.compensation_again = job.from.dialect.caps.compensation_again;
+    world.compensation_again = job.from.dialect.caps.compensation.again;
     world.arcs = job.from.arc_rule();
-    world.refused_compensated = job.from.dialect.caps.refused_compensated;
+    world.refused_compensated = job.from.dialect.caps.compensation.refused;
     let nanos = |option| parameter(job, option).and_then(|n| n.nanos(false)).unwrap_or(0);
     (world.peck_clearance, world.break_lift) = (nanos(PECK_CLEARANCE), nanos(BREAK_LIFT));
     let mut exec = Exec::new(&world, 0);

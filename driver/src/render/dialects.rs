@@ -4,6 +4,7 @@ use std::fmt::{self, Write};
 
 use ncc_dialects::{Dialect, PatternRow, PowerOn, PowerOnFact};
 use ncc_ir::canon::ReturnLevel;
+use ncc_ir::caps::ReturnsTo;
 
 /// The form of a dictionary, for whoever writes one.
 pub const SCHEMA: &str = include_str!("../../../docs/dialect.md");
@@ -95,13 +96,13 @@ fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {
     if caps.flat {
         row("form", "a list of events; cycles, patterns, calls and repeats are written out")?;
     }
-    if !caps.cycles.is_empty() {
-        let kinds: Vec<&str> = caps.cycles.iter().map(|c| c.kind.as_str()).collect();
+    if !caps.holes.cycles.is_empty() {
+        let kinds: Vec<&str> = caps.holes.cycles.iter().map(|c| c.kind.as_str()).collect();
         row("cycles", &kinds.join(", "))?;
         row(
             "cycles return to",
             match d.cycles.return_level.map(ReturnLevel::from) {
-                None if caps.return_planes == Some(true) => "a stated plane",
+                None if caps.holes.returns == ReturnsTo::Plane => "a stated plane",
                 None => "the initial level or the retract plane",
                 Some(ReturnLevel::Initial) => "the initial level",
                 Some(ReturnLevel::Retract) => "the retract plane",
@@ -121,26 +122,26 @@ fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {
     if !patterns.is_empty() {
         row("patterns of holes", &patterns.join(", "))?;
     }
-    row("subprograms", yes(caps.calls))?;
-    row("repetition of blocks", yes(caps.repeats || caps.repeat_blocks))?;
-    row("frames", yes(caps.frames))?;
-    row("machine coordinates", yes(caps.machine_coordinates))?;
-    let offsets = match caps.work_offsets {
+    row("subprograms", yes(caps.flow.calls))?;
+    row("repetition of blocks", yes(caps.flow.repeats || caps.flow.repeat_blocks))?;
+    row("frames", yes(caps.frames.chain))?;
+    row("machine coordinates", yes(caps.machine.coordinates))?;
+    let offsets = match caps.frames.work_offsets {
         0 => "one, without a word for it".to_owned(),
         u16::MAX => "any number".to_owned(),
         n => n.to_string(),
     };
     row("work offsets", &offsets)?;
-    row("incremental coordinates", yes(caps.incremental))?;
-    row("helices", yes(caps.helix))?;
-    row("arcs by radius", yes(caps.arc_radius))?;
-    let skip = match caps.skip_levels {
+    row("incremental coordinates", yes(caps.modes.incremental))?;
+    row("helices", yes(caps.arcs.helix))?;
+    row("arcs by radius", yes(caps.arcs.by_radius))?;
+    let skip = match caps.flow.skip_levels {
         0 => "no".to_owned(),
         1 => "one switch".to_owned(),
         n => format!("{n} switches"),
     };
     row("block skip", &skip)?;
-    row("messages to the operator", yes(caps.messages))
+    row("messages to the operator", yes(caps.modes.messages))
 }
 
 fn codes(out: &mut String, d: &Dialect) -> fmt::Result {

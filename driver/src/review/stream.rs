@@ -147,9 +147,9 @@ pub fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
         world.behaviours = job.from.behaviours();
         world.increments = job.from.fine_increments();
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
-        world.compensation_again = job.from.dialect.caps.compensation_again;
+        world.compensation_again = job.from.dialect.caps.compensation.again;
         world.arcs = job.from.arc_rule();
-        world.refused_compensated = job.from.dialect.caps.refused_compensated;
+        world.refused_compensated = job.from.dialect.caps.compensation.refused;
         let [clearance, lift] = clearances;
         world.peck_clearance = clearance.unwrap_or(world.peck_clearance);
         world.break_lift = lift.unwrap_or(world.break_lift);

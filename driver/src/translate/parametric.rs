@@ -124,11 +124,11 @@ pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     let caps = job.to.caps();
     leave_out_output(program, &caps, found);
     ran_whole("leave-out-output", program);
-    let opens = caps.computes.as_ref().is_some_and(|there| there.output_opened);
+    let opens = caps.flow.computes.as_ref().is_some_and(|there| there.output_opened);
     if job.from.dialect.id != job.to.dialect.id {
         found.extend(output_elsewhere(program, opens));
     }
-    let Some(there) = caps.computes else { return };
+    let Some(there) = caps.flow.computes else { return };
     let Some(alarms) = &there.alarms else { return };
     alarm_numbers::in_its_characters(program, alarms, found);
     ran_whole("alarm-texts", program);
@@ -151,7 +151,7 @@ pub fn legalise_parametric(
     let (source, caps) = (job.from.caps(), job.to.caps());
     let mut entry = stands.clone();
     entry.modes = entry.modes.or(program.assumed);
-    let computes = source.computes.unwrap_or_default();
+    let computes = source.flow.computes.unwrap_or_default();
     let lengths = to.numbers(Quantity::Length);
     let inch = lengths.increment_inch.unwrap_or(lengths.increment);
     let both = |row: &CodeRow| row.dwell.iter().any(|word| word.quantity == Quantity::Milliseconds);
@@ -161,7 +161,7 @@ pub fn legalise_parametric(
         caps: &caps,
         target: there,
         source: &computes,
-        word_distance: source.word_distance,
+        word_distance: source.modes.word_distance,
         others: from.id != to.id,
         keeps_words: to.program.o_words && from.id == to.id,
         tolerance: from.formula.tolerance(),

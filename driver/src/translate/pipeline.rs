@@ -239,7 +239,7 @@ impl Translation<'_> {
         let caps = self.job.to.caps();
         // What is folded or rewritten by name must be known when it is.
         let plainly = self.job.passes.is_empty() && self.folder.is_none();
-        let there = caps.computes.as_deref().filter(|_| plainly);
+        let there = caps.flow.computes.as_deref().filter(|_| plainly);
         let mut found = Vec::new();
         let mut computed = Computed::default();
         if let Some(there) = there {
@@ -251,9 +251,9 @@ impl Translation<'_> {
             if own_distance::others(program, &computed.facts).is_empty() {
                 computed.stands = computed.facts.modes();
             }
-            if self.job.from.caps().word_distance {
+            if self.job.from.caps().modes.word_distance {
                 computed.own_distance = own_distance::places(program, &computed.facts);
-                if !caps.word_distance
+                if !caps.modes.word_distance
                     && let Err(refusal) = own_distance::refused(&computed.own_distance, program)
                 {
                     found.push(refusal);

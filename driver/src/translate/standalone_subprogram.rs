@@ -75,7 +75,7 @@ impl Translation<'_> {
 
     /// How the target's subprograms have their parameters, where they have any.
     fn handed(&self) -> Option<Handed> {
-        let there = self.job.to.caps().computes.filter(|_| self.job.to.dialect.program.macros);
+        let there = self.job.to.caps().flow.computes.filter(|_| self.job.to.dialect.program.macros);
         there.map(|there| there.handed)
     }
 
@@ -148,7 +148,7 @@ impl Translation<'_> {
     /// Arguments by letters have no value where a call leaves them out, where those of the source are zero: each call must
     /// give them, which is told; a number that no letter gives is refused.
     fn by_letters(&mut self, source: &mut Program) {
-        let vacant = |caps: Caps| caps.computes.is_some_and(|own| own.vacant);
+        let vacant = |caps: Caps| caps.flow.computes.is_some_and(|own| own.vacant);
         let alone = returns_alone(source).is_some();
         let Some(main) = source.procedures.first_mut().filter(|_| alone) else { return };
         if self.handed() != Some(Handed::Letters) || vacant(self.job.from.caps()) || self.executes_computed()
@@ -156,7 +156,7 @@ impl Translation<'_> {
             return;
         }
         let at = main.body.first().map_or(Span::default(), |stmt| stmt.span);
-        let rounds = |caps: Caps| caps.computes.is_some_and(|own| own.rounds);
+        let rounds = |caps: Caps| caps.flow.computes.is_some_and(|own| own.rounds);
         let rounded = rounds(self.job.to.caps()) && !rounds(self.job.from.caps());
         let whole: Vec<bool> =
             main.parameters.iter().map(|own| rounded && is_speed(&main.body, own)).collect();

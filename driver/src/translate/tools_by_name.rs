@@ -48,7 +48,7 @@ impl Tools {
 pub fn number<F: Read + Seek>(job: &mut Job, source: &mut F) -> io::Result<()> {
     let by_name = job.from.dialect.address.iter().any(|row| row.role == Role::Tool && row.named);
     let to = &job.to.dialect;
-    if !by_name || job.to.caps().tool_names || to.can.flat || to.can.everything {
+    if !by_name || job.to.caps().tools.names || to.can.flat || to.can.everything {
         return Ok(());
     }
     source.rewind()?;

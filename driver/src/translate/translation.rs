@@ -80,7 +80,7 @@ impl<'j> Translation<'j> {
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
         legaliser.set_source_arcs(job.from.arc_rule());
-        legaliser.set_source_refuses(job.from.dialect.caps.refused_compensated);
+        legaliser.set_source_refuses(job.from.dialect.caps.compensation.refused);
         if job.between_controls() {
             legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }

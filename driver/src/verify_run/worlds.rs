@@ -20,9 +20,9 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let mut source = World::generate(seed, &from).with_external();
     source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
-    source.compensation_again = job.from.dialect.caps.compensation_again;
+    source.compensation_again = job.from.dialect.caps.compensation.again;
     source.arcs = job.from.arc_rule();
-    source.refused_compensated = job.from.dialect.caps.refused_compensated;
+    source.refused_compensated = job.from.dialect.caps.compensation.refused;
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     source.increments = job.from.fine_increments();
@@ -33,7 +33,7 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     // Between two controls it is refused; what else is written is read as the source has it.
     target.compensation_again = source.compensation_again;
     target.arcs = job.to.arc_rule();
-    target.refused_compensated = job.to.dialect.caps.refused_compensated;
+    target.refused_compensated = job.to.dialect.caps.compensation.refused;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
     // Where tools are put in by hand on one side, the operator sets the zero of Z by each.
@@ -48,7 +48,7 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
         .collect();
     // A control without a word for it takes corners in its one way.
     let caps = &job.to.dialect.caps;
-    let path = caps.only_path.filter(|mode| !caps.says_path(*mode));
+    let path = caps.modes.only_path.filter(|mode| !caps.says_path(*mode));
     (source.path, target.path) = (path, path);
     same_at_power_on(&source, &mut target, &from, &to);
     [source, target]

@@ -365,25 +365,25 @@ impl Settings {
     /// What the dialect can say, as its options are.
     pub fn caps(&self) -> Caps {
         let mut caps = self.dialect.caps.clone();
-        if let Some(approach) = &mut caps.approach {
+        if let Some(approach) = &mut caps.holes.approach {
             *approach = self.approach();
         }
         let asked = |row: &&CycleRow| row.dwell.is_none() && self.dwell(row).is_some();
         for row in self.dialect.cycle.iter().filter(asked) {
-            let same = caps.cycles.iter_mut().filter(|cap| cap.kind == row.kind);
+            let same = caps.holes.cycles.iter_mut().filter(|cap| cap.kind == row.kind);
             same.for_each(|cap| cap.dwell = true);
         }
         if self.writes_names() {
-            caps.call_digits = 0;
+            caps.flow.call_digits = 0;
         }
         let turn = self.get(ANGLE_RANGE) == "turn";
-        if let Some(computes) = caps.computes.as_mut().filter(|computes| computes.turn != turn) {
+        if let Some(computes) = caps.flow.computes.as_mut().filter(|computes| computes.turn != turn) {
             Arc::make_mut(computes).turn = turn;
         }
         caps.behaviours = self.behaviours();
-        caps.change_stops_spindle = self.change_stops_spindle();
-        caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
-        caps.arcs = self.arc_rule();
+        caps.tools.change_stops_spindle = self.change_stops_spindle();
+        caps.flow.repeat_count_known = self.is_chosen(REPEAT_COUNT);
+        caps.arcs.rule = self.arc_rule();
         caps
     }
 

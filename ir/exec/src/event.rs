@@ -392,9 +392,9 @@ impl Seen {
     /// What the words of a control tell apart.
     pub fn by(caps: &Caps) -> Seen {
         Seen {
-            modes: caps.path_modes,
-            in_rapids: caps.path_in_rapids,
-            merges: caps.path_merges,
+            modes: caps.modes.path,
+            in_rapids: caps.modes.path_in_rapids,
+            merges: caps.modes.path_merges,
             path: true,
             advice: seen_advice(caps),
         }

@@ -132,7 +132,7 @@ impl Legaliser {
                     | CORNER
                     | AT_ONCE)
                 != 0
-                || caps.feed_ends_with_mode
+                || caps.modes.feed_ends_with_mode
                 || frame_increments::FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours)
                     .is_used(),
             walk: Walk::default(),
@@ -209,7 +209,7 @@ impl Legaliser {
     /// that its only one stands for, and no shift of the origin.
     pub fn taken(&self) -> Modes {
         Modes {
-            work_offset: self.work.only.filter(|_| self.target.caps.work_offsets == 0),
+            work_offset: self.work.only.filter(|_| self.target.caps.frames.work_offsets == 0),
             no_origin_shift: self.shift.none.then_some(true),
             ..Modes::default()
         }
@@ -266,7 +266,7 @@ impl Legaliser {
     /// Notes what cycles and threads behind a piece may rely on that has none itself.
     fn follow_cycles(&mut self, piece: &Piece) {
         self.threads.said = self.taps.said;
-        if !piece.needs(CYCLE | THREAD) && self.target.caps.threads.turned {
+        if !piece.needs(CYCLE | THREAD) && self.target.caps.moves.threads.turned {
             piece.stmts.iter().for_each(|stmt| self.threads.note(stmt));
         }
         if !piece.needs(CYCLE) {
@@ -284,7 +284,7 @@ impl Legaliser {
         if !piece.needs(FRAME) && self.lacks & FRAME != 0 {
             self.frames.note(stmts);
         }
-        if self.measures && !self.target.caps.arc_forms && !piece.needs(ARC) {
+        if self.measures && !self.target.caps.arcs.forms && !piece.needs(ARC) {
             arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
         } else if self.follow {
             self.walk.pass(stmts);
@@ -355,7 +355,7 @@ impl Legaliser {
         if self.at_once.is_busy() {
             needs |= AT_ONCE;
         }
-        if self.edge.is_busy() || self.target.caps.change_by_hand && self.by_hand.is_busy() {
+        if self.edge.is_busy() || self.target.caps.tools.change_by_hand && self.by_hand.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
         }
         if self.axis.is_busy() && stmts.iter().any(|stmt| tool_axis::is_length(&stmt.op)) {
@@ -405,7 +405,7 @@ impl Legaliser {
     /// has to write out what they belong to.
     fn with_polar_words(&mut self, piece: &mut Piece) -> Option<Vec<Diagnostic>> {
         let looks_into = piece.needs(FRAME | EVERY | CORNER) || self.cycles.is_busy() || self.taps.is_busy();
-        if self.target.caps.polar == PolarForm::None || looks_into {
+        if self.target.caps.moves.polar == PolarForm::None || looks_into {
             return None;
         }
         let (mut own, mut kept, mut found) = (self.clone(), piece.stmts.clone(), Vec::new());

@@ -105,7 +105,7 @@ pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
         // Words of another language lead to stretches of its blocks; what they say stays as it is.
         own.known = known_facts::run(&mut program.clone(), &own.entry, true);
         // Where a target's words have no mode of their own, the mode behind one that has is said anew.
-        let measures = own.word_distance && !own.caps.word_distance;
+        let measures = own.word_distance && !own.caps.modes.word_distance;
         if measures && !own_distance::places(program, &own.known).is_empty() {
             own.known = known_facts::run(program, &own.entry, true);
         }

@@ -7,7 +7,7 @@ use ncc_exec::verify::{Comparison, Resolution};
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Runner};
 use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
-use ncc_ir::caps::{Caps, CycleCap};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, FeedsOutTo, HoleCaps, Lift, ModeCaps};
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::program::cycle::Pattern;
 use ncc_ir::program::{Op, Program};
@@ -27,24 +27,24 @@ pub(super) fn everything(decimals: u8) -> Target {
         strokes: true,
         shrinks: true,
         feed_out: true,
-        lift_at_feed: None,
-        form: ncc_ir::caps::CycleForm::Any,
-        to_level: None,
+        lift: Lift::Either,
+        form: CycleForm::Any,
+        feeds_out_to: FeedsOutTo::Either,
         turns: Vec::new(),
     };
-    let caps = Caps {
+    let holes = HoleCaps {
         cycles: ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"].map(cycle).into(),
-        circle_pattern: true,
-        grid_pattern: u32::MAX,
-        line_pattern: true,
-        list_pattern: u32::MAX,
+        circles: true,
+        grid_upto: u32::MAX,
+        lines: true,
+        list_upto: u32::MAX,
         pattern_start: true,
         pattern_angle: true,
-        incremental_cycles: true,
         incremental: true,
-        inch: true,
-        ..Caps::default()
+        ..HoleCaps::default()
     };
+    let modes = ModeCaps { incremental: true, inch: true, ..ModeCaps::default() };
+    let caps = Caps { holes, modes, ..Caps::default() };
     Target { caps, decimals, ..Target::default() }
 }
 

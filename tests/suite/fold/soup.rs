@@ -1,6 +1,7 @@
 //! Moves at random, at few levels and places: whatever is folded, the machine does the same.
 
 use ncc_ir::canon::{Axis, Distance, Plane, Units};
+use ncc_ir::caps::{CircleStart, ReturnsTo};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{Approach, absolute};
 use ncc_ir::program::{Move, Op, Point, Procedure, Program, Stmt};
@@ -99,17 +100,17 @@ fn program() -> impl Strategy<Value = Program> {
 fn targets() -> Vec<Target> {
     let all = everything(3);
     let mut planes = all.clone();
-    planes.caps.return_planes = Some(true);
-    planes.caps.circle_polar = Some(true);
+    planes.caps.holes.returns = ReturnsTo::Plane;
+    planes.caps.holes.circle_start = CircleStart::Polar;
     let mut raises = all.clone();
-    raises.caps.approach = Some(Approach::RaiseFirst);
-    raises.caps.return_planes = Some(false);
-    raises.caps.pattern_start = false;
-    raises.caps.pattern_angle = false;
-    raises.caps.circle_polar = Some(false);
-    raises.caps.list_pattern = 0;
+    raises.caps.holes.approach = Some(Approach::RaiseFirst);
+    raises.caps.holes.returns = ReturnsTo::Level;
+    raises.caps.holes.pattern_start = false;
+    raises.caps.holes.pattern_angle = false;
+    raises.caps.holes.circle_start = CircleStart::Cartesian;
+    raises.caps.holes.list_upto = 0;
     let mut retracts = raises.clone();
-    retracts.caps.approach = Some(Approach::RetractFirst);
+    retracts.caps.holes.approach = Some(Approach::RetractFirst);
     vec![all, planes, raises, retracts]
 }
 

@@ -5,7 +5,7 @@
 //! much, little and nothing, as a whole and block by block, and executed before and after.
 
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::caps::Caps;
+use ncc_ir::caps::{Caps, LengthsOf};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
@@ -365,7 +365,7 @@ fn well_formed(body: &[Stmt]) -> Result<(), String> {
 /// A program as a control reads it of which a tool change makes edge 1 active, unless its block names
 /// another.
 fn as_read_back(mut program: Program, caps: &Caps) -> Program {
-    if caps.tool_edges != Some(true) {
+    if caps.tools.lengths_of != LengthsOf::Edges {
         return program;
     }
     for procedure in &mut program.procedures {
@@ -389,7 +389,7 @@ fn as_read_back(mut program: Program, caps: &Caps) -> Program {
 fn the_machine_does_the_same() {
     let mut targets =
         ["canon", "mach9", "fanuc", "siemens", "siemens"].map(|id| (id, builtin(id).unwrap().caps.clone()));
-    targets[4].1.frames = false;
+    targets[4].1.frames.chain = false;
     let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
     let config = Config { cases, failure_persistence: None, max_shrink_iters: 20_000, ..Config::default() };
     let counts = std::cell::RefCell::new([[0u32; 2]; 5]);

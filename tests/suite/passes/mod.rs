@@ -29,7 +29,7 @@ use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Progress, Runner};
 use ncc_frontends::{Batch, ir::Reader};
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
-use ncc_ir::caps::Caps;
+use ncc_ir::caps::{Caps, LengthsOf, ReturnsTo};
 use ncc_ir::computed::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
@@ -128,17 +128,23 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
     };
     let says = || Ok::<bool, String>(either()? == Some(true));
     match name {
-        "tool-edges" => caps.tool_edges = either()?,
-        "return-planes" => caps.return_planes = either()?,
-        "frames" => caps.frames = says()?,
-        "local-shift" => caps.local_shift = says()?,
-        "rotation" => caps.rotation = says()?,
-        "scale" => caps.scale = says()?,
-        "mirror" => caps.mirror = says()?,
-        "machine-coordinates" => caps.machine_coordinates = says()?,
-        "arc-forms" => caps.arc_forms = says()?,
-        "repeats" => caps.repeats = says()?,
-        "repeat-blocks" => caps.repeat_blocks = says()?,
+        "tool-edges" => {
+            caps.tools.lengths_of = match either()? {
+                None => LengthsOf::Either,
+                Some(true) => LengthsOf::Edges,
+                Some(false) => LengthsOf::Entries,
+            }
+        }
+        "return-planes" => caps.holes.returns = either()?.map(ReturnsTo::only).unwrap_or_default(),
+        "frames" => caps.frames.chain = says()?,
+        "local-shift" => caps.frames.local_shift = says()?,
+        "rotation" => caps.frames.rotation = says()?,
+        "scale" => caps.frames.scale = says()?,
+        "mirror" => caps.frames.mirror = says()?,
+        "machine-coordinates" => caps.machine.coordinates = says()?,
+        "arc-forms" => caps.arcs.forms = says()?,
+        "repeats" => caps.flow.repeats = says()?,
+        "repeat-blocks" => caps.flow.repeat_blocks = says()?,
         "blocks" => computes(caps)?.blocks = says()?,
         "opposite" => computes(caps)?.opposite = says()?,
         "loops" => computes(caps)?.loops = value.parse().map_err(|e| format!("{value}: {e}"))?,
@@ -154,7 +160,7 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
 
 /// What the target computes with.
 fn computes(caps: &mut Caps) -> Result<&mut Computes, String> {
-    caps.computes.as_mut().map(Arc::make_mut).ok_or_else(|| "a target that does not compute".into())
+    caps.flow.computes.as_mut().map(Arc::make_mut).ok_or_else(|| "a target that does not compute".into())
 }
 
 fn statement(caps: &mut Caps, statement: Said, has: bool) -> Result<(), String> {
@@ -252,7 +258,7 @@ fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnosti
         Renumbering::new(told.maps.clone()).run(program, &mut diags);
         return Ok(diags);
     }
-    if let (true, Some(computes)) = (COMPUTING.contains(&pass), &told.target.caps.computes) {
+    if let (true, Some(computes)) = (COMPUTING.contains(&pass), &told.target.caps.flow.computes) {
         match pass {
             "control-forms" => control_forms::run(program, computes),
             "passed-labels" => passed_labels::run(program),

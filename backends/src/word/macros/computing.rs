@@ -307,7 +307,7 @@ impl Writer {
     /// A decision or a loop.
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.spelling(None)?;
-        let computes = self.dialect.caps.computes.as_ref();
+        let computes = self.dialect.caps.flow.computes.as_ref();
         if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
             return self.entry_of_number(&entry, stmt, sink);
         }

@@ -55,7 +55,7 @@ pub fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Result<Mot
     if let Some(most) = tolerance {
         measure.lengths = [most; 2];
     }
-    let mute = sides[0].dialect().caps.messages != sides[1].dialect().caps.messages;
+    let mute = sides[0].dialect().caps.modes.messages != sides[1].dialect().caps.modes.messages;
     // What one control leaves to a parameter and its profile does not state is as on the other one.
     let own = [clearances(&sides[0].job), clearances(&sides[1].job)];
     let clearances =
@@ -84,7 +84,7 @@ pub fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Result<Mot
     };
     let courses = once(sides, settings(0), measure, &mut found)?;
     let levels = courses[0].skip_levels | courses[1].skip_levels;
-    let one_level = sides.iter().any(|side| side.dialect().caps.skip_levels <= 1);
+    let one_level = sides.iter().any(|side| side.dialect().caps.flow.skip_levels <= 1);
     let further =
         if courses.iter().any(|course| course.refused) { Vec::new() } else { further(levels, one_level) };
     let mut motion = Motion {

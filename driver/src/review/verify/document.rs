@@ -428,7 +428,7 @@ fn compared(found: &Found, sides: &[Side; 2]) -> Compared {
     let inch = found.inches;
     let mut notes = Vec::new();
     if found.muted {
-        let without = sides.iter().find(|side| !side.dialect().caps.messages);
+        let without = sides.iter().find(|side| !side.dialect().caps.modes.messages);
         let id = without.map_or("", |side| side.dialect().id.as_str());
         notes.push(format!("messages are not compared: {id} has none"));
     }

@@ -97,15 +97,15 @@ pub fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Found> {
         .map(|course| course.has.inches || course.assumed.units == Some(Units::Inch));
     let one_control = same_control(sides);
     let (caps, other) = (&sides[0].dialect().caps, &sides[1].dialect().caps);
-    let muted = !caps.messages || !other.messages;
+    let muted = !caps.modes.messages || !other.modes.messages;
     // With how many digits one side's values stand in messages that have zeros at their end.
     let in_full = (courses.iter().all(|course| course.has.values)).then(|| {
-        let digits = |side: &Side| side.job.from.caps().computes.and_then(|own| own.values_in_full);
+        let digits = |side: &Side| side.job.from.caps().flow.computes.and_then(|own| own.values_in_full);
         sides.iter().find_map(digits)
     });
     let says = courses.iter().any(|course| course.has.messages);
     let levels = [courses[0].skip_levels, courses[1].skip_levels];
-    let one_level = other.skip_levels <= 1;
+    let one_level = other.flow.skip_levels <= 1;
     let settings = settings(levels, one_level);
     let most = (levels[0] | levels[1]).count_ones();
     let all = !one_level && most <= ALL_SETTINGS || most <= 1;
@@ -208,8 +208,9 @@ fn shared(job: &Job, source: &Course, one_control: bool) -> Modes {
         return facts;
     }
     let caps = job.to.caps();
-    let only = source.assumed.work_offset.or(source.has.work_offset).filter(|_| caps.work_offsets == 0);
-    let no_shift = (!caps.clears_shift && source.has.clears_shift).then_some(true);
+    let only =
+        source.assumed.work_offset.or(source.has.work_offset).filter(|_| caps.frames.work_offsets == 0);
+    let no_shift = (!caps.frames.clears_shift && source.has.clears_shift).then_some(true);
     let facts = facts.without(&said_by_custom(job));
     Modes {
         work_offset: only.or(facts.work_offset),

@@ -26,7 +26,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| p.needs(ARC) && !l.target.caps.arc_forms,
+        |l, p| p.needs(ARC) && !l.target.caps.arcs.forms,
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.arcs, &l.target, p.diags),
     ),
     parametric: None,

@@ -61,7 +61,7 @@ fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: 
     let (Some(start), Some(end)) = (of(&walk.at.position), of(&end)) else { return Judged::Kept };
     if let Centre::Radius(radius) = &arc.centre {
         let Some(radius) = walk.at.nanos(radius) else { return Judged::Kept };
-        let short = target.caps.arcs.short(inch);
+        let short = target.caps.arcs.rule.short(inch);
         let reaches = geometry::centre_by_radius(start, end, radius, arc.turn, short);
         return match reaches {
             Err(ArcFault::RadiusTooSmall) if centre_of(arc, walk, target).is_ok() => Judged::ByCentre,
@@ -73,7 +73,7 @@ fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: 
     if source.check(radii, inch).is_err() {
         return Judged::Kept;
     }
-    match target.caps.arcs.check(radii, inch) {
+    match target.caps.arcs.rule.check(radii, inch) {
         Err(ArcFault::EndOffCircle { radii, allowed }) => {
             Judged::Refused(Fault::ArcRadiiDiffer { radii, allowed })
         }

@@ -22,7 +22,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
 
 /// Says them so, for such a target.
 pub fn run(program: &mut Program, caps: &Caps) {
-    if caps.centres_from_zero || caps.arc_forms {
+    if caps.arcs.centres_from_zero || caps.arcs.forms {
         return;
     }
     program.procedures.iter_mut().for_each(|procedure| within(&mut procedure.body));

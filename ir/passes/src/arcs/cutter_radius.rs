@@ -57,7 +57,7 @@ pub(crate) fn over(
         walk.enter(stmt.skip);
         let span = stmt.span;
         if let Op::StartCutterRadiusCompensation { radius, .. } = &mut stmt.op {
-            match named(radius, &target.caps.radii, &walk.at) {
+            match named(radius, &target.caps.compensation.radii, &walk.at) {
                 Ok((own, entry)) => {
                     *radius = own;
                     if let Some(entry) = entry.filter(|_| target.other_control)

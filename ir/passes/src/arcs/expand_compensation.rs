@@ -66,7 +66,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
             one_meaning: one.is_some(),
             // A subprogram has the meaning of its caller.
             arc_feed: one.or(main.then_some(begins)),
-            feed_decimals: target.compensating.feed_decimals.max(target.caps.feed_decimals),
+            feed_decimals: target.compensating.feed_decimals.max(target.caps.modes.feed_decimals),
             own_feed: None,
         };
         rebuild(body, |stmt, made| {

@@ -222,7 +222,7 @@ impl Corners<'_> {
     fn passed(&mut self, stmt: &mut Stmt, walk: &mut Walk, made: &mut Rebuild) -> Result<(), Fault> {
         let bent = matches!(stmt.op.unwrapped(), Op::ArcFeed(_) | Op::ArcForm(_));
         let before = self.before.take();
-        let whole = leg(stmt, walk, self.target.caps.arc_forms);
+        let whole = leg(stmt, walk, self.target.caps.arcs.forms);
         let written = before.as_ref().is_some_and(|before| !self.says(before, bent, &whole, walk));
         let mut known = whole.map(|(plane, leg, _)| (plane, leg));
         let after = {
@@ -276,7 +276,7 @@ impl Corners<'_> {
 
     /// Whether the target says a corner between these two moves as it is.
     fn says(&self, before: &Before, bent: bool, after: &Known, walk: &Walk) -> bool {
-        let caps = &self.target.caps.corners;
+        let caps = &self.target.caps.moves.corners;
         let word = match before.corner.shape {
             CornerShape::Round => caps.round,
             CornerShape::Leg => caps.leg,

@@ -22,7 +22,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| p.needs(ARC) && !l.target.caps.arc_turns,
+        |l, p| p.needs(ARC) && !l.target.caps.arcs.turns,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
     parametric: None,

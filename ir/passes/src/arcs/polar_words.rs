@@ -57,7 +57,7 @@ pub(crate) fn over(
     keep: bool,
     diags: &mut Vec<Diagnostic>,
 ) {
-    let form = if keep { target.caps.polar } else { PolarForm::None };
+    let form = if keep { target.caps.moves.polar } else { PolarForm::None };
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         match &stmt.op {
@@ -162,7 +162,7 @@ fn kept(
     if polar.along {
         let angle = polar.angle.as_ref()?;
         let fine = |word: &Coord| is_fine(&word.value, walk, target);
-        let says = target.caps.line_angles && form != PolarForm::None;
+        let says = target.caps.moves.line_angles && form != PolarForm::None;
         let points = polar::end_of(&polar.op)?.axes.iter().flatten().all(fine);
         return (says && points && fine(angle)).then(|| Op::Polar(Box::new(polar.clone())));
     }

@@ -49,18 +49,18 @@ pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<
 /// The same for one body.
 pub(crate) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagnostic>) {
     let caps = &target.caps;
-    if !caps.repeats {
-        if caps.repeat_blocks {
+    if !caps.flow.repeats {
+        if caps.flow.repeat_blocks {
             by_labels(body, &labels(body), &mut 0, diags);
         } else {
             bodies(body, diags);
         }
     }
-    let nowhere = |s: &Stmt| matches!(s.op, Op::Label(_)) && !caps.repeats;
-    if !caps.repeat_blocks && (has_blocks(body) || body.iter().any(nowhere)) {
-        blocks(body, caps.repeats, diags);
+    let nowhere = |s: &Stmt| matches!(s.op, Op::Label(_)) && !caps.flow.repeats;
+    if !caps.flow.repeat_blocks && (has_blocks(body) || body.iter().any(nowhere)) {
+        blocks(body, caps.flow.repeats, diags);
     }
-    if caps.repeat_by_numbers && has_blocks(body) {
+    if caps.flow.repeat_by_numbers && has_blocks(body) {
         if repeat_ends::nested(body) {
             return blocks(body, false, diags);
         }
@@ -93,13 +93,13 @@ pub(crate) fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
 /// Writes repetitions of blocks out where a program computes, for a target that has no such words: those of blocks that
 /// no jump leads out of, or into. Others are left to be refused.
 pub fn where_it_computes(program: &mut Program, target: &Caps, diags: &mut Vec<Diagnostic>) {
-    if target.repeat_blocks {
+    if target.flow.repeat_blocks {
         return;
     }
     for procedure in &mut program.procedures {
         let body = &mut procedure.body;
         if has_blocks(body) && are_straight(body) {
-            blocks(body, target.repeats, diags);
+            blocks(body, target.flow.repeats, diags);
         }
     }
 }

@@ -48,7 +48,7 @@ pub fn run(program: &mut Program, entry: &Tracker, word: &str, diags: &mut Vec<D
 
 /// Tells which attributes a target does not say that are advice.
 pub fn left_out(program: &Program, there: &Caps) -> Vec<Diagnostic> {
-    let says = there.computes.as_ref().is_some_and(|computes| computes.has(Said::Attributes));
+    let says = there.flow.computes.as_ref().is_some_and(|computes| computes.has(Said::Attributes));
     let mut told = Vec::new();
     for procedure in program.procedures.iter().filter(|_| !says) {
         let at = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);

@@ -23,13 +23,14 @@ pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<
 /// The same; `computes` is whether calls have variables of their own.
 pub(crate) fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
     // No digits leave every name.
-    let digits = target.caps.call_digits;
+    let digits = target.caps.flow.call_digits;
     let fits = |name: &str| {
         name.bytes().all(|b| b.is_ascii_digit())
             && name.parse::<u32>().is_ok_and(|n| n > 0 && n < limit(digits))
     };
     // With variables of their own they may have names there; what a code calls has a number.
-    let named = computes && target.caps.computes.as_ref().is_some_and(|computes| computes.named_programs);
+    let named =
+        computes && target.caps.flow.computes.as_ref().is_some_and(|computes| computes.named_programs);
     let called = called_as_own(program, named);
     let fits = |name: &str| fits(name) || called.contains(name);
     let subs = || program.procedures.iter().skip(1);

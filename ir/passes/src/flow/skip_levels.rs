@@ -42,7 +42,7 @@ pub(crate) fn over(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
-    let highest = target.caps.skip_levels;
+    let highest = target.caps.flow.skip_levels;
     for stmt in body {
         let Some(level) = stmt.skip.filter(|l| *l > highest) else { continue };
         let bit = 1u16 << level.min(15);

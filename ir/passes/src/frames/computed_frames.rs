@@ -223,13 +223,13 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Resul
             shift = shift.take().filter(|axes| stays(axes, &stmt.op));
             return made.push(stmt);
         }
-        if let (Some(axes), false) = (&shift, caps.frames) {
+        if let (Some(axes), false) = (&shift, caps.frames.chain) {
             add_to(axes, &mut stmt.op);
         }
         shift = translation(&stmt.op).filter(|_| stmt.skip.is_none());
         let said = match stmt.skip {
             Some(_) => Err("that can be skipped"),
-            None if caps.frames => as_chain(&stmt.op, used, &mut held),
+            None if caps.frames.chain => as_chain(&stmt.op, used, &mut held),
             None => as_slots(&stmt.op, used, caps, anew),
         };
         anew = matches!(&stmt.op, Op::SetFrame(frame) if !frame.added && is_translation(&frame.step));
@@ -243,7 +243,7 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Resul
     });
     match refused {
         Some(refused) => Err(refused),
-        None if caps.frames => Ok(()),
+        None if caps.frames.chain => Ok(()),
         None => placed(body),
     }
 }
@@ -319,8 +319,8 @@ fn set(added: bool, step: FrameStep) -> Op {
 /// A step of a chain as slots: a shift of all axes that are shifted anywhere, and a rotation about its zero.
 fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'static str> {
     let shifts = used.shifted.contains(&true);
-    let origin = !caps.local_shift;
-    if shifts && origin && !caps.stated_shift || used.turns && !caps.rotation {
+    let origin = !caps.frames.local_shift;
+    if shifts && origin && !caps.frames.stated_shift || used.turns && !caps.frames.rotation {
         return Err("in another form than the target has");
     }
     let zero = |axis: usize| Expr::Num(Num::int(0, if axis < 3 { Unit::Mm } else { Unit::Degree }));
@@ -342,7 +342,7 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'
         op if caps.says_frame(op) => ops.push(op.clone()),
         Op::SetSlot(slot) => match &**slot {
             Slot::Shift { origin, axes }
-                if used.shift().is_some() && (caps.local_shift || caps.stated_shift) =>
+                if used.shift().is_some() && (caps.frames.local_shift || caps.frames.stated_shift) =>
             {
                 let axes = axes.clone();
                 ops.push(Op::SetSlot(Box::new(Slot::Shift { origin: !origin, axes })));

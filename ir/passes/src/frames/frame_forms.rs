@@ -63,10 +63,10 @@ pub(crate) fn as_slots(chain: &Chain, now: &Frames, caps: &Caps, decimals: u8, u
             .chain(slots.mirror.iter().flatten().copied());
         let whole = lengths.all(|nanos| rounded(nanos, decimals, unit).nanos(false) == Some(nanos));
         whole
-            && (slots.local == [0; AXES] || caps.local_shift || caps.stated_shift)
-            && (slots.rotation.is_none() || caps.rotation)
-            && (slots.scale.is_none() || caps.scale)
-            && (slots.mirror == [None; 3] || caps.mirror)
+            && (slots.local == [0; AXES] || caps.frames.local_shift || caps.frames.stated_shift)
+            && (slots.rotation.is_none() || caps.frames.rotation)
+            && (slots.scale.is_none() || caps.frames.scale)
+            && (slots.mirror == [None; 3] || caps.frames.mirror)
             && same(&slots.chain(), chain)
     };
     let t = *chain.shift();
@@ -206,7 +206,7 @@ pub(crate) fn between(before: &Frames, after: &Frames, caps: &Caps, unit: Unit) 
             let (from, to) = (before.local[axis as usize], after.local[axis as usize]);
             (from != to).then(|| length(to, axis))
         });
-        ops.push(slot(Slot::Shift { origin: !caps.local_shift, axes: Box::new(axes) }));
+        ops.push(slot(Slot::Shift { origin: !caps.frames.local_shift, axes: Box::new(axes) }));
     }
     const LINEAR: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
     if mirror && after.mirror != [None; 3] {

@@ -35,8 +35,8 @@ pub(crate) const PASS: Pass = Pass::parametric(
 
 /// Whether a target says cuts in machine coordinates in its work offsets.
 pub(crate) fn in_work(caps: &Caps) -> bool {
-    caps.machine_rapid
-        && caps.computes.as_ref().is_some_and(|there| asks(there, System::ExternalOffset(Axis::X)))
+    caps.machine.rapid
+        && caps.flow.computes.as_ref().is_some_and(|there| asks(there, System::ExternalOffset(Axis::X)))
 }
 
 /// Whether straight blocks have such a cut, which a target of these capabilities computes.
@@ -59,7 +59,7 @@ fn asks(there: &Computes, system: System) -> bool {
 /// # Errors
 /// Why that cannot be said.
 pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16), &'static str> {
-    let there = caps.computes.as_deref().filter(|_| in_work(caps));
+    let there = caps.flow.computes.as_deref().filter(|_| in_work(caps));
     let there = there.ok_or("a cut in machine coordinates")?;
     if has_frame(at) {
         return Err("a cut in machine coordinates under a frame of the program");
@@ -186,10 +186,10 @@ fn less(value: &Expr) -> Option<(Expr, System)> {
 /// Has words from which the offsets in force are taken off say the place of the machine, for a target that can cut there
 /// and cannot be asked for the common offset. `entry` is what holds where the program begins.
 pub fn read(program: &mut Program, entry: &Tracker, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let asked = caps.computes.as_ref().is_some_and(|there| asks(there, System::ExternalOffset(Axis::X)));
+    let asked = caps.flow.computes.as_ref().is_some_and(|there| asks(there, System::ExternalOffset(Axis::X)));
     if asked
-        || caps.machine_rapid
-        || !caps.machine_coordinates
+        || caps.machine.rapid
+        || !caps.machine.coordinates
         || !program.procedures.iter().any(|p| any(&p.body))
     {
         return;

@@ -125,10 +125,10 @@ fn take(
         length_again(&mut stmt, state, made);
     }
     match &stmt.op {
-        Op::Probe(probe) if !caps.probes[Caps::probe(*probe)] => {
+        Op::Probe(probe) if !caps.moves.probes[Caps::probe(*probe)] => {
             let what = match (probe.away, probe.error) {
-                _ if caps.probes == [false; 4] => "a probing move",
-                (_, true) if caps.probes[Caps::probe(Probe { error: false, ..*probe })] => {
+                _ if caps.moves.probes == [false; 4] => "a probing move",
+                (_, true) if caps.moves.probes[Caps::probe(Probe { error: false, ..*probe })] => {
                     "a probing move with an error at the end of its way"
                 }
                 (true, _) => "a probing move away from a contact",
@@ -136,11 +136,11 @@ fn take(
             };
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
-        Op::Detour(Detour::OneSide) if !caps.detours[Detour::OneSide as usize] => {
+        Op::Detour(Detour::OneSide) if !caps.moves.detours[Detour::OneSide as usize] => {
             let what = "positioning from one side: how far beyond is the machine's".into();
             diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
         }
-        Op::Detour(Detour::Intermediate) if !caps.detours[Detour::Intermediate as usize] => {
+        Op::Detour(Detour::Intermediate) if !caps.moves.detours[Detour::Intermediate as usize] => {
             walk.step(&stmt);
             state.intermediate = Some(stmt);
             return;
@@ -150,9 +150,7 @@ fn take(
                 stmt = by_intermediate(detour, m, walk, stmt.clone(), made, diags);
             }
         }
-        Op::UseMachineCoordinates { length }
-            if caps.machine_rapid || caps.machine_length.is_some_and(|own| own != *length) =>
-        {
+        Op::UseMachineCoordinates { length } if caps.machine.rapid || !caps.machine.length.says(*length) => {
             walk.step(&stmt);
             state.machine = Some(stmt);
             return;
@@ -162,27 +160,26 @@ fn take(
             let in_force = walk.at.modes.length_offset;
             if let Some(machine) = state.machine.take() {
                 let length = matches!(machine.op, Op::UseMachineCoordinates { length: true });
-                if caps.machine_rapid && matches!(stmt.op, Op::StraightFeed(_)) {
+                if caps.machine.rapid && matches!(stmt.op, Op::StraightFeed(_)) {
                     return cut(machine, stmt, walk, state, caps, made, diags);
                 }
-                match caps.machine_length {
-                    Some(own) if own != length => {
-                        in_other_form(machine, with_z, in_force, state, made, diags);
-                    }
-                    _ => made.push(machine),
+                if caps.machine.length.says(length) {
+                    made.push(machine);
+                } else {
+                    in_other_form(machine, with_z, in_force, state, made, diags);
                 }
             }
             walk.step(&stmt);
             return made.push(stmt);
         }
         Op::GoToReference(reference) => {
-            let other =
-                !caps.references.has(reference.point) || !reference.via.is_empty() && !caps.reference_via;
+            let other = !caps.machine.references.has(reference.point)
+                || !reference.via.is_empty() && !caps.machine.reference_via;
             if other {
                 state.motion_lost |= walk.at.modes.motion.is_none();
                 return by_machine_zero(stmt.clone(), reference, walk, state, target, made, diags);
             }
-            let keeps = caps.reference_keeps_length.unwrap_or(reference.keeps_length);
+            let keeps = caps.machine.reference_length.or(reference.keeps_length);
             if reference.keeps_length && !keeps && reference.axes[Axis::Z as usize] {
                 match walk.at.modes.length_offset {
                     Some(0) => {}
@@ -235,7 +232,7 @@ fn length_again(stmt: &mut Stmt, state: &mut MachineMovesState, made: &mut Rebui
 /// Z, or along Z and then in its plane, and then the tool is turned.
 fn retracts_with_plane(body: &[Stmt], caps: &Caps) -> Vec<bool> {
     let is_plane = |op: &Op| matches!(op, Op::SetSlot(slot) if matches!(**slot, Slot::Tilt(_)));
-    if caps.tilt != TiltForm::AxisByAxis || !body.iter().any(|stmt| is_plane(&stmt.op)) {
+    if caps.frames.tilt != TiltForm::AxisByAxis || !body.iter().any(|stmt| is_plane(&stmt.op)) {
         return Vec::new();
     }
     let mut with_plane = vec![false; body.len()];
@@ -392,7 +389,7 @@ fn by_machine_zero(
         });
         return made.push(stmt);
     }
-    if !target.caps.machine_coordinates {
+    if !target.caps.machine.coordinates {
         cannot("a move to the machine's zero");
         return made.push(stmt);
     }
@@ -415,7 +412,7 @@ fn by_machine_zero(
             to.set(axis, Coord { value: Expr::Num(zero), distance: Fact::Known(Distance::Absolute) });
         }
     }
-    let own = target.caps.machine_length.unwrap_or(false);
+    let own = target.caps.machine.length.or(false);
     let machine = Stmt { op: Op::UseMachineCoordinates { length: false }, ..block.clone() };
     if own {
         in_other_form(machine, with_z, in_force, state, made, diags);

@@ -35,7 +35,7 @@ const EXACT: u8 = 9;
 
 /// The form that the target has not, and the one that it has.
 fn forms(caps: &Caps) -> Option<[DataMode; 2]> {
-    match caps.offset_data {
+    match caps.frames.offset_data {
         [_, true, false] => Some([DataMode::Here, DataMode::Add]),
         [_, false, true] => Some([DataMode::Add, DataMode::Here]),
         [_, true, true] | [_, false, false] => None,

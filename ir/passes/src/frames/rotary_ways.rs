@@ -39,7 +39,7 @@ pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags
 
 /// The same for one piece of a body, which ends with a block.
 pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
-    if target.caps.rotary_ways {
+    if target.caps.moves.rotary_ways {
         return;
     }
     let mut waiting: Option<(Stmt, [Option<RotaryWay>; 3])> = None;

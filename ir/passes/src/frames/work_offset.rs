@@ -122,7 +122,7 @@ pub(crate) fn over(
     diags: &mut Vec<Diagnostic>,
 ) {
     state.only = state.only.or(assumed.work_offset);
-    let names = target.caps.work_offsets;
+    let names = target.caps.frames.work_offsets;
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
         state.refuse_if_used(&stmt.op, diags);
         if matches!(stmt.op, Op::SetOriginOffsets(_) | Op::ProgramEnd | Op::BeginAgain) && stmt.skip.is_none()
@@ -131,7 +131,7 @@ pub(crate) fn over(
         }
         let Op::SetOriginOffsets(number) = stmt.op else { return made.push(stmt) };
         if names > 0 {
-            if (number > 0 || target.caps.work_offsets_off) && number <= names {
+            if (number > 0 || target.caps.frames.work_offsets_off) && number <= names {
                 return made.push(stmt);
             }
             if stmt.skip.is_some() {

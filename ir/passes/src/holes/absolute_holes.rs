@@ -22,7 +22,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| p.needs(CYCLE) && !l.target.caps.incremental_cycles,
+        |l, p| p.needs(CYCLE) && !l.target.caps.holes.incremental,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
     parametric: None,
@@ -35,7 +35,7 @@ pub(crate) const ALIKE: Pass = Pass {
     alone: None,
     step: Step::at(
         Moment::Wording,
-        |l, p| p.needs(CYCLE) && l.target.caps.incremental_cycles && l.target.caps.cycles_measured_anew,
+        |l, p| p.needs(CYCLE) && l.target.caps.holes.incremental && l.target.caps.holes.measured_anew,
         |_, p| alike(p.stmts, &mut p.start.clone(), p.diags),
     ),
     parametric: None,

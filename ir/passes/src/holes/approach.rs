@@ -88,7 +88,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 
 /// The same for one body.
 pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
-    let Some(way) = target.caps.approach else { return };
+    let Some(way) = target.caps.holes.approach else { return };
     let mut i = 0;
     let in_force = walk.at.cycle.as_ref();
     let mut other_way = in_force.is_some_and(|in_force| in_force.cycle.approach != way);
@@ -165,7 +165,7 @@ fn first_leg(
     target: &Target,
 ) -> Option<Leg> {
     let in_force = walk.at.cycle.as_ref()?;
-    let way = target.caps.approach?;
+    let way = target.caps.holes.approach?;
     if length_decides(walk, cycle.approach, way) {
         return None;
     }

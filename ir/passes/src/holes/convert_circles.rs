@@ -6,7 +6,7 @@
 
 use crate::holes::expand_patterns;
 use crate::{Target, each_body};
-use ncc_ir::caps::Caps;
+use ncc_ir::caps::{Caps, CircleStart, HoleCaps};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
@@ -29,17 +29,18 @@ fn convert(
     diags: &mut Vec<Diagnostic>,
 ) {
     // A target that can say every pattern, but circles in one form only.
-    let caps = Caps {
-        circle_pattern: true,
-        circle_polar: Some(polar),
-        line_pattern: true,
-        list_pattern: u32::MAX,
-        grid_pattern: u32::MAX,
+    let holes = HoleCaps {
+        circles: true,
+        circle_start: CircleStart::only(polar),
+        lines: true,
+        list_upto: u32::MAX,
+        grid_upto: u32::MAX,
         pattern_start: true,
         pattern_angle: true,
         pattern_here: true,
-        ..Caps::default()
+        ..HoleCaps::default()
     };
+    let caps = Caps { holes, ..Caps::default() };
     let target = Target { caps, ..target.clone() };
     each_body(program, entry, |body, walk| expand_patterns::reform(body, walk, &target, diags));
 }

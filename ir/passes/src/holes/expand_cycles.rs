@@ -28,7 +28,7 @@ use crate::support::write::{
 };
 use crate::{Target, each_body};
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, Lift};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
@@ -321,7 +321,7 @@ pub(crate) fn sayable(
         return false;
     }
     let kind = cycle.kind.name();
-    let cap = |has: fn(&CycleCap) -> bool| caps.cycles.iter().any(|c| c.kind == kind && has(c));
+    let cap = |has: fn(&CycleCap) -> bool| caps.holes.cycles.iter().any(|c| c.kind == kind && has(c));
     let (dwell, details) = match &cycle.kind {
         CycleKind::Drill => (false, true),
         CycleKind::DrillDwell { .. } => (true, true),
@@ -332,8 +332,8 @@ pub(crate) fn sayable(
         }
         CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
             let strokes = first.is_some() && less.is_none() || pause.is_some();
-            let rapid = cap(|c| c.lift_at_feed != Some(true));
-            let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
+            let rapid = cap(|c| c.lift != Lift::Feed);
+            let way = if *lift_at_feed { cap(|c| c.lift != Lift::Rapid) } else { rapid };
             let shrinks = less.is_none() || cap(|c| c.shrinks);
             (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
         }
@@ -344,16 +344,16 @@ pub(crate) fn sayable(
             let turns = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
             (
                 tap.dwell.is_some() || tap.back.is_some(),
-                driven(caps, cycle) && caps.cycles.iter().any(|c| c.kind == kind && turns(c)),
+                driven(caps, cycle) && caps.holes.cycles.iter().any(|c| c.kind == kind && turns(c)),
             )
         }
         CycleKind::FineBore(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
         CycleKind::BoreStop(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
     };
-    if !details || caps.return_planes.is_some_and(|p| p != cycle.return_plane.is_some()) {
+    if !details || !caps.holes.returns.says(cycle.return_plane.is_some()) {
         return false;
     }
-    let mut rows = caps.cycles.iter().filter(|c| c.kind == kind && (c.dwell || !dwell));
+    let mut rows = caps.holes.cycles.iter().filter(|c| c.kind == kind && (c.dwell || !dwell));
     if cycle.return_plane.is_some() {
         return rows.any(|c| c.ends_feed(&cycle.kind, None));
     }
@@ -374,7 +374,7 @@ pub(crate) fn sayable(
 /// Whether the target says what a cycle does with the spindle in the way that it does it.
 fn driven(caps: &Caps, cycle: &Cycle) -> bool {
     let kind = cycle.kind.name();
-    caps.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
+    caps.holes.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
 }
 
 /// Whether the target can say how a hole is pecked.
@@ -394,7 +394,7 @@ fn must_expand(
     diags: &mut Vec<Diagnostic>,
 ) -> bool {
     let cycle = &in_force.cycle;
-    let same_way = target.caps.approach.is_none_or(|way| is_one_way(walk, in_force, way));
+    let same_way = target.caps.holes.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
 

@@ -132,7 +132,7 @@ fn forms(walk: &Walk, pattern: &Pattern, target: &Target) -> Option<Vec<Pattern>
     if target.caps.flat {
         return None;
     }
-    let Some(plane) = plane(walk) else { return target.caps.repeats.then(as_it_is) };
+    let Some(plane) = plane(walk) else { return target.caps.flow.repeats.then(as_it_is) };
     pattern_forms::fit(walk, pattern, plane, target)
 }
 

@@ -10,7 +10,7 @@ use crate::holes::expand_patterns::MOST_HOLES;
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute, rounded};
 use ncc_ir::canon::{Axis, Plane};
-use ncc_ir::caps::Caps;
+use ncc_ir::caps::{Caps, CircleStart, GridWay};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, POW10, Unit};
 use ncc_ir::geometry::places::{Places, Step};
@@ -70,18 +70,18 @@ impl Here<'_> {
     fn says(&self, pattern: &Pattern) -> bool {
         let caps = self.caps;
         let starts = |start: &Option<[Coord; 2]>| match start {
-            Some(_) => caps.pattern_start,
-            None => caps.pattern_here,
+            Some(_) => caps.holes.pattern_start,
+            None => caps.holes.pattern_here,
         };
         // A control that states where a pattern begins also counts its holes and ways.
-        let counts = |n: u32| n > 0 || caps.pattern_here;
+        let counts = |n: u32| n > 0 || caps.holes.pattern_here;
         match pattern {
             Pattern::Circle { centre, first, step, count } => {
                 let polar = matches!(first, First::Polar { .. });
-                if !caps.circle_pattern || !counts(*count) || caps.circle_polar.is_some_and(|p| p != polar) {
+                if !caps.holes.circles || !counts(*count) || !caps.holes.circle_start.says(polar) {
                     return false;
                 }
-                if caps.circle_centre_at_zero_only {
+                if caps.holes.centre_at_zero_only {
                     let here = self.stands();
                     let centre = match centre {
                         None => here,
@@ -90,24 +90,25 @@ impl Here<'_> {
                     return here == [Some(0); 2] && centre == [Some(0); 2];
                 }
                 let has_way = match first {
-                    _ if caps.pattern_here => true,
+                    _ if caps.holes.pattern_here => true,
                     First::At(_) => *count <= 1 || !self.is_zero(step),
                     First::Polar { radius, .. } => {
                         let positive = radius.literal().is_none_or(|n| n.mantissa > 0);
                         (*count <= 1 || !self.is_zero(step)) && positive
                     }
                 };
-                (centre.is_some() || caps.pattern_here) && has_way
+                (centre.is_some() || caps.holes.pattern_here) && has_way
             }
             Pattern::Line { start, offset, pitch, count, .. } => {
-                let signs =
-                    caps.pattern_here || *count <= 1 || self.is_positive(pitch) && !self.is_negative(offset);
-                caps.line_pattern && counts(*count) && starts(start) && signs && self.in_order(pattern)
+                let signs = caps.holes.pattern_here
+                    || *count <= 1
+                    || self.is_positive(pitch) && !self.is_negative(offset);
+                caps.holes.lines && counts(*count) && starts(start) && signs && self.in_order(pattern)
             }
             Pattern::List(points) => {
                 let complete = |p: &Point| self.axes.iter().all(|axis| p.get(*axis).is_some());
-                points.len() <= caps.list_pattern as usize
-                    && (caps.pattern_here || !points.is_empty() && points.iter().all(complete))
+                points.len() <= caps.holes.list_upto as usize
+                    && (caps.holes.pattern_here || !points.is_empty() && points.iter().all(complete))
             }
             Pattern::Grid { start, columns, rows, serpentine } => {
                 let [first, second] = self.axes;
@@ -116,12 +117,12 @@ impl Here<'_> {
                     return false;
                 }
                 let straight = columns.count <= 1 || rows.count <= 1;
-                let way = straight || caps.grid_serpentine.is_none_or(|s| s == *serpentine);
-                let axes = caps.pattern_angle || along(columns, first) && along(rows, second);
-                let upto = columns.count.max(rows.count) <= caps.grid_pattern;
+                let way = straight || caps.holes.grid_way.says(*serpentine);
+                let axes = caps.holes.pattern_angle || along(columns, first) && along(rows, second);
+                let upto = columns.count.max(rows.count) <= caps.holes.grid_upto;
                 way && axes
                     && upto
-                    && (!caps.grid_square || self.is_square(columns, rows))
+                    && (!caps.holes.grid_square || self.is_square(columns, rows))
                     && self.in_order(pattern)
             }
         }
@@ -153,7 +154,7 @@ impl Here<'_> {
 
     /// Whether the control goes through the holes in the pattern's order.
     fn in_order(&self, pattern: &Pattern) -> bool {
-        if !self.caps.order_by_position {
+        if !self.caps.holes.order_by_position {
             return true;
         }
         let Some(places) = self.walk.at.places(pattern) else { return false };
@@ -192,14 +193,14 @@ impl Here<'_> {
     /// The ways to say where a pattern begins.
     fn starts(&self, said: Option<&[Coord; 2]>, place: [Nanos; 2]) -> Vec<Option<[Coord; 2]>> {
         let mut starts = Vec::with_capacity(2);
-        if self.caps.pattern_start || self.caps.circle_polar.is_some() {
+        if self.caps.holes.pattern_start || self.caps.holes.circle_start != CircleStart::Either {
             let stands = || self.words(place);
             // An increment would count from where the form before has left the tool.
             let in_force = self.walk.at.modes.distance;
             let said = said.filter(|words| words.iter().all(|w| is_absolute(w, in_force)));
             starts.push(Some(said.cloned().unwrap_or_else(stands)));
         }
-        if self.caps.pattern_here && self.stands() == place.map(Some) {
+        if self.caps.holes.pattern_here && self.stands() == place.map(Some) {
             starts.push(None);
         }
         starts
@@ -300,7 +301,7 @@ impl Here<'_> {
                     (row(along(angle), pitch, count), row(along(angle + QUARTER), 0, 1))
                 }
             };
-            let serpentine = self.caps.grid_serpentine.unwrap_or(false);
+            let serpentine = self.caps.holes.grid_way == GridWay::Serpentine;
             forms.push(Pattern::Grid { start, columns, rows, serpentine });
         }
         forms
@@ -325,12 +326,12 @@ impl Here<'_> {
 
     /// A list of positions as lists of as many as the target takes.
     fn lists(&self, points: &[Point], places: Option<&Places>) -> Option<Vec<Pattern>> {
-        let upto = self.caps.list_pattern as usize;
+        let upto = self.caps.holes.list_upto as usize;
         if upto == 0 || points.is_empty() {
             return None;
         }
         let mut points = points.to_vec();
-        if !self.caps.pattern_here {
+        if !self.caps.holes.pattern_here {
             for (k, point) in points.iter_mut().enumerate() {
                 for (i, axis) in self.axes.into_iter().enumerate() {
                     if point.get(axis).is_none() {

@@ -14,6 +14,7 @@ use crate::support::walk::Walk;
 use crate::support::write::{at, rebuild};
 use crate::{Target, each_body};
 use ncc_ir::canon::{Distance, Fact, ReturnLevel};
+use ncc_ir::caps::ReturnsTo;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::Cycle;
@@ -41,10 +42,10 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 
 /// The same for one piece of a body.
 pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
-    match target.caps.return_planes {
-        Some(true) => by_planes(body, walk),
-        Some(false) => by_levels(body, walk, target, diags),
-        None => {}
+    match target.caps.holes.returns {
+        ReturnsTo::Plane => by_planes(body, walk),
+        ReturnsTo::Level => by_levels(body, walk, target, diags),
+        ReturnsTo::Either => {}
     }
 }
 

@@ -80,7 +80,7 @@ pub(crate) fn with_spindle(
                 }
                 return Ok(());
             }
-            let threads = target.caps.threads;
+            let threads = target.caps.moves.threads;
             let says = if tap.chuck { threads.chuck } else { threads.turned || threads.back };
             if !threads.any && !says {
                 let what = match tap.settle == tap.dwell && tap.back.is_none() {
@@ -217,7 +217,7 @@ fn own_tap(
             && c.turns.contains(&turn)
             && c.returns.contains(&ReturnLevel::Retract)
     };
-    target.caps.cycles.iter().any(says).then_some(())?;
+    target.caps.holes.cycles.iter().any(says).then_some(())?;
     Some(Cycle {
         kind: kind.clone(),
         plane: cycle.plane,
@@ -226,7 +226,7 @@ fn own_tap(
         return_level: Fact::Known(ReturnLevel::Retract),
         return_plane: None,
         reference: None,
-        approach: target.caps.approach.unwrap_or(cycle.approach),
+        approach: target.caps.holes.approach.unwrap_or(cycle.approach),
         feed: None,
     })
 }

@@ -40,7 +40,7 @@ pub(crate) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &m
         walk.step(stmt);
         let Op::StartCycle(cycle) = &mut stmt.op else { continue };
         let kind = cycle.kind.name();
-        let states = target.caps.cycles.iter().any(|c| c.kind == kind && c.clearance && !c.parameter);
+        let states = target.caps.holes.cycles.iter().any(|c| c.kind == kind && c.clearance && !c.parameter);
         if !states {
             continue;
         }

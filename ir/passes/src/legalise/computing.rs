@@ -38,7 +38,7 @@ impl Legaliser {
         let mut bare = program.clone();
         let any =
             bare.procedures.iter_mut().map(|p| known_facts::positions(&mut p.body)).fold(false, |a, b| a | b);
-        if any && self.target.caps.computes.as_ref().is_some_and(|there| !there.restates) {
+        if any && self.target.caps.flow.computes.as_ref().is_some_and(|there| !there.restates) {
             self.stretches(&mut bare, known, &mut found);
             if found.iter().all(|d| d.fault.gravity() != Gravity::Error) {
                 *program = bare;

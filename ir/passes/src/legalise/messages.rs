@@ -28,7 +28,7 @@ fn stops_first(stmts: &[Stmt]) -> Option<bool> {
 /// stop or in the one before it, in the characters that it shows. One without a text, which takes another back, is none
 /// where none stays.
 pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let alarms = caps.computes.as_ref().and_then(|there| there.alarms.as_ref());
+    let alarms = caps.flow.computes.as_ref().and_then(|there| there.alarms.as_ref());
     for at in 0..stmts.len() {
         let (before, behind) = stmts.split_at_mut(at + 1);
         let Some(stmt) = before.last_mut() else { continue };
@@ -36,7 +36,7 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
         let stops = behind.first().is_some_and(|next| next.op == Op::ProgramStop && next.skip == stmt.skip);
         if text.is_empty() {
             stmt.op = Op::Blank;
-        } else if caps.stop_messages && stops {
+        } else if caps.modes.stop_messages && stops {
             if let Some(shown) = alarms.map(|alarms| alarms.shown(text)).filter(|shown| shown != text) {
                 *text = shown;
                 diags.push(Diagnostic::new(Fault::CommentReformatted, stmt.span));
@@ -52,15 +52,15 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
 /// Messages with values become comments where the target shows no message while the program runs. What they read has no
 /// effect on the cut.
 pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let says = caps.computes.as_ref().is_some_and(|there| there.has(Said::Values));
-    if !caps.messages && !says {
+    let says = caps.flow.computes.as_ref().is_some_and(|there| there.has(Said::Values));
+    if !caps.modes.messages && !says {
         program.procedures.iter_mut().for_each(|procedure| values(&mut procedure.body, diags));
     }
 }
 
 /// Text for devices becomes comments where the target writes to none.
 pub fn leave_out_output(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    if !caps.computes.as_ref().is_some_and(|there| there.has(Said::Output)) {
+    if !caps.flow.computes.as_ref().is_some_and(|there| there.has(Said::Output)) {
         program.procedures.iter_mut().for_each(|procedure| output(&mut procedure.body, diags));
     }
 }

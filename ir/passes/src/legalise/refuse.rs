@@ -30,7 +30,7 @@ impl Legaliser {
         let caps = &self.target.caps;
         for stmt in &mut *stmts {
             walk.enter(stmt.skip);
-            if !caps.offset_turns {
+            if !caps.frames.offset_turns {
                 work_offset::leave_straight(&mut stmt.op);
             }
             if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &self.source_arcs) {
@@ -46,16 +46,16 @@ impl Legaliser {
                 diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
             };
             match &stmt.op {
-                Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
-                Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
-                Op::Goto(_) if !caps.repeats => cannot("a jump"),
-                Op::Label(_) if !caps.repeats && !caps.repeat_blocks => cannot("a jump"),
-                Op::Call(_) if !caps.calls => cannot("a call"),
-                Op::Return if !caps.calls => cannot("a return"),
-                Op::UseMachineCoordinates { .. } if !caps.machine_coordinates => {
+                Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot("a helix"),
+                Op::Control(_) if !caps.flow.repeats => cannot("control of the program's flow"),
+                Op::Goto(_) if !caps.flow.repeats => cannot("a jump"),
+                Op::Label(_) if !caps.flow.repeats && !caps.flow.repeat_blocks => cannot("a jump"),
+                Op::Call(_) if !caps.flow.calls => cannot("a call"),
+                Op::Return if !caps.flow.calls => cannot("a return"),
+                Op::UseMachineCoordinates { .. } if !caps.machine.coordinates => {
                     cannot("a move in machine coordinates");
                 }
-                Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|l| l != *length) => {
+                Op::UseMachineCoordinates { length } if !caps.machine.length.says(*length) => {
                     cannot(if *length {
                         "a move in machine coordinates that is measured with the tool's length"
                     } else {
@@ -64,17 +64,17 @@ impl Legaliser {
                 }
                 Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
                 Op::SetData(data) => match &**data {
-                    Data::Offset { turn: Some(_), .. } if !caps.offset_turns => {
+                    Data::Offset { turn: Some(_), .. } if !caps.frames.offset_turns => {
                         cannot("rotation of a work offset");
                     }
-                    Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
+                    Data::Offset { mode, .. } if caps.frames.offset_data[*mode as usize] => {}
                     Data::Tool { .. } | Data::Measured { .. } => {
                         if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
                             cannot(what);
                         }
                     }
-                    Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
-                    Data::ToolInSpindle(_) if caps.tool_number => {}
+                    Data::Position(place) if caps.machine.stored_positions[usize::from(*place == 2)] => {}
+                    Data::ToolInSpindle(_) if caps.tools.number => {}
                     Data::Position(_) => cannot("storing where the axes stand"),
                     Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
                     Data::Offset { .. } => cannot("this value in the control's tables"),
@@ -83,7 +83,7 @@ impl Legaliser {
             }
             walk.step(stmt);
         }
-        if !caps.messages {
+        if !caps.modes.messages {
             messages::drop_messages(stmts, caps, diags);
         }
     }

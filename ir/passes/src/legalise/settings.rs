@@ -24,14 +24,14 @@ impl Legaliser {
 
     /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
     pub fn set_source_refuses(&mut self, source: Refused) {
-        self.compensated.refused = self.target.caps.refused_compensated.without(source);
+        self.compensated.refused = self.target.caps.compensation.refused.without(source);
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
     /// another unit than its lengths.
     pub fn set_measures(&mut self, own: bool) {
         let caps = &self.target.caps;
-        let has = caps.word_distance && caps.feed_apart;
+        let has = caps.modes.word_distance && caps.modes.feed_apart;
         self.measures = own && !has;
         self.follow |= self.measures;
     }
@@ -58,9 +58,9 @@ impl Legaliser {
         (self.target.other_control, self.target.corners_bounded) = (true, bounded);
         self.lacks |= ORIENT;
         let caps = &mut self.target.caps;
-        if caps.repeat_by_numbers && !caps.repeat_count_known {
+        if caps.flow.repeat_by_numbers && !caps.flow.repeat_count_known {
             // A pass more or less cuts another part: written out, it is the same on every machine.
-            (caps.repeat_blocks, caps.repeat_by_numbers) = (false, false);
+            (caps.flow.repeat_blocks, caps.flow.repeat_by_numbers) = (false, false);
             self.lacks |= CONTROL;
         }
         self.lacks |= RADIUS | TOOL_AXIS;
@@ -68,7 +68,7 @@ impl Legaliser {
 
     /// Which arcs the source's control accepts: where the target's has another rule, each arc is judged by it.
     pub fn set_source_arcs(&mut self, rule: ArcRule) {
-        self.source_arcs = (rule != self.target.caps.arcs).then_some(rule);
+        self.source_arcs = (rule != self.target.caps.arcs.rule).then_some(rule);
         if self.source_arcs.is_some() {
             self.lacks |= ARC;
             self.follow = true;
@@ -80,8 +80,9 @@ impl Legaliser {
     pub fn set_source_behaviours(&mut self, source: Behaviours, by_hand: bool) {
         let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
         let caps = &self.target.caps;
-        self.walk.at.z_lost_at_change = up(&source) || up(&caps.behaviours) || by_hand || caps.change_by_hand;
-        self.target.caps.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
+        self.walk.at.z_lost_at_change =
+            up(&source) || up(&caps.behaviours) || by_hand || caps.tools.change_by_hand;
+        self.target.caps.tools.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
         self.target.source = source;
         self.feed_again = feed_unit::says_again(&self.target);
         self.times_differ = feed_time::differs(&self.target);

@@ -57,7 +57,7 @@ impl Legaliser {
             false if !self.calls_under_expanded(rest) => 0,
             false => {
                 let mut own = rest.clone();
-                let inherits = self.target.caps.inherits_motion;
+                let inherits = self.target.caps.flow.inherits_motion;
                 specialise_procedures::over(&mut own, &self.walk, inherits, &mut Vec::new());
                 if self.calls_under_expanded(&own) { 2 } else { 1 }
             }
@@ -88,7 +88,7 @@ impl Legaliser {
     /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
         let (mut given, mut told) = (rest.clone(), Vec::new());
-        let inherits = self.target.caps.inherits_motion;
+        let inherits = self.target.caps.flow.inherits_motion;
         specialise_procedures::over(&mut given, &self.walk, inherits, &mut told);
         ran_whole("specialise-procedures", &given);
         let subs = given.procedures.iter().skip(1);
@@ -128,12 +128,12 @@ impl Legaliser {
         match way {
             Subprograms::Keep => {}
             Subprograms::Specialise => {
-                let inherits = self.target.caps.inherits_motion;
+                let inherits = self.target.caps.flow.inherits_motion;
                 specialise_procedures::over(rest, &self.walk, inherits, diags);
                 ran_whole("specialise-procedures", rest);
             }
             Subprograms::Expand => {
-                expand_repeats::in_procedures(rest, self.target.caps.repeat_blocks, diags);
+                expand_repeats::in_procedures(rest, self.target.caps.flow.repeat_blocks, diags);
                 ran_whole("expand-repeats", rest);
                 // The walk is needed again for the other passes.
                 expand_calls::over(rest, &mut self.walk.clone(), diags);
@@ -177,7 +177,7 @@ impl Legaliser {
 
     /// Refuses subprograms that leave a cycle in force to their callers, where the target's cannot.
     pub(super) fn refuse_cycles_left(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
-        if !self.target.caps.cycle_ends_with_call {
+        if !self.target.caps.holes.end_with_call {
             return;
         }
         let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
@@ -219,15 +219,16 @@ impl Legaliser {
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
     /// is known only where they are written out.
     fn repeats_in_the_way(&self, program: &Program) -> bool {
-        if self.lacks == 0 || !self.target.caps.repeat_blocks || !expand_repeats::repeats_blocks(program) {
+        if self.lacks == 0 || !self.target.caps.flow.repeat_blocks || !expand_repeats::repeats_blocks(program)
+        {
             return false;
         }
         let caps = &self.target.caps;
         let moved = |p: &Procedure| {
-            caps.centres_from_zero && repeat_ends::moves_arcs(&p.body)
-                || (!caps.repeat_by_numbers || repeat_ends::changes_cycle(&p.body))
+            caps.arcs.centres_from_zero && repeat_ends::moves_arcs(&p.body)
+                || (!caps.flow.repeat_by_numbers || repeat_ends::changes_cycle(&p.body))
                     && repeat_ends::under_another_cycle(&p.body)
-                || !caps.repeat_by_numbers && repeat_ends::is_one_block_of_several(&p.body)
+                || !caps.flow.repeat_by_numbers && repeat_ends::is_one_block_of_several(&p.body)
         };
         if program.procedures.iter().any(moved) {
             return true;
@@ -247,16 +248,16 @@ impl Legaliser {
             return false;
         }
         let walk = Walk::default();
-        let planes = self.target.caps.return_planes;
+        let planes = self.target.caps.holes.returns;
         let bodies = || program.procedures.iter().enumerate();
         let stands = |at: usize| if at == 0 { self.walk.clone() } else { Walk::new(Tracker::unknown()) };
         bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
-            Op::StartCycle(cycle) if planes.is_some_and(|p| p != cycle.return_plane.is_some()) => {
+            Op::StartCycle(cycle) if !planes.says(cycle.return_plane.is_some()) => {
                 let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
                 !return_plane::mends(body, &stands(at), &self.target)
             }
             Op::StartCycle(cycle) => {
-                let other = self.target.caps.approach.is_some_and(|a| a != cycle.approach);
+                let other = self.target.caps.holes.approach.is_some_and(|a| a != cycle.approach);
                 let mut nothing = Vec::new();
                 let says = expand_cycles::sayable(&walk, cycle, &self.target, stmt.span, &mut nothing);
                 other || !says || !nothing.is_empty()

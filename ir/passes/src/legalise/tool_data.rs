@@ -8,19 +8,19 @@ use ncc_ir::track::Tracker;
 pub(super) fn refusal(data: &Data, at: &Tracker, caps: &Caps) -> Option<&'static str> {
     match data {
         Data::Tool { which, added, .. }
-            if !caps.tool_data[*which as usize] || *added && !caps.tool_data_added =>
+            if !caps.tools.data[*which as usize] || *added && !caps.tools.data_added =>
         {
             Some("this value in the control's tables")
         }
         // Where another entry is surely in force, nothing of it can stay or change.
         Data::Tool { entry, which, kept: true, .. }
             if which.is_offset()
-                && !caps.tool_data_kept
+                && !caps.tools.data_kept
                 && at.modes.length_offset.is_none_or(|own| own == *entry) =>
         {
             Some("a value of the tool in use that counts when it is called up anew")
         }
-        Data::Measured { offset, .. } if !caps.measures_tools[usize::from(offset.is_some())] => {
+        Data::Measured { offset, .. } if !caps.tools.measured[usize::from(offset.is_some())] => {
             Some("a tool measured where the axes stand")
         }
         Data::Tool { .. }

@@ -43,8 +43,8 @@ pub(crate) struct AtOnceState {
 impl AtOnceState {
     /// The start of a main program: without a length, where the target's first blocks say so.
     pub(crate) fn new(caps: &Caps) -> AtOnceState {
-        let start = caps.starts_without_length;
-        AtOnceState { length: start && caps.length_at_once, start, motion: false }
+        let start = caps.tools.starts_without_length;
+        AtOnceState { length: start && caps.tools.length_at_once, start, motion: false }
     }
 
     /// Whether further statements must be looked at.
@@ -92,7 +92,7 @@ fn over_one(
 ) {
     match op {
         Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
-            state.length = target.caps.length_at_once
+            state.length = target.caps.tools.length_at_once
         }
         Op::StraightTraverse(m) | Op::StraightFeed(m) => goes(&m.to, stmt, walk, state, diags),
         Op::SynchronisedFeed(m) => goes(&m.to, stmt, walk, state, diags),
@@ -122,7 +122,7 @@ fn over_one(
             }
         }
         // A block that may be skipped leaves it open whether the motion is over.
-        Op::EndCycle => state.motion = target.caps.cycle_ends_motion && stmt.skip.is_none(),
+        Op::EndCycle => state.motion = target.caps.holes.end_motion && stmt.skip.is_none(),
         Op::SetPosition(axes) if state.length && axes[Axis::Z as usize].is_some() => {
             state.refuse_length(stmt.span, diags);
         }

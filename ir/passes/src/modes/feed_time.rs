@@ -220,7 +220,7 @@ impl FeedTimeState {
         if self.by_time.is_none() || self.mode_said {
             self.by_time = before.modes.feed_mode;
             self.mode_said = false;
-            if target.caps.feed_by_time {
+            if target.caps.modes.feed_by_time {
                 said.push(Op::SetFeedMode(FeedMode::InverseTime));
             }
         }
@@ -233,7 +233,7 @@ impl FeedTimeState {
     fn back(&mut self, stmt: &mut Stmt, before: &Tracker, target: &Target, made: &mut Rebuild) {
         let Some(mode) = self.by_time.take() else { return };
         let mut said = Vec::new();
-        if target.caps.feed_by_time && !self.mode_said {
+        if target.caps.modes.feed_by_time && !self.mode_said {
             said.push(Op::SetFeedMode(mode));
         }
         self.mode_said = false;
@@ -297,7 +297,7 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
     let feed = at.feed.and_then(|feed| feed.nanos(units == Units::Inch));
     let feed = feed.ok_or("a feed of linear and rotary axes together that is not known here")?;
     let number = feed as f64 / ONE as f64 / unit * per_minute;
-    if target.caps.feed_by_time {
+    if target.caps.modes.feed_by_time {
         return by_time(number / way, target).map(Some);
     }
     let own_way = match there {
@@ -317,7 +317,7 @@ fn is_increment(word: &ncc_ir::program::Coord, at: &Tracker) -> bool {
 /// F of a time in the target's digits, which must say it to half a per cent.
 fn by_time(per_minute: f64, target: &Target) -> Result<Num, &'static str> {
     let nanos = (per_minute * ONE as f64).round() as Nanos;
-    let num = Num::from_nanos(nanos, target.caps.feed_decimals, Unit::One);
+    let num = Num::from_nanos(nanos, target.caps.modes.feed_decimals, Unit::One);
     let said = num.nanos(false).unwrap_or(0);
     let off = (said - nanos).abs();
     match said > 0 && off.saturating_mul(200) <= nanos {

@@ -26,7 +26,7 @@ use ncc_ir::track::Tracker;
 
 /// Whether feeds are followed, because the target may forget one.
 fn follows(legaliser: &Legaliser) -> bool {
-    legaliser.target.caps.feed_ends_with_mode || legaliser.feed_again
+    legaliser.target.caps.modes.feed_ends_with_mode || legaliser.feed_again
 }
 
 /// A pass.
@@ -64,7 +64,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| l.is_measured(p) && !l.target.caps.feed_apart,
+        |l, p| l.is_measured(p) && !l.target.caps.modes.feed_apart,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
     ),
     parametric: None,
@@ -76,7 +76,7 @@ pub(crate) fn says_again(target: &Target) -> bool {
     let fact = Behaviour::FeedAtUnits;
     let (own, there) = (target.source, target.caps.behaviours);
     let open = own.is_open(fact) || there.is_open(fact);
-    target.caps.feed_again || target.other_control && open || own.get(fact) != there.get(fact)
+    target.caps.modes.feed_again || target.other_control && open || own.get(fact) != there.get(fact)
 }
 
 /// Feed in force, and whether the units have changed since it was said, or a code has ended it.
@@ -209,14 +209,14 @@ pub(crate) fn again(
         if let Op::UseLengthUnits(units) = &stmt.op {
             let known = walk.at.modes.units;
             state.units(*units, known, (mixed || known.is_some()) && walk.at.fed, target);
-            if target.caps.units_alone && walk.at.modes.units.is_some_and(|now| now != *units) {
+            if target.caps.modes.units_alone && walk.at.modes.units.is_some_and(|now| now != *units) {
                 (stmt.joined, split) = (false, true);
             }
         }
         if let Op::SetFeedMode(mode) = &stmt.op {
             state.by_time = *mode == FeedMode::InverseTime;
         }
-        if let (Op::SetFeedMode(mode), true) = (&stmt.op, target.caps.feed_ends_with_mode) {
+        if let (Op::SetFeedMode(mode), true) = (&stmt.op, target.caps.modes.feed_ends_with_mode) {
             // Another mode ends it on every control.
             let other = walk.at.modes.feed_mode.is_some_and(|now| now != *mode);
             state.ended = !other && *mode != FeedMode::InverseTime && walk.at.fed;

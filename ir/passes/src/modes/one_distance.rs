@@ -19,7 +19,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| l.is_measured(p) && !l.target.caps.word_distance,
+        |l, p| l.is_measured(p) && !l.target.caps.modes.word_distance,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
     parametric: None,

@@ -90,11 +90,11 @@ pub(crate) fn over(
                 let control = sayable(control, caps, stmt.span, state, diags);
                 state.again = None;
                 state.said = stmt.skip.is_none().then(|| control.clone());
-                let freely = control.mode == PathMode::Continuous && caps.rounds_freely;
+                let freely = control.mode == PathMode::Continuous && caps.modes.rounds_freely;
                 if freely && target.corners_bounded && state.first_time(34) {
                     diags.push(Diagnostic::new(Fault::RoundsFreely, stmt.span));
                 }
-                if caps.only_path == Some(control.mode) && !caps.says_path(control.mode) {
+                if caps.modes.only_path == Some(control.mode) && !caps.says_path(control.mode) {
                     if state.first_time(32) {
                         let path = control.mode.name().into();
                         diags.push(Diagnostic::new(Fault::AssumedPath { path }, stmt.span));
@@ -103,23 +103,25 @@ pub(crate) fn over(
                 }
                 made.push(Stmt { op: Op::SetMotionControlMode(Box::new(control)), ..stmt });
             }
-            Op::ExactStop if !caps.exact_stop && caps.says_path(PathMode::ExactStop) => match &state.said {
-                // What is computed may be something else behind it.
-                Some(control)
-                    if !arguments::computed(&Op::SetMotionControlMode(Box::new(control.clone()))) =>
-                {
-                    if control.mode != PathMode::ExactStop {
-                        state.again = Some((control.clone(), false));
+            Op::ExactStop if !caps.moves.exact_stop && caps.says_path(PathMode::ExactStop) => {
+                match &state.said {
+                    // What is computed may be something else behind it.
+                    Some(control)
+                        if !arguments::computed(&Op::SetMotionControlMode(Box::new(control.clone()))) =>
+                    {
+                        if control.mode != PathMode::ExactStop {
+                            state.again = Some((control.clone(), false));
+                        }
+                        let stop = PathControl::plain(PathMode::ExactStop);
+                        made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
                     }
-                    let stop = PathControl::plain(PathMode::ExactStop);
-                    made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
+                    _ => {
+                        let what = "an exact stop of one move, where the mode before it is not known".into();
+                        diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                        made.leave_out(stmt);
+                    }
                 }
-                _ => {
-                    let what = "an exact stop of one move, where the mode before it is not known".into();
-                    diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
-                    made.leave_out(stmt);
-                }
-            },
+            }
             Op::Advise(advice) if !caps.advises(advice.kind, advice.value) => {
                 // What F counts on arcs is compared where one is cut.
                 if advice.kind != AdviceKind::CompensatedFeed && state.first_time(advice.kind as u32) {
@@ -159,10 +161,10 @@ fn sayable(
         };
         own = PathControl::plain(plain);
     }
-    if own.rapids.is_some() && !caps.path_in_rapids {
+    if own.rapids.is_some() && !caps.modes.path_in_rapids {
         own.rapids = None;
     }
-    if let Some(merged) = own.merged.take_if(|_| !caps.path_merges)
+    if let Some(merged) = own.merged.take_if(|_| !caps.modes.path_merges)
         && own.within.as_ref() != Some(&merged)
         && state.first_time(33)
     {

@@ -4,7 +4,10 @@
 
 use ncc_exec::Seen;
 use ncc_ir::canon::ReturnLevel;
-use ncc_ir::caps::{Caps, Corners, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
+use ncc_ir::caps::{
+    Caps, CircleStart, Corners, CycleForm, GridWay, LengthThere, LengthsOf, Lift, PolarForm, Radii,
+    References, ReturnsTo, TiltForm, TipForm,
+};
 use ncc_ir::program::kinds::{conduct, miscellaneous, variables};
 use ncc_ir::program::{FrameSlot, Op, Slot, Stmt};
 
@@ -41,31 +44,31 @@ pub(crate) fn lacks(caps: &Caps) -> u32 {
     let levels = [ReturnLevel::Initial, ReturnLevel::Retract];
     let kinds = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
     let says_all = |kind: &str| {
-        let cap = caps.cycles.iter().any(|c| {
+        let cap = caps.holes.cycles.iter().any(|c| {
             c.kind == kind
                 && c.form == CycleForm::Any
                 && c.dwell
                 && c.clearance
                 && c.strokes
                 && c.feed_out
-                && c.lift_at_feed.is_none()
+                && c.lift == Lift::Either
         });
         cap && levels.iter().all(|level| caps.cycle(kind, Some(*level), true))
     };
     let cycles = kinds.into_iter().all(says_all)
-        && caps.approach.is_none()
-        && caps.incremental_cycles
-        && caps.return_planes.is_none()
+        && caps.holes.approach.is_none()
+        && caps.holes.incremental
+        && caps.holes.returns == ReturnsTo::Either
         && !caps.flat;
-    let patterns = caps.circle_pattern
-        && caps.grid_pattern == u32::MAX
-        && caps.grid_serpentine.is_none()
-        && caps.line_pattern
-        && caps.list_pattern == u32::MAX
-        && caps.circle_polar.is_none()
-        && caps.pattern_start
-        && caps.pattern_angle
-        && !caps.circle_centre_at_zero_only
+    let patterns = caps.holes.circles
+        && caps.holes.grid_upto == u32::MAX
+        && caps.holes.grid_way == GridWay::Either
+        && caps.holes.lines
+        && caps.holes.list_upto == u32::MAX
+        && caps.holes.circle_start == CircleStart::Either
+        && caps.holes.pattern_start
+        && caps.holes.pattern_angle
+        && !caps.holes.centre_at_zero_only
         && !caps.flat;
     let mut lacks = 0;
     let mut needs = |what: u32, has: bool| {
@@ -75,49 +78,53 @@ pub(crate) fn lacks(caps: &Caps) -> u32 {
     };
     needs(PATTERN, patterns);
     needs(CYCLE, cycles);
-    needs(LENGTH, !caps.offset_with_z);
-    needs(MOVE, caps.one_move_apart);
-    needs(WORK, caps.work_offsets == u16::MAX);
-    needs(SHIFT, caps.clears_shift);
-    needs(ARC, caps.helix && caps.arc_turns && caps.arc_forms);
-    needs(CONTROL, caps.repeats && caps.repeat_blocks);
-    needs(MESSAGE, caps.messages);
-    needs(SKIP, caps.skip_levels >= 10);
+    needs(LENGTH, !caps.tools.offset_with_z);
+    needs(MOVE, caps.moves.one_move_apart);
+    needs(WORK, caps.frames.work_offsets == u16::MAX);
+    needs(SHIFT, caps.frames.clears_shift);
+    needs(ARC, caps.arcs.helix && caps.arcs.turns && caps.arcs.forms);
+    needs(CONTROL, caps.flow.repeats && caps.flow.repeat_blocks);
+    needs(MESSAGE, caps.modes.messages);
+    needs(SKIP, caps.flow.skip_levels >= 10);
     needs(EVERY, !caps.flat);
-    needs(CALL, caps.calls);
-    needs(EDGE, caps.tool_edges != Some(false));
-    needs(TABLE, caps.tool_edges != Some(true) && !caps.change_by_hand);
-    needs(RADIUS, caps.radii == Radii::ALL);
-    needs(TOOL_AXIS, caps.tip == TipForm::Any && caps.tilt == TiltForm::Any);
+    needs(CALL, caps.flow.calls);
+    needs(EDGE, caps.tools.lengths_of != LengthsOf::Entries);
+    needs(TABLE, caps.tools.lengths_of != LengthsOf::Edges && !caps.tools.change_by_hand);
+    needs(RADIUS, caps.compensation.radii == Radii::ALL);
+    needs(TOOL_AXIS, caps.tools.tip == TipForm::Any && caps.frames.tilt == TiltForm::Any);
     needs(FRAME, caps.says_all_frames());
-    let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 6] && caps.tool_data_added;
+    let data = caps.frames.offset_data == [true; 3] && caps.tools.data == [true; 6] && caps.tools.data_added;
     let data = data
-        && caps.offset_turns
-        && caps.stored_positions == [true; 2]
-        && caps.tool_number
-        && caps.tool_data_kept
-        && caps.measures_tools == [true; 2]
-        && caps.stated_lengths == [true; 2];
-    let points =
-        caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
+        && caps.frames.offset_turns
+        && caps.machine.stored_positions == [true; 2]
+        && caps.tools.number
+        && caps.tools.data_kept
+        && caps.tools.measured == [true; 2]
+        && caps.tools.stated_lengths == [true; 2];
+    let points = caps.machine.references == References::ALL
+        && caps.machine.reference_via
+        && caps.machine.reference_length == LengthThere::Either;
     needs(
         MACHINE,
-        caps.probes == [true; 4]
-            && caps.detours == [true; 2]
-            && caps.machine_coordinates
-            && caps.machine_length.is_none()
+        caps.moves.probes == [true; 4]
+            && caps.moves.detours == [true; 2]
+            && caps.machine.coordinates
+            && caps.machine.length == LengthThere::Either
             && data
             && points,
     );
-    needs(THREAD, caps.threads.any);
-    needs(POLAR, caps.polar == PolarForm::Any);
-    needs(TURN, caps.rotary_ways);
-    needs(ORIENT, caps.own_stop);
-    needs(CORNER, caps.corners == Corners::ALL);
-    needs(AT_ONCE, !caps.length_at_once && !caps.starts_without_length && !caps.cycle_ends_motion);
+    needs(THREAD, caps.moves.threads.any);
+    needs(POLAR, caps.moves.polar == PolarForm::Any);
+    needs(TURN, caps.moves.rotary_ways);
+    needs(ORIENT, caps.moves.own_stop);
+    needs(CORNER, caps.moves.corners == Corners::ALL);
+    needs(AT_ONCE, !caps.tools.length_at_once && !caps.tools.starts_without_length && !caps.holes.end_motion);
     needs(
         PATH,
-        caps.exact_stop && caps.path_in_rapids && caps.path_merges && Seen::by(caps) == Seen::default(),
+        caps.moves.exact_stop
+            && caps.modes.path_in_rapids
+            && caps.modes.path_merges
+            && Seen::by(caps) == Seen::default(),
     );
     lacks
 }

@@ -159,7 +159,7 @@ pub(crate) fn over(
             made.push(stmt);
             return;
         };
-        let (original, threads) = (m.clone(), target.caps.threads);
+        let (original, threads) = (m.clone(), target.caps.moves.threads);
         let way_out = state.way_out.take();
         let ops = if threads.any {
             Ok(vec![stmt.op.clone()])
@@ -193,9 +193,9 @@ pub(crate) fn over(
 /// Whether a statement goes in and out of a thread, and the target has a cycle for it and no such move.
 pub(crate) fn is_cycle(stmt: &Stmt, target: &Target) -> bool {
     let caps = &target.caps;
-    let says = caps.threads.any || caps.threads.back;
+    let says = caps.moves.threads.any || caps.moves.threads.back;
     let thread = matches!(&stmt.op, Op::SynchronisedFeed(m) if m.back && m.turn.is_none() && !m.chuck);
-    thread && !says && caps.cycles.iter().any(|cap| cap.kind == "tap-rigid")
+    thread && !says && caps.holes.cycles.iter().any(|cap| cap.kind == "tap-rigid")
 }
 
 /// Writes threads with their way back as rigid tapping cycles, where the target has no such move. What
@@ -252,7 +252,7 @@ fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
         return_level: Fact::Known(ReturnLevel::Retract),
         return_plane: None,
         reference: None,
-        approach: target.caps.approach.unwrap_or(Approach::PlaneFirst),
+        approach: target.caps.holes.approach.unwrap_or(Approach::PlaneFirst),
         feed: None,
     })
 }

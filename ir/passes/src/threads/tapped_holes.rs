@@ -52,7 +52,7 @@ struct Thread {
 /// Whether a statement is the way into a thread, or out of it, and the target has a cycle for it and no such move.
 pub(crate) fn is_half(stmt: &Stmt, target: &Target) -> bool {
     let Op::SynchronisedFeed(m) = &stmt.op else { return false };
-    let threads = target.caps.threads;
+    let threads = target.caps.moves.threads;
     let says = match (m.chuck, m.turn) {
         (true, _) => threads.chuck,
         (false, Some(_)) => threads.turned || threads.back,
@@ -64,7 +64,7 @@ pub(crate) fn is_half(stmt: &Stmt, target: &Target) -> bool {
 /// How the target's cycle for such a thread is said.
 fn form(chuck: bool, target: &Target) -> Option<CycleForm> {
     let name = if chuck { "tap" } else { "tap-rigid" };
-    target.caps.cycles.iter().find(|cap| cap.kind == name).map(|cap| cap.form)
+    target.caps.holes.cycles.iter().find(|cap| cap.kind == name).map(|cap| cap.form)
 }
 
 /// Writes them as cycles.
@@ -229,7 +229,7 @@ fn cycle_of(thread: &Thread, walk: &Walk, target: &Target) -> Cycle {
         return_level: Fact::Known(level),
         return_plane: None,
         reference: None,
-        approach: target.caps.approach.unwrap_or(Approach::PlaneFirst),
+        approach: target.caps.holes.approach.unwrap_or(Approach::PlaneFirst),
         feed: None,
     }
 }

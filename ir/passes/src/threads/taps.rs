@@ -307,7 +307,7 @@ fn by_minute(cycle: &Cycle, walk: &Walk, state: &TapsState, target: &Target) -> 
     let CycleKind::Tap(tap) = &cycle.kind else { return None };
     let name = cycle.kind.name();
     let by_feed =
-        target.caps.cycles.iter().any(|c| c.kind == name && matches!(c.form, CycleForm::Control(_)));
+        target.caps.holes.cycles.iter().any(|c| c.kind == name && matches!(c.form, CycleForm::Control(_)));
     if !by_feed || tap.pitch != Pitch::Feed || walk.at.modes.feed_mode != Some(FeedMode::PerRevolution) {
         return None;
     }
@@ -316,7 +316,7 @@ fn by_minute(cycle: &Cycle, walk: &Walk, state: &TapsState, target: &Target) -> 
     let digits = |nanos: Nanos| exact(nanos, unit).trimmed().scale;
     let minute = i128::from(turn) * turns(state.said.speed).ok()? / i128::from(ONE);
     let minute = Nanos::try_from(minute).ok()?;
-    let decimals = target.caps.feed_decimals + u8::from(unit == Unit::Inch);
+    let decimals = target.caps.modes.feed_decimals + u8::from(unit == Unit::Inch);
     (digits(turn) > decimals && digits(minute) <= decimals).then(|| exact(minute, unit))
 }
 
@@ -338,7 +338,7 @@ fn fit(
         state.clockwise = true;
     }
     let CycleKind::Tap(tap) = &mut cycle.kind else { return Ok(None) };
-    let mut caps = target.caps.cycles.iter().filter(|c| c.kind == name);
+    let mut caps = target.caps.holes.cycles.iter().filter(|c| c.kind == name);
     let fits = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
     let Some(form) = caps.find(|c| fits(c)).map(|c| c.form) else { return Ok(None) };
     if form.says(&CycleKind::Tap(tap.clone())) {
@@ -388,7 +388,7 @@ fn spindle_after(cycle: &Cycle, walk: &Walk, target: &Target) -> Option<Option<S
         | CycleKind::Bore { .. }
         | CycleKind::Tap(_) => return None,
     };
-    let own = target.caps.cycles.iter().filter(|c| c.kind == name).find_map(|c| match c.form {
+    let own = target.caps.holes.cycles.iter().filter(|c| c.kind == name).find_map(|c| match c.form {
         CycleForm::Control(own) => Some(own.after()),
         CycleForm::Any | CycleForm::Stated => None,
     })?;

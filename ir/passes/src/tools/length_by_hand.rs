@@ -25,7 +25,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: None,
     step: Step::at(
         Moment::Wording,
-        |l, p| p.needs(TABLE) && l.target.caps.change_by_hand,
+        |l, p| p.needs(TABLE) && l.target.caps.tools.change_by_hand,
         |l, p| over(p.stmts, &mut p.start.clone(), &mut l.by_hand, p.diags),
     ),
     parametric: None,

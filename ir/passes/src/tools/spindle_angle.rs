@@ -44,7 +44,7 @@ pub(crate) fn over(
 ) {
     for stmt in stmts {
         let Op::OrientSpindle(angle) = &mut stmt.op else { continue };
-        if angle.is_none() && !target.caps.own_stop {
+        if angle.is_none() && !target.caps.moves.own_stop {
             let Some(own) = target.orientation else {
                 let what = "a stop of the spindle at the control's own angle".into();
                 diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));

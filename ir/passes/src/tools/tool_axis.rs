@@ -148,13 +148,13 @@ pub(crate) fn over(
         match &stmt.op {
             Op::UseToolCentrePoint(on) => {
                 let on = *on;
-                if on && caps.tip == TipForm::None {
+                if on && caps.tools.tip == TipForm::None {
                     return refuse("control of the tool's tip");
                 }
                 if on && state.tip.left_out {
                     return refuse("control of the tool's tip behind an end of it that may have none");
                 }
-                let needless = match (caps.tip, on) {
+                let needless = match (caps.tools.tip, on) {
                     (TipForm::None, _) => true,
                     (TipForm::WithLength, true) => state.tip.is_on(),
                     // Where no program before has switched it on, none can be on.
@@ -172,7 +172,7 @@ pub(crate) fn over(
                 if needless {
                     return made.leave_out(stmt);
                 }
-                if caps.tip == TipForm::WithLength {
+                if caps.tools.tip == TipForm::WithLength {
                     let behind = lengths.get(place).copied().flatten();
                     if let Err(what) = with_length(stmt, on, behind, before, state, made) {
                         diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
@@ -181,7 +181,7 @@ pub(crate) fn over(
                 }
                 made.push(stmt);
             }
-            Op::UseToolLengthOffset(entry) if caps.tip == TipForm::WithLength && state.tip.met => {
+            Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
                 let entry = number(entry);
                 if std::mem::take(&mut state.pair) {
                     return made.leave_out(stmt);
@@ -195,7 +195,7 @@ pub(crate) fn over(
                 refuse("another length where the tool's tip may be under control");
             }
             // The one in force is said again; a control may take no such word there.
-            Op::SetOriginOffsets(n) if caps.tip == TipForm::WithLength && !state.tip.is_off() => {
+            Op::SetOriginOffsets(n) if caps.tools.tip == TipForm::WithLength && !state.tip.is_off() => {
                 match offset == Some(*n) && state.tip.is_on() {
                     true => made.leave_out(stmt),
                     false => made.push(stmt),
@@ -203,13 +203,13 @@ pub(crate) fn over(
             }
             Op::SetSlot(slot) => {
                 let Slot::Tilt(tilt) = &**slot else { return made.push(stmt) };
-                if caps.tilt == TiltForm::None {
+                if caps.frames.tilt == TiltForm::None {
                     return refuse("a tilted plane");
                 }
                 if state.tilt.left_out {
                     return refuse("a tilted plane behind an end of one that may be none");
                 }
-                let said = match said_as(tilt, caps.tilt) {
+                let said = match said_as(tilt, caps.frames.tilt) {
                     Ok(said) => said,
                     Err(what) => return refuse(what),
                 };
@@ -219,14 +219,14 @@ pub(crate) fn over(
                 }
                 let set = Op::SetSlot(Box::new(Slot::Tilt(Box::new(said))));
                 match oriented.get(place).copied().flatten() {
-                    Some(at) if caps.tilt == TiltForm::AxisByAxis => {
+                    Some(at) if caps.frames.tilt == TiltForm::AxisByAxis => {
                         made.replace(stmt, [(true, set), (true, at.op())]);
                     }
                     Some(_) | None => made.push(Stmt { op: set, ..stmt }),
                 }
             }
             Op::ClearFrame(FrameSlot::Tilt) => {
-                let needless = match caps.tilt {
+                let needless = match caps.frames.tilt {
                     TiltForm::None => true,
                     TiltForm::Euler => state.tilt.is_off() || !state.tilt.met,
                     TiltForm::AxisByAxis | TiltForm::Any => false,
@@ -237,7 +237,7 @@ pub(crate) fn over(
                 state.tilt.set(false, skipped);
                 if needless { made.leave_out(stmt) } else { made.push(stmt) }
             }
-            Op::OrientToolAxis(_) => match caps.tilt {
+            Op::OrientToolAxis(_) => match caps.frames.tilt {
                 TiltForm::None => refuse("the tool's axis turned onto a tilted plane"),
                 TiltForm::AxisByAxis if oriented.iter().flatten().any(|o| o.place == place) => {
                     made.leave_out(stmt);

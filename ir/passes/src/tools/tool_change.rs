@@ -17,7 +17,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: None,
     step: Step::at(
         Moment::Arrival,
-        |l, _| l.target.caps.change_stops_spindle,
+        |l, _| l.target.caps.tools.change_stops_spindle,
         |l, p| {
             let up = l.target.caps.behaviours.surely(Behaviour::ZAtChange);
             l.change.over(p.stmts, up, p.diags);

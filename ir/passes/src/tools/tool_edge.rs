@@ -12,6 +12,7 @@ use crate::support::needs::{EDGE, TABLE};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
+use ncc_ir::caps::LengthsOf;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::kinds::flow;
@@ -100,7 +101,11 @@ pub(crate) fn over(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
-    let Some(edges) = target.caps.tool_edges else { return };
+    let edges = match target.caps.tools.lengths_of {
+        LengthsOf::Either => return,
+        LengthsOf::Edges => true,
+        LengthsOf::Entries => false,
+    };
     if let Some(waiting) = &mut state.waiting {
         waiting.place = None;
     }
@@ -157,7 +162,7 @@ fn to_entries(
         // No tool has no length, whatever edge is active.
         (Some(_), _) if walk.at.tool == Some(0) => Ok(Some(0)),
         (Some(1), Some(tool)) => Ok(Some(tool)),
-        (Some(1), None) if target.caps.own_length => Ok(None),
+        (Some(1), None) if target.caps.tools.own_length => Ok(None),
         (Some(1), None) => Err(cannot("an edge of a tool that is not known".into())),
         (Some(edge), _) => Err(cannot(format!("edge {edge} of a tool"))),
         (None, _) => Err(cannot("a computed edge of a tool".into())),

@@ -29,6 +29,7 @@ use hole::{Hole, Reading, Unread};
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec};
 use ncc_ir::canon::{AXES, Fact, Modes, Plane, ReturnLevel};
+use ncc_ir::caps::ReturnsTo;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{Approach, Cycle, CycleKind};
@@ -47,7 +48,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 
 /// The same for one body.
 pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
-    if target.caps.cycles.is_empty() || target.caps.flat {
+    if target.caps.holes.cycles.is_empty() || target.caps.flat {
         return;
     }
     let input = std::mem::take(body);
@@ -189,10 +190,10 @@ impl Run {
             _ if out == first.from => Some(ReturnLevel::Initial),
             _ => None,
         };
-        if out < retract || level.is_none() && target.caps.return_planes == Some(false) {
+        if out < retract || level.is_none() && target.caps.holes.returns == ReturnsTo::Level {
             return None;
         }
-        let states_plane = level.is_none() || target.caps.return_planes == Some(true);
+        let states_plane = level.is_none() || target.caps.holes.returns == ReturnsTo::Plane;
         let said = self.holes.iter().any(|(hole, _)| hole.feed_said);
         Some(Cycle {
             kind: first.kind.clone(),
@@ -202,7 +203,7 @@ impl Run {
             return_level: Fact::from(level.filter(|_| !states_plane)),
             reference: None,
             return_plane: states_plane.then(|| first.out.0.clone()),
-            approach: target.caps.approach.unwrap_or(Approach::PlaneFirst),
+            approach: target.caps.holes.approach.unwrap_or(Approach::PlaneFirst),
             feed: first.feed.filter(|_| said).map(Into::into),
         })
     }

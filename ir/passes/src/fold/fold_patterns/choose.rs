@@ -11,6 +11,7 @@ use crate::holes::expand_patterns::sayable;
 use crate::support::walk::Walk;
 use crate::support::write::exact;
 use ncc_ir::canon::{Axis, Plane};
+use ncc_ir::caps::GridWay;
 use ncc_ir::expr::num::{Nanos, ONE, POW10, Unit};
 use ncc_ir::program::Point;
 use ncc_ir::program::cycle::{Along, First, Pattern, Row, absolute};
@@ -106,7 +107,7 @@ impl<'t> Stretch<'t> {
     pub(super) fn list(&self, holes: Range<usize>, walk: &Walk) -> Option<Found> {
         let (first, second, _) = plane(walk)?.axes();
         let holes = &self.holes[holes];
-        if holes.len() < 3 || holes.len() > self.target.caps.list_pattern as usize {
+        if holes.len() < 3 || holes.len() > self.target.caps.holes.list_upto as usize {
             return None;
         }
         let point = |hole: &Hole| {
@@ -124,15 +125,15 @@ impl<'t> Stretch<'t> {
         let caps = &self.target.caps;
         let spots = &self.spots[next..];
         let here = here(walk).map(|here| here.map(|v| v as f64 / self.of_unit));
-        let limit = usize::try_from(caps.grid_pattern).unwrap_or(usize::MAX);
+        let limit = usize::try_from(caps.holes.grid_upto).unwrap_or(usize::MAX);
         let mut all = Vec::new();
-        if caps.line_pattern || limit > 0 {
+        if caps.holes.lines || limit > 0 {
             all.extend(rows::lines(spots, here, self.most).into_iter().map(Shape::Line));
         }
         all.extend(rows::grids(spots, here, self.most, limit).into_iter().map(Shape::Grid));
-        if caps.circle_pattern {
-            let only_here = caps.circle_centre_at_zero_only;
-            let wanted = Wanted { most: self.most, here, polar: caps.circle_polar, only_here };
+        if caps.holes.circles {
+            let only_here = caps.holes.centre_at_zero_only;
+            let wanted = Wanted { most: self.most, here, start: caps.holes.circle_start, only_here };
             all.extend(circle::circle(spots, &wanted).map(Shape::Circle));
         }
         all
@@ -197,12 +198,14 @@ impl<'t> Stretch<'t> {
         let caps = &self.target.caps;
         let (first, second, _) = plane(walk).unwrap_or(Plane::Xy).axes();
         let start = |start: &Start| match start {
-            Start::First => (caps.pattern_start && here(walk) != Some(begin)).then(|| self.place(begin)),
+            Start::First => {
+                (caps.holes.pattern_start && here(walk) != Some(begin)).then(|| self.place(begin))
+            }
             Start::Here => None,
             Start::At(place) => Some(place.map(|c| absolute(c.literal(self.unit)))),
         };
         match shape {
-            Shape::Line(line) if caps.line_pattern => Pattern::Line {
+            Shape::Line(line) if caps.holes.lines => Pattern::Line {
                 start: start(&line.start),
                 angle: line.step.degrees().literal(Unit::Degree).into(),
                 offset: line.offset.literal(self.unit).into(),
@@ -215,7 +218,7 @@ impl<'t> Stretch<'t> {
                 let (along, across) =
                     (self.row(step, line.count, first, second), self.row(across, 1, first, second));
                 let (columns, rows) = if step.along == Ok(1) { (across, along) } else { (along, across) };
-                let serpentine = caps.grid_serpentine.unwrap_or(false);
+                let serpentine = caps.holes.grid_way == GridWay::Serpentine;
                 Pattern::Grid { start: start(&line.start), columns, rows, serpentine }
             }
             Shape::Grid(grid) => Pattern::Grid {

@@ -2,6 +2,7 @@
 
 use crate::fold::fold_patterns::Spot;
 use crate::fold::fold_patterns::decimal::{Decimal, Range};
+use ncc_ir::caps::CircleStart;
 use ncc_ir::expr::num::POW10;
 
 /// Most centres that are tried for one number of digits.
@@ -33,8 +34,8 @@ pub(super) struct Wanted {
     pub(super) most: u8,
     /// A centre to try first: where the tool stands.
     pub(super) here: Option<[f64; 2]>,
-    /// First hole at a radius and an angle (`true`) or at a position; `None` if either.
-    pub(super) polar: Option<bool>,
+    /// How its first hole is said.
+    pub(super) start: CircleStart,
     /// Whether the centre must be where the tool stands.
     pub(super) only_here: bool,
 }
@@ -203,13 +204,13 @@ fn about(spots: &[Spot], centre: [Decimal; 2], wanted: &Wanted) -> Option<Circle
         if step.mantissa == 0 {
             return None;
         }
-        let written =
-            (wanted.polar != Some(true) && fits(spots, c, radii[0], start, step)).then_some(First::AsWritten);
+        let written = (wanted.start != CircleStart::Polar && fits(spots, c, radii[0], start, step))
+            .then_some(First::AsWritten);
         let polar = || polar(spots, c, radius, (start, &turned), step, wanted);
-        let first = match wanted.polar {
-            Some(false) => written,
-            Some(true) => polar(),
-            None => written.or_else(polar),
+        let first = match wanted.start {
+            CircleStart::Cartesian => written,
+            CircleStart::Polar => polar(),
+            CircleStart::Either => written.or_else(polar),
         }?;
         Some(Circle { centre, first, step, count })
     })

@@ -50,7 +50,8 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 /// The same for one body.
 pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     let caps = &target.caps;
-    let none = !caps.circle_pattern && caps.grid_pattern == 0 && !caps.line_pattern && caps.list_pattern == 0;
+    let none =
+        !caps.holes.circles && caps.holes.grid_upto == 0 && !caps.holes.lines && caps.holes.list_upto == 0;
     if none || caps.flat {
         return;
     }

@@ -103,9 +103,9 @@ impl ExpandFramesState {
 pub(crate) fn concerns(op: &Op, caps: &Caps) -> bool {
     match op {
         _ if tilts(op) => false,
-        Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => !caps.frames,
+        Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => !caps.frames.chain,
         Op::SetSlot(_) | Op::SetPosition(_) => true,
-        Op::UseOriginShift(_) => !caps.suspends_shift,
+        Op::UseOriginShift(_) => !caps.frames.suspends_shift,
         Op::ClearFrame(slot) => *slot != FrameSlot::Shift,
         _ => false,
     }
@@ -141,7 +141,7 @@ pub(crate) fn shifts_origin_in_calls(program: &Program, caps: &Caps) -> bool {
 /// Whether a program ends a shift of the origin for which the target has no word.
 fn takes_origin_back(program: &Program, caps: &Caps) -> bool {
     let any = |of: fn(&Op) -> bool| program.procedures.iter().flat_map(|p| &p.body).any(|s| of(&s.op));
-    caps.origin_shift && !caps.clears_shift && any(sets_origin) && any(ends_origin)
+    caps.frames.origin_shift && !caps.frames.clears_shift && any(sets_origin) && any(ends_origin)
 }
 
 /// Whether there is no shift of the origin behind a statement.
@@ -256,7 +256,7 @@ impl Frames<'_> {
         let shift = Op::ClearFrame(FrameSlot::Shift);
         // Without words for it, a shift that is suspended is over, and set anew where it is taken up again.
         let said = match &stmt.op {
-            Op::UseOriginShift(false) if !self.target.caps.suspends_shift => shift.clone(),
+            Op::UseOriginShift(false) if !self.target.caps.frames.suspends_shift => shift.clone(),
             op => op.clone(),
         };
         if is_change {
@@ -270,7 +270,7 @@ impl Frames<'_> {
                         ops.push(shift.clone());
                     }
                     // That word is left out where the target has none (`origin_shift`).
-                    let is_said = |op: &&Op| **op != shift || self.target.caps.clears_shift;
+                    let is_said = |op: &&Op| **op != shift || self.target.caps.frames.clears_shift;
                     for op in ops.iter().filter(is_said) {
                         self.outer.step(&Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op.clone()) });
                         self.note(op);
@@ -287,7 +287,7 @@ impl Frames<'_> {
             }
             return made.leave_out(stmt);
         }
-        if stmt.op == Op::UseOriginShift(true) && !self.target.caps.suspends_shift {
+        if stmt.op == Op::UseOriginShift(true) && !self.target.caps.frames.suspends_shift {
             return made.leave_out(stmt);
         }
         stmt.op = said;
@@ -365,7 +365,7 @@ impl Frames<'_> {
         let caps = &self.target.caps;
         let as_it_stands =
             caps.says_frame(said) && self.set.chain == Chain::NONE && self.set.said == self.set.slots;
-        if as_it_stands && !caps.frames && (self.set.lost || stmt.skip.is_some()) {
+        if as_it_stands && !caps.frames.chain && (self.set.lost || stmt.skip.is_some()) {
             self.set.lost = true;
             self.inner.at.position = [None; AXES];
             return Ok((false, vec![said.clone()]));
@@ -401,7 +401,7 @@ impl Frames<'_> {
             Op::UseOriginShift(false) => slots.suspend(false),
             Op::UseOriginShift(true) => {
                 slots.resume();
-                if slots == before && !caps.suspends_shift {
+                if slots == before && !caps.frames.suspends_shift {
                     return Ok((false, Vec::new()));
                 }
             }
@@ -437,7 +437,7 @@ impl Frames<'_> {
     fn say(&mut self, op: &Op, slots: &Slots, new: &Chain) -> Result<Option<Vec<Op>>, Fault> {
         let caps = &self.target.caps;
         let unit = self.inner.unit();
-        if caps.frames {
+        if caps.frames.chain {
             let chained = |slots: &Slots| Slots { steps: Chain::NONE, ..slots.clone() } == Slots::NONE;
             if caps.says_frame(op) && chained(slots) && chained(&self.set.slots) {
                 self.set.said_chain = slots.steps != Chain::NONE;
@@ -455,7 +455,7 @@ impl Frames<'_> {
                 self.set.said = slots.clone();
                 return Ok(Some(vec![op.clone()]));
             }
-            if caps.origin_shift && *op == Op::ClearFrame(FrameSlot::Shift) {
+            if caps.frames.origin_shift && *op == Op::ClearFrame(FrameSlot::Shift) {
                 let ops = self.origin_back(slots)?;
                 self.set.said = slots.clone();
                 return Ok(Some(ops));
@@ -529,7 +529,7 @@ impl Frames<'_> {
     /// next move there leaves out.
     fn note(&mut self, op: &Op) {
         match op {
-            Op::SetSlot(slot) if !self.target.caps.frames => {
+            Op::SetSlot(slot) if !self.target.caps.frames.chain => {
                 if let Slot::Rotation { plane, .. } = &**slot {
                     self.set.unplaced = self.inner.at.plane(*plane);
                 }

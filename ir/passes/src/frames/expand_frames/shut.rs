@@ -24,7 +24,7 @@ impl Frames<'_> {
                 | Op::SetData(_)
                 | Op::UseMachineCoordinates { .. }
         );
-        self.target.caps.frames_shut && outside && !open
+        self.target.caps.frames.shut && outside && !open
     }
 
     /// Writes it outside of them.

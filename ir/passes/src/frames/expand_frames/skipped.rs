@@ -47,12 +47,12 @@ impl Frames<'_> {
         }
         let to: Vec<Shift> = after.iter().map(shift_of).collect::<Option<_>>().ok_or_else(refused)?;
         let unit = self.inner.unit();
-        let ops = if caps.frames {
+        let ops = if caps.frames.chain {
             // Words that replace the whole of it.
             let all: Option<Vec<Nanos>> = (0..AXES).map(|axis| agreed(&to, axis)).collect();
             let all = all.and_then(|all| Shift::try_from(all).ok()).ok_or_else(refused)?;
             frame_forms::as_chain(&Slots { local: all, ..Slots::NONE }, true, unit).ok_or_else(refused)?
-        } else if caps.local_shift || caps.stated_shift {
+        } else if caps.frames.local_shift || caps.frames.stated_shift {
             let mut axes = [const { None }; AXES];
             for axis in Axis::ALL {
                 let n = axis as usize;
@@ -61,7 +61,7 @@ impl Frames<'_> {
                     axes[n] = Some(Expr::Num(exact(place, unit_of(axis, unit))));
                 }
             }
-            let slot = Slot::Shift { origin: !caps.local_shift, axes: Box::new(axes) };
+            let slot = Slot::Shift { origin: !caps.frames.local_shift, axes: Box::new(axes) };
             let Slot::Shift { axes, .. } = &slot else { return Err(refused()) };
             if axes.iter().all(Option::is_none) { Vec::new() } else { vec![Op::SetSlot(Box::new(slot))] }
         } else {
@@ -89,7 +89,7 @@ impl Frames<'_> {
         self.set.others = left.collect();
         self.set.whole = frame_forms::shifted(&self.set.slots);
         self.set.said = Slots { local: may_be.first().copied().unwrap_or_default(), ..Slots::NONE };
-        self.set.said_chain = caps.frames;
+        self.set.said_chain = caps.frames.chain;
         self.arcs.step(stmt, &mut self.inner);
         self.inner.at.position = known;
         Ok(ops)

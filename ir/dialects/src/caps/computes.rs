@@ -1,0 +1,106 @@
+//! What a dialect computes with, as its rows have it.
+
+use std::sync::Arc;
+
+use ncc_ir::alarms::Alarms;
+use ncc_ir::computed::computes::Computes;
+use ncc_ir::expr::Function;
+use ncc_ir::expr::system::System;
+
+use crate::formula::{Handing, Statement};
+use crate::meaning::Meaning;
+use crate::schema::{Dialect, Family};
+
+/// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
+const VALUE_DIGITS: u8 = 6;
+
+/// What the dialect computes with.
+pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
+    if !reads_formulas(dialect) || dialect.formula.operators.is_empty() {
+        return None;
+    }
+    let says = |meaning| dialect.code_for(meaning).is_some();
+    let rules = &dialect.formula;
+    Some(Arc::new(Computes {
+        statements: rules.statements.iter().map(|statement| (*statement).into()).collect(),
+        operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
+        functions: {
+            let by_bits = [Function::BitAnd, Function::BitOr, Function::BitXor];
+            let own = rules.functions.keys().map(|function| (*function).into());
+            let remainder = rules.remainder.iter().map(|_| Function::Remainder);
+            let given = rules.exists.iter().map(|_| Function::Given);
+            let by_bits = by_bits.into_iter().filter(|f| rules.by_bits(*f).is_some());
+            let between = rules.between.keys().map(|function| (*function).into());
+            own.chain(between).chain(remainder).chain(given).chain(by_bits).collect()
+        },
+        remainders: rules.remainders.into(),
+        values: dialect.named_values().map(|(.., value)| value).collect(),
+        local: rules.local.clone(),
+        common: rules.common.clone(),
+        retentive: rules.retentive.clone(),
+        loops: rules.loops,
+        calls: rules.calls,
+        arguments: says(Meaning::CallMacro) || rules.parameters != Handing::Letters,
+        handed: rules.parameters.into(),
+        shares: rules.parameters == Handing::Letters,
+        mark: rules.variable.as_str().into(),
+        named: rules.with_names(dialect.name.iter().map(|row| row.name.as_str())),
+        arguments_again: rules.arguments_again,
+        exists: rules.exists.is_some(),
+        equal_within: rules.tolerance(),
+        whole: rules.whole,
+        alarms: rules.statements.contains(&Statement::Alarm).then_some(Alarms {
+            numbers: rules.alarms,
+            signs: dialect.comment.upper_ascii.then(|| dialect.comment.signs.as_str().into()),
+            longest: (rules.alarm_text > 0).then_some(rules.alarm_text),
+        }),
+        values_in_full: (!dialect.comment.shown.is_empty()).then_some(VALUE_DIGITS),
+        output_opened: rules.output_opened,
+        planes_alarm: dialect.cycles.planes_alarm.map(i64::from),
+        system: systems(dialect),
+        entries: entries(dialect),
+        worth: rules.not_behind.is_some(),
+        named_programs: dialect.program.o_words,
+        prefix: rules.prefix.as_str().into(),
+        vacant: rules.vacant.is_some(),
+        rounds: rules.rounds,
+        increments: {
+            let lengths = dialect.numbers(crate::Quantity::Length);
+            [lengths.increment, lengths.increment_inch.unwrap_or(lengths.increment)]
+        },
+        // An option of the control says so ([`crate::Settings::caps`]).
+        turn: false,
+        blocks: rules.blocks,
+        opposite: rules.not.is_some() || rules.not_behind.is_some(),
+        near: rules.near,
+        restates: rules.restates,
+    }))
+}
+
+/// Values of the control's own that a program of the dialect can ask for.
+fn systems(dialect: &Dialect) -> Vec<System> {
+    dialect.system.iter().flat_map(|row| row.says().map(|(system, _)| system)).collect()
+}
+
+/// Those of them that are places of tables, each with the number by which a program has it: that of its parameter, or that
+/// of the entry within a name.
+fn entries(dialect: &Dialect) -> Vec<(System, i64)> {
+    let own = |(system, spelt): (System, String)| {
+        let number = match &system {
+            System::WorkOffset { number, .. } | System::ToolTable { entry: number, .. } => i64::from(*number),
+            _ => return None,
+        };
+        let number = if spelt.starts_with('$') { number } else { spelt.parse().ok()? };
+        Some((system, number))
+    };
+    dialect.system.iter().flat_map(|row| row.says()).filter_map(own).collect()
+}
+
+/// Whether a program of this dialect can compute. What a dictionary inherits of a language that it does not read counts
+/// for nothing.
+fn reads_formulas(dialect: &Dialect) -> bool {
+    match dialect.family {
+        Family::Word => dialect.program.macro_b || dialect.program.o_words,
+        Family::Sinumerik | Family::Canon | Family::Ir => true,
+    }
+}
