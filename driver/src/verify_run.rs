@@ -1,5 +1,12 @@
 //! Verification of a translation as it streams by: source and emitted text are executed in the same
 //! worlds and under the same block-skip settings, and their events compared.
+//!
+//! ```text
+//! source: G0 X10 | output: G0 X10    the same event in each world
+//! source: G55    | output: G54       an event elsewhere: nothing is released
+//! ```
+//!
+//! Not here: what an event is, and when two are the same (`ncc_exec::verify`).
 
 pub mod facts;
 pub mod forks;

@@ -7,6 +7,10 @@
 //!
 //! Refused here: programs of several files, which are not put together; one report, map or program on
 //! stdin for several.
+//!
+//! ```text
+//! ncc translate old/ --from fanuc --to siemens -o new/    new/a.mpf, new/b.mpf, and a line on each
+//! ```
 
 mod gather;
 mod names;

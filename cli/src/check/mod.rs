@@ -2,6 +2,10 @@
 //!
 //! `drive` goes from the text to findings, `told` brings them into words, and `text`, `json` and
 //! `sarif` write them. Not here: the rules (ncc-check), profiles (ncc-machines).
+//!
+//! ```text
+//! ncc check --from fanuc part.nc    warning[NC…] at the place, exit code 1
+//! ```
 
 pub mod args;
 

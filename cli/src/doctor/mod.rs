@@ -4,6 +4,10 @@
 //! question about one of the two machines. The answers have a place in a profile; a profile with
 //! exactly these questions can be written. Not here: which fact an assumption rests on
 //! (`ncc_machines::reading`).
+//!
+//! ```text
+//! ncc doctor --from fanuc --to haas part.nc    questions, each with the line of the profile that answers it
+//! ```
 
 mod init;
 mod question;

@@ -5,6 +5,12 @@
 //! asked for, which is told: there is no place for a mark in the interpreter's form. Another judge is the
 //! interpreter itself, whose own test programs are printed as it prints them. Compensated contours are listed
 //! by the path of the tool's centre.
+//!
+//! ```text
+//! ncc linuxcnc to canon --style rs274 part.ngc    `N..... STRAIGHT_FEED(10.0000, 5.0000, 0.0000, …)`
+//! ```
+//!
+//! Not here: how a listing is written (`ncc_backends::canon::rs274`).
 
 use std::io::{Read, Seek, SeekFrom};
 

@@ -1,4 +1,10 @@
 //! Machine profiles on the command line: finding one, and telling what is wrong with it.
+//!
+//! ```text
+//! --to-machine mikron.toml    the profile, checked as a whole
+//! ```
+//!
+//! Not here: the form of a profile (`ncc_machines`).
 
 mod args;
 

@@ -6,6 +6,10 @@
 //! of the one that is; a refused row is read, and must be refused by its name. A dictionary can say
 //! only what both sides can do, so a row that nothing reads or writes fails too.
 //!
+//! ```text
+//! row G83    START_CYCLE(drill-peck …)    `G99 G83 X1. Z-5. R2. Q1.`    START_CYCLE(drill-peck …): passed
+//! ```
+//!
 //! Not here: whether a row is true of the control. That is for its source, and for the machine.
 
 pub mod calls;

@@ -4,6 +4,12 @@
 //! explain speaks for it, what it cannot explain speaks against it. One dialect must fit clearly
 //! better than all others, else nothing is chosen: a program read in the wrong dialect would cut
 //! another part.
+//!
+//! ```text
+//! `MCALL CYCLE81(…)`    siemens, as no other dialect has the word
+//! ```
+//!
+//! Not here: whether the text is a milling program at all (`ncc_frontends::recognise`).
 
 pub mod better;
 pub mod names;

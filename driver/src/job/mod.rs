@@ -1,6 +1,11 @@
 //! What a translation is asked for and what it gives back: the face of the pipeline towards the
 //! command line, and towards tests that call it without a process.
 //!
+//! ```text
+//! Job::new(from, to, "part.nc")    what is asked for
+//! Outcome { output, diagnostics, … }    what came of it
+//! ```
+//!
 //! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
 
 pub mod given;

@@ -1,4 +1,11 @@
 //! A program's text with what is known of it before it is read: its names, called programs, the project file.
+//!
+//! ```text
+//! Source { name: "part.nc", bytes }    chunks    pieces of whole lines
+//! `M98 P2000`                          called    the text of O2000, asked of the host
+//! ```
+//!
+//! Not here: what a text means (front-ends).
 
 pub mod called;
 pub mod chunks;

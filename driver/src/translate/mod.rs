@@ -3,6 +3,15 @@
 //! A program streams through in pieces of whole lines until its first call, label or loop, and is
 //! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
 //! difference; the caller decides where a released output goes.
+//!
+//! ```text
+//! `translation`   what is between source and output
+//! `pipeline`      the steps, from what was read to what is released
+//! `writing`       the text, and passing it on
+//! `outcome`       what comes of it at the end
+//! ```
+//!
+//! Not here: how a difference or a refusal is told (`render`).
 
 pub mod difference;
 pub mod heading;

@@ -22,7 +22,7 @@ use ncc_passes::modes::own_distance;
 use ncc_passes::parametric::Parametric;
 use ncc_passes::support::known_facts::{self, Known};
 use ncc_passes::values::alarm_numbers;
-use ncc_passes::values::variables::{Digits, Renamed};
+use ncc_passes::values::variables::renamed::{Digits, Renamed};
 use ncc_passes::watch::ran_whole;
 use ncc_passes::{Target, leave_out_output, output_elsewhere};
 

@@ -15,7 +15,7 @@ use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
 use ncc_passes::values::otherwise::{Taken, There, compares_nearly, computes_numbers, otherwise, places};
-use ncc_passes::values::variables::Renamed;
+use ncc_passes::values::variables::renamed::Renamed;
 
 use super::facts::{Other, tries_facts};
 use super::forks::{Forks, Shown};

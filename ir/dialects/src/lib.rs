@@ -5,6 +5,13 @@
 //! from word to meaning, the other from meaning to word, so that they cannot drift apart. A word
 //! that a dictionary does not have, or names only to refuse it, is never translated.
 //!
+//! ```text
+//! [[code]]
+//! code = "G83"
+//! cycle = "drill-peck"
+//! source = "the manual and its page"
+//! ```
+//!
 //! Not here: lexing, lowering and layout. A dictionary says what, never how.
 
 mod caps;

@@ -4,6 +4,12 @@
 //! Everything that a program does not say comes from the [`World`]. Events are in machine
 //! coordinates, so that a lost work offset or a wrong length entry shows. Statements whose meaning
 //! is not executed yet (variables, jumps) are refused by name.
+//!
+//! ```text
+//! HOLE(X 10mm)  in a world with work offset (100, 50, -20)    three moves in machine coordinates, each with its feed
+//! ```
+//!
+//! Not here: who supplies the world, and what is told of a difference (the driver).
 
 mod ask;
 mod at_codes;

@@ -4,6 +4,12 @@
 //! target needs follows from its capabilities; [`Legaliser`] picks them and runs them on a program
 //! that streams through in pieces. A pass never names a dialect, and never changes what the machine
 //! does: what it cannot mend it refuses.
+//!
+//! ```text
+//! --print-after all    shows the program behind each pass that changed it
+//! ```
+//!
+//! Not here: reading, writing, executing.
 
 pub mod arcs;
 pub mod flow;

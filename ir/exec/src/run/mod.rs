@@ -1,4 +1,11 @@
 //! Execution of a program that is kept whole: calls, repetitions, variables and jumps, one statement at a time.
+//!
+//! ```text
+//! while #1 <= 3 { … }    three times the events of its body
+//! CALL("8000", #1 = 5)   those of the subprogram, with #1 = 5
+//! ```
+//!
+//! Not here: what a statement does to the machine (`Exec`).
 
 pub(crate) mod code;
 pub(crate) mod entry;

@@ -16,25 +16,23 @@
 //! Moves without way are left out. Levels that the program measures from others are written
 //! absolute, for which they must be known.
 
-use crate::arcs::polar_words;
+use super::sayable::{lasts, level, sayable};
+use crate::arcs::polar_places;
 use crate::holes::approach::is_one_way;
 use crate::holes::expand_patterns;
 use crate::holes::spindle_holes::with_spindle;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
-use crate::support::write::{
-    Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of,
-};
+use crate::support::write::{Rebuild, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of};
 use crate::{Target, each_body};
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, Lift};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
-use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Shift, absolute, next_peck};
+use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift, absolute, next_peck};
 use ncc_ir::program::kinds::{flow, moves};
-use ncc_ir::program::{Coord, Op, Point, Program, Stmt};
+use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::{InForce, Tracker};
 
@@ -46,7 +44,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.cycles, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandCyclesState>(), &l.target, p.diags),
     ),
     parametric: None,
 };
@@ -125,7 +123,7 @@ pub(crate) fn over(
                 }
             }
             Op::Polar(polar) if state.expanding && matches!(polar.op, Op::Hole(_) | Op::Position(_)) => {
-                match polar_words::by_coordinates(polar, walk, target) {
+                match polar_places::by_coordinates(polar, walk, target) {
                     Ok(Op::Hole(m) | Op::Position(m)) => {
                         // The pole and its words are those behind the point.
                         let mut behind = walk.at.clone();
@@ -308,84 +306,6 @@ fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether the target has words for a cycle, whatever the tool does before it.
-pub(crate) fn sayable(
-    walk: &Walk,
-    cycle: &Cycle,
-    target: &Target,
-    span: Span,
-    diags: &mut Vec<Diagnostic>,
-) -> bool {
-    let caps = &target.caps;
-    if caps.flat {
-        return false;
-    }
-    let kind = cycle.kind.name();
-    let cap = |has: fn(&CycleCap) -> bool| caps.holes.cycles.iter().any(|c| c.kind == kind && has(c));
-    let (dwell, details) = match &cycle.kind {
-        CycleKind::Drill => (false, true),
-        CycleKind::DrillDwell { .. } => (true, true),
-        CycleKind::DrillPeck { dwell, clearance, first, less, pause, settle, .. } => {
-            let other_first = first.is_some() && less.is_none();
-            let strokes = other_first || pause.is_some() || settle.is_some();
-            (dwell.is_some(), says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks)))
-        }
-        CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
-            let strokes = first.is_some() && less.is_none() || pause.is_some();
-            let rapid = cap(|c| c.lift != Lift::Feed);
-            let way = if *lift_at_feed { cap(|c| c.lift != Lift::Rapid) } else { rapid };
-            let shrinks = less.is_none() || cap(|c| c.shrinks);
-            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
-        }
-        CycleKind::Bore { dwell, feed_out, .. } => {
-            (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
-        }
-        CycleKind::Tap(tap) => {
-            let turns = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
-            (
-                tap.dwell.is_some() || tap.back.is_some(),
-                driven(caps, cycle) && caps.holes.cycles.iter().any(|c| c.kind == kind && turns(c)),
-            )
-        }
-        CycleKind::FineBore(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
-        CycleKind::BoreStop(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
-    };
-    if !details || !caps.holes.returns.says(cycle.return_plane.is_some()) {
-        return false;
-    }
-    let mut rows = caps.holes.cycles.iter().filter(|c| c.kind == kind && (c.dwell || !dwell));
-    if cycle.return_plane.is_some() {
-        return rows.any(|c| c.ends_feed(&cycle.kind, None));
-    }
-    let says =
-        |level| rows.clone().any(|c| c.returns.contains(&level) && c.ends_feed(&cycle.kind, Some(level)));
-    match cycle.return_level.known().or(walk.at.modes.return_level) {
-        Some(level) => says(level),
-        None => {
-            let (initial, retract) = (says(ReturnLevel::Initial), says(ReturnLevel::Retract));
-            if initial != retract {
-                diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }, span));
-            }
-            initial || retract
-        }
-    }
-}
-
-/// Whether the target says what a cycle does with the spindle in the way that it does it.
-fn driven(caps: &Caps, cycle: &Cycle) -> bool {
-    let kind = cycle.kind.name();
-    caps.holes.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
-}
-
-/// Whether the target can say how a hole is pecked.
-fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance, strokes: bool) -> bool {
-    let stated = match clearance {
-        Clearance::Stated(_) => cap(|c| c.clearance),
-        Clearance::Parameter => cap(|c| c.parameter),
-    };
-    stated && (!strokes || cap(|c| c.strokes))
-}
-
 fn must_expand(
     walk: &Walk,
     in_force: &InForce,
@@ -396,25 +316,6 @@ fn must_expand(
     let cycle = &in_force.cycle;
     let same_way = target.caps.holes.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
-}
-
-/// A level of a cycle as an absolute word.
-pub(crate) fn level(
-    walk: &Walk,
-    word: &Coord,
-    resolved: Option<Nanos>,
-    normal: Axis,
-) -> Result<Coord, Fault> {
-    if is_absolute(word, walk.at.modes.distance) {
-        return Ok(as_absolute(word));
-    }
-    match resolved {
-        Some(nanos) => Ok(at(nanos, normal, walk.unit())),
-        None if word.distance.known().or(walk.at.modes.distance).is_none() => {
-            Err(Fault::EntryFactNeeded { fact: ModeName::Distance })
-        }
-        None => Err(Fault::PositionUnknown { axis: normal.letter() as char }),
-    }
 }
 
 /// The moves of one hole; `true` marks those that stand in the block of the one before.
@@ -653,9 +554,4 @@ fn pecks(
         bottom = bottom.saturating_sub(stroke);
     }
     Ok(())
-}
-
-/// Whether a cycle's dwell is one: of no seconds it is none.
-pub(crate) fn lasts(seconds: &Expr) -> bool {
-    seconds.literal().is_none_or(|n| !n.is_zero())
 }

@@ -38,19 +38,21 @@ pub(crate) const PASS: Pass = Pass {
     step: Some(Step {
         moment: Moment::Arrival,
         needed: |l, p| {
-            let concerned = || l.entries.is_some() || l.times.concerns(p.stmts, &l.walk);
+            let concerned =
+                || l.entries.is_some() || l.states.ask(|own: &FeedTimeState| own.concerns(p.stmts, &l.walk));
             l.times_differ && p.lines.is_none() && concerned()
         },
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            over(p.stmts, &mut l.walk.clone(), &mut l.times, &l.target, known, p.diags);
+            over(p.stmts, &mut l.walk.clone(), l.states.of::<FeedTimeState>(), &l.target, known, p.diags);
         },
         otherwise: |l, p| {
             if l.times_differ && p.lines.is_none() {
-                l.times.note(p.stmts);
+                l.states.of::<FeedTimeState>().note(p.stmts);
             }
         },
+        first: None,
     }),
     parametric: None,
 };

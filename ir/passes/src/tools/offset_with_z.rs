@@ -24,7 +24,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(LENGTH),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.length, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<OffsetWithZState>(), p.diags),
     ),
     parametric: None,
 };

@@ -29,7 +29,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(TOOL_AXIS),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.axis, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolAxisState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

@@ -28,7 +28,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(EDGE | TABLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.edge, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolEdgeState>(), &l.target, p.diags),
     ),
     parametric: None,
 };
