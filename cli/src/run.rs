@@ -17,6 +17,7 @@ use ncc_driver::questions::of_translation;
 use ncc_driver::render::human::Loudness;
 use ncc_driver::render::terminal::Shown;
 use ncc_driver::render::{About, dialects, explain, json, questions, report};
+use ncc_driver::source::not_milling::Refusal;
 use ncc_driver::source::{Source, called};
 use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
@@ -197,16 +198,7 @@ fn translated(
         return batch::run(args, arrow, known, err);
     }
     let path = args.files.first().map_or(Path::new("-"), PathBuf::as_path);
-    let mut destination = match &args.output {
-        Some(name) if arrow.is_some() => {
-            return Err(Problem::usage(
-                format!("two places to write to: the shell's redirection, and {}", name.display()),
-                "leave one of them out",
-            ));
-        }
-        Some(name) if name != Path::new("-") => Destination::File(name.clone()),
-        Some(_) | None => Destination::Stdout,
-    };
+    let mut destination = destination(args, arrow)?;
     let say = args.format == Format::Human && !args.telling.quiet;
     let order = {
         // For a reader of JSON, the problem alone says where.
@@ -231,36 +223,10 @@ fn translated(
         settled.put_into(&mut source);
     }
     if let Some(refusal) = milling::admit(&mut source, voice, known, err)? {
-        if let Some(name) = &args.report {
-            source.guard(Some(name))?;
-            let named = order.named.map(|dialect| dialect.id.as_str());
-            files::to_file(name, &mut |out| report::refused(out, (named, &order.to), &mut source, &refusal))?;
-        }
-        if voice == Voice::Json {
-            json::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
-                .map_err(|e| Problem::file("write", "messages", &e))?;
-            refusal.line(err)?;
-        }
+        not_milling(args, &order, &mut source, &refusal, (voice, err))?;
         return Ok(Exit::Refused);
     }
-    match &destination {
-        Destination::File(name) => source.guard(Some(name))?,
-        Destination::Stdout => source.guard(None)?,
-    }
-    let both = |name: &Path, what: &str| {
-        let message = format!("{} is both {what}", name.display());
-        Problem::usage(message, "choose another name for one of them")
-    };
-    for (file, what) in [(&args.report, "output and report"), (&args.map, "output and map")] {
-        let Some(file) = file else { continue };
-        source.guard(Some(file))?;
-        if matches!(&destination, Destination::File(name) if name == file) {
-            return Err(both(file, what));
-        }
-    }
-    if let Some(map) = args.map.as_ref().filter(|map| args.report.as_ref() == Some(map)) {
-        return Err(both(map, "report and map"));
-    }
+    guard(args, &source, &destination)?;
     let (from, rivals) = match order.named {
         Some(dialect) => (dialect, Vec::new()),
         None => recognise_all(&mut source, !args.telling.quiet && args.format == Format::Human, known, err)?,
@@ -305,11 +271,7 @@ fn translated(
         files::to_file(name, &mut |out| report::write(out, &mut about, &outcome))?;
     }
     if let (Some(name), Some(record)) = (&args.map, record) {
-        let output = match &destination {
-            Destination::File(name) => name.file_name().map(|name| name.to_string_lossy().into_owned()),
-            Destination::Stdout => None,
-        };
-        let output = output.unwrap_or_else(|| "-".to_owned());
+        let output = destination.file_name();
         let mut record = Some(record);
         files::to_file(name, &mut |out| match record.take() {
             Some(record) => map::write(out, &mut about, &output, &mut outcome, record),
@@ -329,6 +291,62 @@ fn translated(
         let _ = say_where(to, &job, &source.shown, args.format, err);
     }
     Ok(Exit::of(outcome.release))
+}
+
+/// Where the output goes: the file of `-o`, or standard output, which the shell may send to a file.
+fn destination(args: &Translate, arrow: Option<&'static Dialect>) -> Result<Destination, Problem> {
+    match &args.output {
+        Some(name) if arrow.is_some() => Err(Problem::usage(
+            format!("two places to write to: the shell's redirection, and {}", name.display()),
+            "leave one of them out",
+        )),
+        Some(name) if name != Path::new("-") => Ok(Destination::File(name.clone())),
+        Some(_) | None => Ok(Destination::Stdout),
+    }
+}
+
+/// Writes the report, and the line for a reader of JSON, of a program that is none for a mill.
+fn not_milling(
+    args: &Translate,
+    order: &Order,
+    source: &mut Source,
+    refusal: &Refusal,
+    (voice, err): (Voice, &mut dyn WriteColor),
+) -> Result<(), Problem> {
+    if let Some(name) = &args.report {
+        source.guard(Some(name))?;
+        let named = order.named.map(|dialect| dialect.id.as_str());
+        files::to_file(name, &mut |out| report::refused(out, (named, &order.to), source, refusal))?;
+    }
+    if voice == Voice::Json {
+        json::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
+            .map_err(|e| Problem::file("write", "messages", &e))?;
+        refusal.line(err)?;
+    }
+    Ok(())
+}
+
+/// Refuses files to write to that are read, or that two things would be written to.
+fn guard(args: &Translate, source: &Source, destination: &Destination) -> Result<(), Problem> {
+    match destination {
+        Destination::File(name) => source.guard(Some(name))?,
+        Destination::Stdout => source.guard(None)?,
+    }
+    let both = |name: &Path, what: &str| {
+        let message = format!("{} is both {what}", name.display());
+        Problem::usage(message, "choose another name for one of them")
+    };
+    for (file, what) in [(&args.report, "output and report"), (&args.map, "output and map")] {
+        let Some(file) = file else { continue };
+        source.guard(Some(file))?;
+        if matches!(destination, Destination::File(name) if name == file) {
+            return Err(both(file, what));
+        }
+    }
+    match args.map.as_ref().filter(|map| args.report.as_ref() == Some(map)) {
+        Some(map) => Err(both(map, "report and map")),
+        None => Ok(()),
+    }
 }
 
 /// Tells of a translation on `err`.

@@ -8,6 +8,7 @@
 //!
 //! Not here: what an event is, and when two are the same (`ncc_exec::verify`).
 
+pub mod controls;
 pub mod facts;
 pub mod forks;
 mod levels;
@@ -16,19 +17,11 @@ pub mod whole;
 pub mod with_facts;
 pub mod worlds;
 
-pub use facts::stops_differ;
-use facts::{Other, closed_by_rounding, done_by_target, looked_at};
-use twice::Outliving;
-use with_facts::MOST_WITH_FACT;
-pub use worlds::worlds_of;
-
-use ncc_dialects::{BREAK_LIFT, Dialect, PECK_CLEARANCE, Quantity, Settings};
-use ncc_exec::verify::{self, Comparison, Difference, Pair, Resolution};
+use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Quantity};
+use ncc_exec::verify::{self, Comparison, Difference, Pair};
 use ncc_exec::{Event, Exec};
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Modes};
-use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::expr::Function;
 use ncc_ir::expr::num::{Nanos, Num};
@@ -36,10 +29,17 @@ use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
+use self::controls::{alarms_of, fixed, resolution, writes};
+use self::facts::{Other, closed_by_rounding, done_by_target, looked_at};
+use self::twice::Outliving;
+use self::with_facts::MOST_WITH_FACT;
 use crate::job::given::Given;
 use crate::job::{Job, Verified};
 use crate::translate::difference;
 use crate::translate::{bore_shift, orientation, parameter};
+
+pub use self::facts::stops_differ;
+pub use self::worlds::worlds_of;
 
 /// Generated worlds in which every program is executed.
 pub const WORLDS: u32 = 2;
@@ -131,48 +131,6 @@ pub struct Verifier {
     assumed: Modes,
     /// What was not executed, or with values that were made up.
     notes: Vec<Diagnostic>,
-}
-
-/// Facts that hold at power-on of every such control.
-pub fn fixed(dialect: &Dialect) -> Modes {
-    let p = &dialect.power_on;
-    Modes {
-        motion: p.motion.as_ref().filter(|f| f.always).map(|f| f.value.into()),
-        distance: p.distance.as_ref().filter(|f| f.always).map(|f| f.value.into()),
-        units: p.units.as_ref().filter(|f| f.always).map(|f| f.value.into()),
-        plane: p.plane.as_ref().filter(|f| f.always).map(|f| f.value.into()),
-        feed_mode: p.feed_mode.as_ref().filter(|f| f.always).map(|f| f.value.into()),
-        return_level: p.return_level.as_ref().filter(|f| f.always).map(|f| f.value.into()),
-        work_offset: p.work_offset.as_ref().filter(|f| f.always).map(|f| f.value),
-        length_offset: p.length_offset.as_ref().filter(|f| f.always).map(|f| f.value),
-        no_origin_shift: p.no_origin_shift.as_ref().filter(|f| f.always).map(|f| f.value),
-    }
-}
-
-/// How a control says alarms.
-pub fn alarms_of(settings: &Settings) -> Option<Alarms> {
-    settings.caps().flow.computes.and_then(|computes| computes.alarms.clone())
-}
-
-/// Whether a control writes to devices.
-pub fn writes(settings: &Settings) -> bool {
-    settings.dialect.can.everything
-        || settings.caps().flow.computes.is_some_and(|computes| computes.has(Said::Output))
-}
-
-/// What a dialect's numbers resolve.
-pub fn resolution(settings: &Settings) -> Resolution {
-    let numbers = |q| settings.dialect.numbers(q);
-    let (length, feed) = (numbers(Quantity::Length), numbers(Quantity::Feed));
-    Resolution {
-        mm: length.decimals,
-        inch: length.decimals_inch.unwrap_or(length.decimals),
-        degree: numbers(Quantity::Angle).decimals,
-        feed: feed.decimals,
-        feed_inch: feed.decimals_inch.unwrap_or(feed.decimals),
-        second: numbers(Quantity::Seconds).decimals.max(3),
-        speed: numbers(Quantity::Speed).decimals,
-    }
 }
 
 /// To which digits the target's lengths are rounded, those that are written and those that are computed.
@@ -616,7 +574,7 @@ fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ncc_dialects::builtin;
+    use ncc_dialects::{Settings, builtin};
 
     const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
     const SECOND: &str = "X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n";

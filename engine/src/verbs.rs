@@ -28,7 +28,7 @@ use ncc_driver::side::Side;
 use ncc_driver::source::called::{Library, gather};
 use ncc_driver::source::{Source, not_milling};
 use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
-use ncc_driver::time::payload::{Header, Payload};
+use ncc_driver::time::payload::{Header, Payload, Shape};
 use ncc_driver::translate::{rewrite, tools_by_name, translate};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Verdict;
@@ -302,7 +302,8 @@ fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outpu
     let title = profile.as_deref().map_or("", |profile| &profile.schema.title);
     let header = Header { prog_name: &one.file, machine_name: title, dialect: &job.from.dialect.id };
     let mut times = Vec::new();
-    let mut sink = Payload::new(&header, &machine, false, true, &mut times).map_err(cannot)?;
+    let mut sink =
+        Payload::new(&header, &machine, Shape::Document, Stage::After, &mut times).map_err(cannot)?;
     let course = drive(&plan, &mut source, &mut sink, &mut Unwatched).map_err(cannot)?;
     sink.finish().map_err(cannot)?;
     let shown = source.shown.clone();

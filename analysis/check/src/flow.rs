@@ -44,6 +44,17 @@ fn calls(body: &[Stmt], found: &mut dyn FnMut(&str)) {
     }
 }
 
+/// What a block is to the jumps before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Block {
+    /// It executes nothing: a label, a comment.
+    Silent,
+    /// It is executed.
+    Executed,
+    /// A structure may lead to it.
+    OfStructure,
+}
+
 /// Jumps and blocks of a text, one after the other: what leads nowhere, and what is never reached.
 #[derive(Debug, Default)]
 pub struct Jumps {
@@ -80,33 +91,31 @@ impl Jumps {
         self.passed.clear();
     }
 
-    /// A block with its number or label. `says` is whether it is executed, `frames` whether a structure may
-    /// lead to it.
-    pub fn block(&mut self, label: Option<String>, at: Span, says: bool, frames: bool) {
+    /// A block with its number or label.
+    pub fn block(&mut self, label: Option<String>, at: Span, block: Block) {
         if let Some(label) = label {
             if self.left {
                 self.passed.push(label.clone());
             }
             self.labels.insert(label);
         }
-        if (says || frames) && std::mem::take(&mut self.left) {
+        if block != Block::Silent && std::mem::take(&mut self.left) {
             let labels = std::mem::take(&mut self.passed);
-            if !frames {
+            if block == Block::Executed {
                 self.after.push((labels, at));
             }
         }
     }
 
-    /// A jump in the block that was told last.
-    pub fn jump(&mut self, to: Option<String>, at: Span, always: bool, quiet: bool) {
+    /// A jump in the block that was told last: `to` is its target, unless that is computed. `told` is its place,
+    /// unless the control goes on where there is no such block.
+    pub fn jump(&mut self, to: Option<String>, told: Option<Span>, always: bool) {
         match to {
             Some(name) => {
                 self.targets.insert(name.clone());
-                if !quiet {
-                    self.jumps.push((name, at));
-                }
+                self.jumps.extend(told.map(|at| (name, at)));
             }
-            None => self.computed |= !quiet,
+            None => self.computed |= told.is_some(),
         }
         self.left |= always;
     }

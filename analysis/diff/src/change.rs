@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use ncc_exec::Compensation;
+use ncc_exec::{Compensation, Coolant};
 use ncc_ir::canon::{AXES, Spindle, SpindleMode};
 use ncc_ir::expr::num::Nanos;
 
@@ -37,8 +37,8 @@ pub enum Change {
     Spindle(Spindle, Spindle),
     /// Tool.
     Tool(i64, i64),
-    /// Coolant: flood and mist.
-    Coolant([bool; 2], [bool; 2]),
+    /// Coolant.
+    Coolant(Coolant, Coolant),
     /// Cutter radius compensation.
     Compensation(Compensation, Compensation),
     /// Work offset in force.
@@ -394,7 +394,7 @@ fn attribute(bit: u8, a: &Style, b: &Style) -> Change {
             Change::SpeedLimit(limit(s), limit(t))
         }
         bits::SPINDLE => Change::Spindle(s.spindle, t.spindle),
-        bits::COOLANT => Change::Coolant([s.flood, s.mist], [t.flood, t.mist]),
+        bits::COOLANT => Change::Coolant(s.coolant(), t.coolant()),
         bits::COMPENSATION => Change::Compensation(s.compensation, t.compensation),
         _ if a.offset != b.offset => Change::WorkOffset(a.offset, b.offset),
         _ if a.length != b.length => Change::Length(a.length, b.length),

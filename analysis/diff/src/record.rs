@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use ncc_exec::verify::{Part, part};
-use ncc_exec::{Attribute, Compensation, Event, Exec, Kind, State};
+use ncc_exec::{Attribute, Compensation, Coolant, Event, Exec, Kind, State};
 use ncc_ir::canon::{AXES, Axis, Plane, Turn, same_point};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::Text;
@@ -155,6 +155,11 @@ pub struct Still {
 }
 
 impl Still {
+    /// The coolants that are on.
+    pub fn coolant(&self) -> Coolant {
+        Coolant { flood: self.flood, mist: self.mist }
+    }
+
     /// By whose points, and on which ways, axes go.
     pub fn ways(&self) -> (bool, bool, u8, u8) {
         (self.tip, self.tilted, self.turned, self.one_side)

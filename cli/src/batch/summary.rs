@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use ncc_driver::job::project_answers::Used;
 use ncc_driver::problem::{Exit, Problem};
-use ncc_driver::render::words::plural;
+use ncc_driver::render::numbers::plural;
 use ncc_driver::time::grid::Grid;
 use serde::Serialize;
 use serde_json::Value;

@@ -356,6 +356,15 @@ impl Destination {
         }
     }
 
+    /// The name of the output's file without its folder; `-` is standard output.
+    pub fn file_name(&self) -> String {
+        let name = match self {
+            Destination::File(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()),
+            Destination::Stdout => None,
+        };
+        name.unwrap_or_else(|| "-".to_owned())
+    }
+
     /// Writes the output there.
     ///
     /// # Errors

@@ -144,7 +144,7 @@ fn state(out: &mut dyn Write, last: Option<&Style>, now: &Style) -> io::Result<(
         }
     }
     if was.map_or((false, false), |s| (s.flood, s.mist)) != (is.flood, is.mist) {
-        writeln!(out, "coolant {}", coolant(is.flood, is.mist))?;
+        writeln!(out, "coolant {}", coolant(is.coolant()))?;
     }
     if last.is_none_or(|last| (last.offset, last.length) != (now.offset, now.length)) {
         writeln!(

@@ -504,8 +504,12 @@ fn stream(
         Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
             let header =
                 Header { prog_name: &name, machine_name: shop.title(), dialect: &job.from.dialect.id };
-            let (lines, timed) = (args.form == Form::Ndjson, Stage::from(args.stage) == Stage::After);
-            let sink = payload::Payload::new(&header, &shop.machine, lines, timed, &mut out);
+            let shape = match args.form {
+                Form::Ndjson => payload::Shape::Lines,
+                _ => payload::Shape::Document,
+            };
+            let stage = Stage::from(args.stage);
+            let sink = payload::Payload::new(&header, &shop.machine, shape, stage, &mut out);
             let mut sink = sink.map_err(cannot)?;
             let course = execute(args, &plan, known, source, &mut sink, err)?;
             sink.finish().map_err(cannot)?;

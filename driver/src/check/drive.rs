@@ -7,7 +7,7 @@
 use std::collections::{BTreeSet, VecDeque};
 use std::io::{self, Read, Seek, SeekFrom};
 
-use ncc_check::flow::{Jumps, never_called};
+use ncc_check::flow::{Block, Jumps, never_called};
 use ncc_check::{Checked, Checker, Finding, LeftOn, Limits, Refusal, What};
 use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
 use ncc_exec::{Exec, Runner};
@@ -148,9 +148,14 @@ impl<'d> Drive<'d> {
             Flow::Program => jumps.program(),
             Flow::Block { label, at, says, frames } => {
                 self.labels.extend(label.clone());
-                jumps.block(label, at, says, frames);
+                let block = match frames {
+                    true => Block::OfStructure,
+                    false if says => Block::Executed,
+                    false => Block::Silent,
+                };
+                jumps.block(label, at, block);
             }
-            Flow::Jump { to, at, always, quiet } => jumps.jump(to, at, always, quiet),
+            Flow::Jump { to, at, always, quiet } => jumps.jump(to, (!quiet).then_some(at), always),
         });
         for finding in jumps.finish() {
             if let What::JumpNowhere { .. } = finding.what {

@@ -1,6 +1,7 @@
 //! What every finding is called: its message, the words at its places, and what to do.
 
 use ncc_check::{Checked, Finding, LeftOn, Outside, Unchecked, What};
+use ncc_ir::canon::Axis;
 use ncc_ir::expr::num::Nanos;
 
 /// The words of a finding.
@@ -30,25 +31,7 @@ pub fn words(finding: &Finding) -> Words {
     };
     let (message, label, related, advice): (String, String, &[&str], &str) = match &finding.what {
         What::AxisTravel { axis, side, to, limit, farthest } => {
-            let (axis, unit) = (axis.letter() as char, if axis.is_rotary() { "°" } else { " mm" });
-            let beyond = match side {
-                Outside::Below => "below its least",
-                Outside::Above => "above its greatest",
-            };
-            let far = match farthest != to {
-                true => format!(", the farthest to {}{unit}", decimal(*farthest)),
-                false => String::new(),
-            };
-            (
-                format!("{axis} goes beyond its travel"),
-                format!(
-                    "machine coordinate {}{unit}, {beyond}, {}{unit}{more}{far}",
-                    decimal(*to),
-                    decimal(*limit)
-                ),
-                &[],
-                "move the work, or state the work offset and the tool's length that are really set",
-            )
+            travel(*axis, *side, [*to, *limit, *farthest], &more)
         }
         What::FeedRange { axis, feed, limit } => {
             let whose = match axis {
@@ -150,6 +133,30 @@ pub fn words(finding: &Finding) -> Words {
         ),
     };
     Words { message, label, related, advice }
+}
+
+/// A move beyond an axis's travel: to where, beyond which limit, and the farthest of all such moves.
+fn travel(
+    axis: Axis,
+    side: Outside,
+    [to, limit, farthest]: [Nanos; 3],
+    more: &str,
+) -> (String, String, &'static [&'static str], &'static str) {
+    let (axis, unit) = (axis.letter() as char, if axis.is_rotary() { "°" } else { " mm" });
+    let beyond = match side {
+        Outside::Below => "below its least",
+        Outside::Above => "above its greatest",
+    };
+    let far = match farthest != to {
+        true => format!(", the farthest to {}{unit}", decimal(farthest)),
+        false => String::new(),
+    };
+    (
+        format!("{axis} goes beyond its travel"),
+        format!("machine coordinate {}{unit}, {beyond}, {}{unit}{more}{far}", decimal(to), decimal(limit)),
+        &[],
+        "move the work, or state the work offset and the tool's length that are really set",
+    )
 }
 
 fn left(mode: LeftOn) -> (String, String, &'static [&'static str], &'static str) {

@@ -237,19 +237,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
     }
     let Some(code) = without_comment(dialect, number, line, evidence) else { return };
     if !code.trim_ascii().is_empty() && !std::mem::replace(&mut evidence.begun, true) {
-        let first = code.trim_ascii()[0].to_ascii_uppercase();
-        let letters = [dialect.program.number, dialect.program.number_also];
-        let numbered = letters.iter().flatten().any(|letter| *letter as u32 == u32::from(first));
-        match dialect.program.number {
-            Some(_) if first == b':' && !numbered => evidence.con(number, "`:` is no sign of it".to_owned()),
-            Some(letter) if numbered && dialect.program.unnumbered_main => {
-                evidence.con(number, format!("`{letter}` before the main program"));
-            }
-            Some(letter) if framed && !numbered && !dialect.program.unnumbered_main => {
-                evidence.con(number, format!("no `{letter}` behind `%`"));
-            }
-            Some(_) | None => {}
-        }
+        first_block(dialect, number, &code, framed, evidence);
     }
     if code.trim_ascii_start().starts_with(b"/") && dialect.block.skip_levels == 0 {
         evidence.con(number, "`/` skips no block".to_owned());
@@ -325,6 +313,23 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
     let rules = &dialect.arc;
     if centre == 0b111 && arc && !(rules.centre_outside_zero || rules.centre_outside_ignored) {
         evidence.con(number, "`I`, `J` and `K` in one arc".to_owned());
+    }
+}
+
+/// The first block of a program, which may begin with its number.
+fn first_block(dialect: &Dialect, number: usize, code: &[u8], framed: bool, evidence: &mut Evidence) {
+    let first = code.trim_ascii()[0].to_ascii_uppercase();
+    let letters = [dialect.program.number, dialect.program.number_also];
+    let numbered = letters.iter().flatten().any(|letter| *letter as u32 == u32::from(first));
+    match dialect.program.number {
+        Some(_) if first == b':' && !numbered => evidence.con(number, "`:` is no sign of it".to_owned()),
+        Some(letter) if numbered && dialect.program.unnumbered_main => {
+            evidence.con(number, format!("`{letter}` before the main program"));
+        }
+        Some(letter) if framed && !numbered && !dialect.program.unnumbered_main => {
+            evidence.con(number, format!("no `{letter}` behind `%`"));
+        }
+        Some(_) | None => {}
     }
 }
 

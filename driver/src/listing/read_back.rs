@@ -14,7 +14,7 @@
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_exec::verify::{Comparison, Resolution};
 use ncc_exec::world::{Tables, World};
-use ncc_exec::{Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
+use ncc_exec::{Coolant, Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
 use ncc_ir::canon::{AXES, Axis, FeedMode, Modes, Plane, Spindle, SpindleMode, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
@@ -242,11 +242,14 @@ impl Listed {
                 self.event(Kind::ToolChange, 0);
                 self.state.spindle = now;
             }
-            "FLOOD_ON" => self.coolant(true, self.state.mist, false),
-            "MIST_ON" => self.coolant(self.state.flood, true, false),
+            "FLOOD_ON" => self.coolant(Coolant { flood: true, ..self.state.coolant() }, false),
+            "MIST_ON" => self.coolant(Coolant { mist: true, ..self.state.coolant() }, false),
             // One word switches both off.
-            "MIST_OFF" => self.coolant(self.state.flood, false, next == Some("FLOOD_OFF()")),
-            "FLOOD_OFF" => self.coolant(false, self.state.mist, false),
+            "MIST_OFF" => {
+                let on = Coolant { mist: false, ..self.state.coolant() };
+                self.coolant(on, next == Some("FLOOD_OFF()"));
+            }
+            "FLOOD_OFF" => self.coolant(Coolant { flood: false, ..self.state.coolant() }, false),
             // A tap or a bore without a dwell has one of no seconds.
             "DWELL" if number(inside) == Some(0) => {}
             "DWELL" => self.event(Kind::Dwell(number(inside)?), 0),
@@ -289,10 +292,10 @@ impl Listed {
 
     /// Switches coolant; where the next call switches the rest, that makes the event, and there is none where it is so
     /// already.
-    fn coolant(&mut self, flood: bool, mist: bool, more: bool) {
-        let before = (self.state.flood, self.state.mist);
-        (self.state.flood, self.state.mist) = (flood, mist);
-        if !more && before != (flood, mist) {
+    fn coolant(&mut self, on: Coolant, more: bool) {
+        let before = self.state.coolant();
+        (self.state.flood, self.state.mist) = (on.flood, on.mist);
+        if !more && before != on {
             self.event(Kind::Coolant, 0);
         }
     }

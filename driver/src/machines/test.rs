@@ -17,7 +17,7 @@ use crate::job::Job;
 use crate::questions::Policy;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
-use crate::render::words::plural;
+use crate::render::numbers::plural;
 use crate::translate::translate;
 
 /// What most programs have.

@@ -14,10 +14,10 @@ use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use crate::render::words;
+use crate::render::spelled;
 use crate::review::words::{coolant, number, spindle};
 use crate::source::chunks::{Chunk, Chunks};
-use crate::verify_run::fixed;
+use crate::verify_run::controls::fixed;
 
 /// What is told, in this order.
 pub const WHAT: [&str; 12] = [
@@ -278,7 +278,7 @@ impl Walk<'_> {
                 FeedMode::InverseTime => "inverse time".to_owned(),
             }),
             (self.exec.feed() != 0).then(|| format!("{} mm/min", number(self.exec.feed()))),
-            modes.work_offset.map(|offset| words::work_offset(offset, dialects)),
+            modes.work_offset.map(|offset| spelled::work_offset(offset, dialects)),
             u32::try_from(state.tool).ok().map(|tool| tool.to_string()),
             has_length.then(length),
             turns.then(|| match state.spindle {
@@ -291,7 +291,7 @@ impl Walk<'_> {
                     format!("{} {} {counts}", spindle(turning), number(state.speed))
                 }
             }),
-            Some(coolant(state.flood, state.mist).to_owned()),
+            Some(coolant(state.coolant()).to_owned()),
             Some(self.cycle()),
         ]
     }

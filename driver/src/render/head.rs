@@ -10,7 +10,7 @@ use ncc_ir::program::numbered::Numbered;
 
 use crate::job::Job;
 use crate::questions::Question;
-use crate::render::{questions, words};
+use crate::render::{numbers, questions, spelled};
 
 /// The lines of the comment.
 pub fn lines(
@@ -58,7 +58,7 @@ pub fn by_name(renumbered: &BTreeSet<(Numbered, Text, Text)>, arrow: &str) -> Ve
         let mut own: Vec<&(Numbered, Text, Text)> = renumbered.iter().filter(|row| row.0 == what).collect();
         own.sort_by_key(|(_, from, _)| (from.len(), from.clone()));
         let pairs: Vec<String> = own.iter().map(|(_, from, to)| format!("{from} {arrow} {to}")).collect();
-        (!pairs.is_empty()).then(|| format!("{} by name: {}", words::numbered(what, 2), pairs.join(", ")))
+        (!pairs.is_empty()).then(|| format!("{} by name: {}", numbers::numbered(what, 2), pairs.join(", ")))
     };
     Numbered::ALL.into_iter().filter_map(line).collect()
 }
@@ -75,7 +75,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             ModeName::FeedMode => format!("feed {value}"),
             ModeName::ReturnLevel => format!("cycles return to {value}"),
             ModeName::WorkOffset => match value.parse() {
-                Ok(number) => format!("work offset = {}", words::work_offset(number, dialects)),
+                Ok(number) => format!("work offset = {}", spelled::work_offset(number, dialects)),
                 Err(_) => format!("work offset = {value}"),
             },
             ModeName::LengthOffset => "no length offset at the start".to_owned(),
@@ -85,7 +85,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedBareNumber { word, value } => format!("{word} without point = {value}"),
         Fault::AssumedOffsetWithZ => "length offset taken up with the next Z".to_owned(),
         Fault::AssumedWorkOffset { offset } => {
-            format!("the only work offset = {}", words::work_offset(*offset, dialects))
+            format!("the only work offset = {}", spelled::work_offset(*offset, dialects))
         }
         Fault::AssumedRow { code, meaning } => format!("{code} = {meaning}"),
         Fault::AssumedOption { option, value } => format!("{option} = {value}"),
@@ -102,7 +102,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         }
         Fault::AssumedToolChange { .. } => "tool_with_change = named".to_owned(),
         Fault::CallDepth { depth, sure, macros } => {
-            format!("{} go {depth} deep, older controls take {sure}", words::calls(*macros))
+            format!("{} go {depth} deep, older controls take {sure}", numbers::calls(*macros))
         }
         Fault::AssumedCycle { .. } => "cycle_beside_motion = drilled".to_owned(),
         Fault::AssumedReturn { .. } => "return_distance = last".to_owned(),
@@ -129,8 +129,8 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         }
         Fault::NextRunVariables { names, source, target } => {
             let [to, from] = dialects.map(|dialect| dialect.id.as_str());
-            let [source, target] = [*source, *target].map(words::kept);
-            format!("{} kept {source} on {from}, {target} on {to}", words::variables(names))
+            let [source, target] = [*source, *target].map(spelled::kept);
+            format!("{} kept {source} on {from}, {target} on {to}", spelled::variables(names))
         }
         Fault::RoundsFreely => "corners rounded without a tolerance".to_owned(),
         Fault::FeedOnArcs { contour_in_source, .. } => {

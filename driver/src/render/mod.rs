@@ -20,7 +20,9 @@ pub mod source;
 pub mod spelled;
 pub mod summary;
 pub mod terminal;
+pub mod text;
 mod unsupported;
+mod unwritable;
 pub mod words;
 
 use std::io;

@@ -16,7 +16,8 @@ use serde::Serialize;
 use super::json::JsonPlace;
 use super::numbers::{rotary_turn, signed};
 use super::source::Excerpt;
-use super::words::{plain, plain_upto, return_path};
+use super::spelled::{Counted, return_path};
+use super::text::{plain, plain_upto};
 use super::{About, Told};
 use crate::questions::{Answer, Fact, Made, Question, Reading, Shown};
 
@@ -265,7 +266,9 @@ fn result(shown: &Shown) -> Option<String> {
         Shown::Hole { cycle, motion, drills: false } => {
             format!("{} moves all axes, {} is cancelled", plain(motion), plain(cycle))
         }
-        Shown::Path { words, zero, absolute, .. } => return_path(words, *zero, *absolute),
+        Shown::Path { words, zero, absolute, .. } => {
+            return_path(words, *zero, if *absolute { Counted::OfPart } else { Counted::FromHere })
+        }
         Shown::Made(made) => match *made {
             Made::End(axis, at) => {
                 let unit = if matches!(axis.letter(), b'A'..=b'C') { "degrees" } else { "mm" };

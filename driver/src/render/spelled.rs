@@ -1,9 +1,11 @@
-//! Pieces of messages that are spelled from values: characters, what was found, radii, the path of a return.
+//! Pieces of messages that are spelled from values: characters, what was found, radii, modes, the path of a return.
 
+use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Kept};
+use ncc_ir::diag::ModeName;
 
-use super::numbers::millimetres;
-use super::words::{plain, plain_upto, quoted};
+use super::numbers::{millimetres, plural};
+use super::text::{plain, plain_upto, quoted};
 
 /// What was found, in quotes if it is text of the source.
 pub fn found_words(found: &str) -> String {
@@ -28,14 +30,22 @@ pub fn radii_of([start, end]: [i64; 2]) -> String {
     format!("radius {} mm at the start, {} mm at the end", millimetres(start), millimetres(end))
 }
 
-/// The path of a return to a reference point: by its words, which are places of the part, or counted from where the
-/// axes stand; `zero`: all of them are nothing.
-pub fn return_path(words: &str, zero: bool, absolute: bool) -> String {
+/// How the words of a return to a reference point count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// They are places of the part.
+    OfPart,
+    /// From where the axes stand.
+    FromHere,
+}
+
+/// The path of a return to a reference point; `zero`: all of its words are nothing.
+pub fn return_path(words: &str, zero: bool, counted: Counted) -> String {
     let words = plain_upto(words, 24);
-    match (absolute, zero) {
-        (true, _) => format!("by way of {words} of the part"),
-        (false, true) => "from where it stands".to_owned(),
-        (false, false) => format!("by {words} from where it stands"),
+    match counted {
+        Counted::OfPart => format!("by way of {words} of the part"),
+        Counted::FromHere if zero => "from where it stands".to_owned(),
+        Counted::FromHere => format!("by {words} from where it stands"),
     }
 }
 
@@ -44,6 +54,14 @@ pub fn next_run(behaviour: Behaviour) -> &'static str {
     match behaviour {
         Behaviour::VariablesAtEnd | Behaviour::VariablesWhenOff => "the next run reads other values",
         _ => "the next run begins in another place",
+    }
+}
+
+/// What radius is not known: that of an entry of the table, or of an edge.
+pub fn radius_unknown(entry: Option<u32>) -> String {
+    match entry {
+        Some(entry) => format!("the radius of entry {entry} is not known"),
+        None => "the radius of this edge is not known".into(),
     }
 }
 
@@ -58,5 +76,26 @@ pub fn kept(kept: Kept) -> &'static str {
 
 /// Variables by their names.
 pub fn variables(names: &[Box<str>]) -> String {
-    format!("{} {}", super::words::plural(names.len() as u64, "variable"), names.join(", "))
+    format!("{} {}", plural(names.len() as u64, "variable"), names.join(", "))
+}
+
+/// A modal fact's name.
+pub fn mode(fact: ModeName) -> &'static str {
+    match fact {
+        ModeName::Motion => "motion mode",
+        ModeName::Distance => "distance mode",
+        ModeName::Units => "unit of length",
+        ModeName::Plane => "plane",
+        ModeName::FeedMode => "feed mode",
+        ModeName::ReturnLevel => "return level of cycles",
+        ModeName::WorkOffset => "work offset",
+        ModeName::LengthOffset => "length offset",
+        ModeName::OriginShift => "origin shift",
+    }
+}
+
+/// A work offset by the word that one of the dialects has for it, the first one if it has.
+pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
+    let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
+    row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
 }

@@ -3,14 +3,20 @@
 //! A message says what is wrong in a line; the label says why this very place. What to do about it
 //! is in `advice`, the background on the fault's page in `pages/`.
 
-pub use super::numbers::{calls, numbered, plural};
-use super::numbers::{millimetres, rotary_turn, signed, thousands};
-use super::spelled::{character, found_words, next_run, radii_of};
-pub use super::spelled::{kept, return_path, variables};
-use ncc_dialects::{Dialect, Meaning};
-use ncc_ir::behaviour::{Behaviour, Concern};
-use ncc_ir::canon::PathMode;
-use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
+mod at_machine;
+mod further;
+mod verified;
+
+use ncc_dialects::Dialect;
+use ncc_ir::behaviour::Behaviour;
+use ncc_ir::diag::Fault;
+
+use super::numbers::{calls, millimetres, numbered, plural, rotary_turn, thousands};
+use super::spelled::{
+    Counted, character, found_words, kept, mode, radii_of, radius_unknown, return_path, variables,
+    work_offset,
+};
+use super::text::{plain, quoted};
 
 /// What the wording may name besides the fault's own data.
 #[derive(Clone, Copy, Debug)]
@@ -176,9 +182,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::NoToolSelected => {
             ("tool change without a tool".into(), "no tool number has been said before".into())
         }
-        Fault::NoFeed => {
-            ("move at feed without a feed".into(), "none has been said in the feed mode that is in force".into())
-        }
+        Fault::NoFeed => (
+            "move at feed without a feed".into(),
+            "none has been said in the feed mode that is in force".into(),
+        ),
         Fault::NoSpeed => ("a thread without a speed".into(), "no spindle speed has been said before".into()),
         Fault::NoValue { what } => ("an expression without a value".into(), format!("this is {what}")),
         Fault::VariableUnset { name } => (
@@ -237,44 +244,27 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{to} may have switched it off by itself, {from} has not"),
         ),
         Fault::OpenBehaviour { behaviour, source, other, .. } => {
-            let cut = match behaviour.concern() {
-                Concern::AtEnd => next_run(*behaviour),
-                Concern::Machine | Concern::Nothing => "another cut",
-            };
-            let control = if *source { from } else { to };
-            (
-                format!("check at the machine: {}", behaviour.about()),
-                format!("{cut} where {} = {other} on {control}", behaviour.option()),
-            )
+            at_machine::open_behaviour(*behaviour, other, if *source { from } else { to })
         }
-        Fault::NextRunShifted { axis, source, target } => (
-            "check at the machine: the next run begins in another place".into(),
-            format!(
-                "{from} begins it with {} shifted by {}, {to} by {}",
-                char::from(axis.letter()),
-                signed(*source),
-                signed(*target)
-            ),
-        ),
+        Fault::NextRunShifted { axis, source, target } => {
+            at_machine::next_run_shifted(*axis, [(from, *source), (to, *target)])
+        }
         Fault::RoundsFreely => (
             "check at the machine: corners are rounded without a tolerance".into(),
-            format!("{from} rounds them by what its axes lag behind, {to} as far as the acceleration asks for"),
+            format!(
+                "{from} rounds them by what its axes lag behind, {to} as far as the acceleration asks for"
+            ),
         ),
         Fault::NextRunTurned => (
             "check at the machine: the next run begins in another frame".into(),
-            "one control keeps a rotation, scale or mirror at the end of the program, the other does not".into(),
+            "one control keeps a rotation, scale or mirror at the end of the program, the other does not"
+                .into(),
         ),
         Fault::NextRunVariables { names, source, target } => (
             format!("check at the machine: the next run reads other values: {}", variables(names)),
             format!("kept {} on {from}, {} on {to}", kept(*source), kept(*target)),
         ),
-        Fault::FeedAtUnits { before, now } => (
-            match before == now {
-                true => "check the feed: F was stated before the units changed".into(),
-                false => "check the feed: F counts in the new unit from here on".into(),
-            },
-            format!("{} mm/min before, {} mm/min here on {from}", millimetres(*before), millimetres(*now)),
-        ),
+        Fault::FeedAtUnits { before, now } => at_machine::feed_at_units(*before, *now, from),
         Fault::OptionalStopDiffers => (
             "check at the machine: the cut after an optional stop".into(),
             format!("with the switch on, {from} and {to} do not do the same here"),
@@ -283,13 +273,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "check at the machine: the program sets no path mode".into(),
             format!("corners: {source} on {from}, {target} on {to}"),
         ),
-        Fault::FeedOnArcs { contour_in_source, .. } => (
-            "check at the machine: feed on arcs under cutter compensation".into(),
-            match contour_in_source {
-                true => format!("F counts along the contour on {from}, at the tool centre on {to}"),
-                false => format!("F counts at the tool centre on {from}, along the contour on {to}"),
-            },
-        ),
+        Fault::FeedOnArcs { contour_in_source, .. } => {
+            at_machine::feed_on_arcs(*contour_in_source, [from, to])
+        }
         Fault::LengthByHand { tool } => (
             format!("check at the machine: set the zero of Z by tool {tool} when it is put in"),
             format!("{to} has no tool lengths; the change is by hand"),
@@ -302,13 +288,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{}, written as a code", behaviour.about()),
             format!("{from} and {to} begin with another meaning of F there"),
         ),
-        Fault::SideEffectWritten { behaviour } => (
-            format!("{}, written as words", behaviour.about()),
-            format!("{from} does it by itself here"),
-        ),
-        Fault::RotaryTurnOpen { axis, by, or } => {
-            (rotary_turn(*axis, *by, *or), format!("a setting of each machine decides, on {from} and on {to}"))
+        Fault::SideEffectWritten { behaviour } => {
+            (format!("{}, written as words", behaviour.about()), format!("{from} does it by itself here"))
         }
+        Fault::RotaryTurnOpen { axis, by, or } => (
+            rotary_turn(*axis, *by, *or),
+            format!("a setting of each machine decides, on {from} and on {to}"),
+        ),
         Fault::MustBeStated { behaviour } => (
             format!("{}: what does {from} do here?", behaviour.about()),
             format!("a parameter of the machine decides; {to} must be told"),
@@ -330,7 +316,11 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("T{waiting} waits since an earlier block, and the next H is H{waiting}"),
         ),
         Fault::AssumedReturn { code, words, zero, last } => (
-            format!("{} {}", quoted(code), return_path(words, *zero, *last)),
+            format!(
+                "{} {}",
+                quoted(code),
+                return_path(words, *zero, if *last { Counted::OfPart } else { Counted::FromHere })
+            ),
             "G90 and G91 in one block: the last one counts".into(),
         ),
         Fault::AssumedCycle { cycle, motion } => (
@@ -345,13 +335,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "cutter radius compensation worked out as RS274/NGC describes it".into(),
             "corners, the way onto the contour and off it are each control's own".into(),
         ),
-        Fault::RadiusUnknown { entry } => (
-            match entry {
-                Some(entry) => format!("the radius of entry {entry} is not known"),
-                None => "the radius of this edge is not known".into(),
-            },
-            "the path of the tool's centre cannot be worked out".into(),
-        ),
+        Fault::RadiusUnknown { entry } => {
+            (radius_unknown(*entry), "the path of the tool's centre cannot be worked out".into())
+        }
         Fault::ContourUnreachable { why } => {
             (format!("this contour cannot be gone along: {why}"), "the tool would cut into it".into())
         }
@@ -382,7 +368,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::NoEnd { steps } => {
             let steps = thousands(*steps);
-            ("the program runs for too long to be executed".into(), format!("still running after {steps} blocks"))
+            (
+                "the program runs for too long to be executed".into(),
+                format!("still running after {steps} blocks"),
+            )
         }
         Fault::Interrupted { steps } => {
             ("interrupted".into(), format!("the program was here, after {} blocks", thousands(*steps)))
@@ -477,8 +466,12 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "variables, loops, jumps and subprograms are gone, with the comments beside them".into(),
         ),
         Fault::AlarmsRenumbered { map } => ("alarms have other numbers".into(), format!("in {to}, {map}")),
-        Fault::OutputDropped => ("text for a device left out".into(), format!("{to} does not write it; a comment is left")),
-        Fault::AlarmValues => ("values in an alarm left out".into(), "its text has three points in their place".into()),
+        Fault::OutputDropped => {
+            ("text for a device left out".into(), format!("{to} does not write it; a comment is left"))
+        }
+        Fault::AlarmValues => {
+            ("values in an alarm left out".into(), "its text has three points in their place".into())
+        }
         Fault::ValuesInFull { digits } => (
             format!("a value in a message has {digits} digits behind its point"),
             format!("{to} does not leave out the zeros at its end"),
@@ -488,20 +481,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("block-skip level {level} lost"),
             format!("{to} cannot tell this switch from the others"),
         ),
-        Fault::PathRelaxed { from, to: mode } => match PathMode::named(from) {
-            Some(PathMode::SlowCorners) => (
-                "the feed is not lowered at inner corners of a contour any more".into(),
-                format!("{to} has no word for it, and goes round them at the whole feed"),
-            ),
-            Some(PathMode::Tapping) => (
-                "the feed can be held and overridden again".into(),
-                format!("{to} has no word that forbids it"),
-            ),
-            _ => (
-                format!("corners by {} written as {}", plain(from), plain(mode)),
-                format!("{to} has no word for this way of taking corners"),
-            ),
-        },
+        Fault::PathRelaxed { from, to: mode } => at_machine::path_relaxed(from, mode, to),
         Fault::AdviceLeftOut { kind } => (
             format!("{} left out: no effect on the cut", plain(&kind.replace('-', " "))),
             format!("{to} has no word of this kind; the programmed moves stay"),
@@ -527,13 +507,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CodeLeftOut { code } => {
             (format!("{} left out", quoted(code)), "stated to have no effect on the cut".into())
         }
-        Fault::ToolNumbered { name, number } => {
-            (format!("T{number} is {}", plain(name)), "numbered in the order of use: put it into this place".into())
-        }
-        Fault::MessageAsComment => (
-            "message kept as a comment".into(),
-            format!("{to} shows none while the program runs"),
+        Fault::ToolNumbered { name, number } => (
+            format!("T{number} is {}", plain(name)),
+            "numbered in the order of use: put it into this place".into(),
         ),
+        Fault::MessageAsComment => {
+            ("message kept as a comment".into(), format!("{to} shows none while the program runs"))
+        }
         Fault::RepeatExpanded { times } => (
             format!("repetition written out {times} {}", plural(u64::from(*times), "time")),
             format!("{to} has no word for it"),
@@ -589,108 +569,19 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("nothing in the program calls the subprogram {name}"),
             "it was written, and not executed when the program was verified".into(),
         ),
-        Fault::ArgumentNeeded { name, place, check } => (
-            match place {
-                0 if *check == ArgumentCheck::Whole => {
-                    format!("every call must give the argument {name}, a whole number")
-                }
-                0 => format!("every call must give the argument {name}"),
-                place => format!("every call must give the argument {name} in place {place}"),
-            },
-            match check {
-                ArgumentCheck::NotAsked => {
-                    "in the output it is a parameter, which is zero where a call leaves it out"
-                }
-                ArgumentCheck::Nothing => {
-                    "in the output it is a variable of the call, which has no value where a call leaves it out"
-                }
-                ArgumentCheck::Whole => {
-                    "in the output it is a variable of the call, without a value where a call leaves it out; as the \
-                     speed it is rounded"
-                }
-                ArgumentCheck::LeftOut | ArgumentCheck::Default(_) => {
-                    "this check is left out: in the output it is a parameter, which is zero where a call leaves it out"
-                }
-            }
-            .into(),
-        ),
-        Fault::NotTaken { holds, fails } => (
-            "not all of the program was executed when it was verified".into(),
-            match (holds, fails) {
-                (true, true) => "this decision was not come to",
-                (true, false) => "this never held",
-                (false, _) => "this always held",
-            }
-            .into(),
-        ),
+        Fault::ArgumentNeeded { name, place, check } => verified::argument_needed(name, *place, check),
+        Fault::NotTaken { holds, fails } => verified::not_taken([*holds, *fails]),
         Fault::OutputNotTaken { blocks } => (
             "not all of the output was executed when it was verified".into(),
             format!("it decides more often than the source; not both ways were gone of: {}", plain(blocks)),
         ),
         Fault::FactNotTried { behaviour, source } => {
-            let control = if *source { from } else { to };
-            let fact = |b: &Behaviour| format!("another value of {} on {control}", b.option());
-            let what = behaviour.as_ref().map_or("the switch for optional stops".into(), fact);
-            let left = "the run with it was left 1000000 events or 20000000 steps after this";
-            (format!("{what} was not tried to the end of the program"), left.into())
+            verified::fact_not_tried(*behaviour, if *source { from } else { to })
         }
         Fault::SkipSettingsSampled { levels } => (
             format!("not every setting of {levels} block-skip switches was tried"),
             "each switch alone and every pair were".into(),
         ),
     };
-    Words { message, label, related: related(fault) }
-}
-
-/// What the further places of a fault are. Most faults have none.
-fn related(fault: &Fault) -> &'static str {
-    match fault {
-        Fault::WordTwice { .. } | Fault::ProgramTwice { .. } | Fault::SecondWorkOffset { .. } => "first here",
-        Fault::CodesExclude { .. } => "the other one",
-        Fault::TextAfterEnd => "the program ends here",
-        Fault::LabelTwice { .. } => "one of them",
-        Fault::CallRecursive { .. } => "by way of this call",
-        Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
-        _ => "belongs to it",
-    }
-}
-
-/// A modal fact's name.
-pub fn mode(fact: ModeName) -> &'static str {
-    match fact {
-        ModeName::Motion => "motion mode",
-        ModeName::Distance => "distance mode",
-        ModeName::Units => "unit of length",
-        ModeName::Plane => "plane",
-        ModeName::FeedMode => "feed mode",
-        ModeName::ReturnLevel => "return level of cycles",
-        ModeName::WorkOffset => "work offset",
-        ModeName::LengthOffset => "length offset",
-        ModeName::OriginShift => "origin shift",
-    }
-}
-
-/// A work offset by the word that one of the dialects has for it, the first one if it has.
-pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
-    let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
-    row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
-}
-
-/// Text as it may be shown: no control characters. ncc's own sentences are never cut.
-pub fn plain(text: &str) -> String {
-    plain_upto(text, 400)
-}
-
-/// The same, with a length of one's own, in characters.
-pub fn plain_upto(text: &str, longest: usize) -> String {
-    let mut shown: String = text.chars().take(longest).map(super::source::visible).collect();
-    if text.chars().nth(longest).is_some() {
-        shown.push('…');
-    }
-    shown
-}
-
-/// Text from the source, not too long, in the quotes of code.
-pub fn quoted(text: &str) -> String {
-    format!("`{}`", plain_upto(text, 60))
+    Words { message, label, related: further::related(fault) }
 }

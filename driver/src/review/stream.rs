@@ -35,7 +35,8 @@ use crate::machines::pair::Answer;
 use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks};
 use crate::translate::parameter;
-use crate::verify_run::{WORLDS, fixed, levels};
+use crate::verify_run::controls::fixed;
+use crate::verify_run::{WORLDS, levels};
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;

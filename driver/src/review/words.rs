@@ -1,6 +1,7 @@
 //! Records in words: places, moves and what they are done with.
 
 use ncc_diff::record::{Length, Record, Style, What};
+use ncc_exec::Coolant;
 use ncc_ir::canon::{AXES, Axis, Plane, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::Text;
@@ -54,12 +55,12 @@ pub fn spindle(spindle: Spindle) -> &'static str {
 }
 
 /// Coolant, by what is on.
-pub fn coolant(flood: bool, mist: bool) -> &'static str {
-    match (flood, mist) {
-        (false, false) => "off",
-        (true, false) => "flood",
-        (false, true) => "mist",
-        (true, true) => "flood and mist",
+pub fn coolant(on: Coolant) -> &'static str {
+    match on {
+        Coolant { flood: false, mist: false } => "off",
+        Coolant { flood: true, mist: false } => "flood",
+        Coolant { flood: false, mist: true } => "mist",
+        Coolant { flood: true, mist: true } => "flood and mist",
     }
 }
 

@@ -9,7 +9,7 @@ use super::drive::{Course, Length, Plan};
 use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
-use crate::render::words;
+use crate::render::spelled;
 
 /// Of the program and its control: what the front-end took for granted.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -127,7 +127,7 @@ fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
 }
 
 fn offset(plan: &Plan, number: u16) -> String {
-    words::work_offset(number, [plan.job.from.dialect, plan.job.to.dialect])
+    spelled::work_offset(number, [plan.job.from.dialect, plan.job.to.dialect])
 }
 
 /// Of the table of lengths.

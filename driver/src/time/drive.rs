@@ -5,6 +5,8 @@
 //! rest is kept whole and run from there. What comes out goes to a [`Sink`], function by function.
 //! Not here: what is made of them, and where it is written.
 
+mod notes;
+
 use std::collections::{BTreeSet, VecDeque};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
@@ -16,24 +18,21 @@ use ncc_exec::{Event, Exec, Kind, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, PathMode};
 use ncc_ir::computed::open::asked_of_the_machine;
-use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_machines::reading::Told;
 use ncc_plot::Turned;
 use ncc_time::{Act, Clock, Machine, Model, Place, Timed};
 
 use super::blocks::Blocks;
 use super::reach::{Reach, reach, turned};
 use crate::job::Job;
-use crate::machines::pair::Answer;
 use crate::review::stream::as_stated;
 use crate::source::Source;
 use crate::source::chunks::{Chunk, Chunks};
 use crate::translate::parameter;
-use crate::verify_run::fixed;
+use crate::verify_run::controls::fixed;
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -475,44 +474,6 @@ impl<'d> Drive<'d> {
         self.events = events;
     }
 
-    /// Notes a block of a contour, and contours that the tool's centre is not followed along.
-    fn note_contour(&mut self, span: Span, place: Place, said: &Said) {
-        self.course.follows_centre |= self.exec.follows_centre();
-        let known = self.course.as_programmed.len();
-        let new = self.exec.as_programmed().get(known..).unwrap_or_default();
-        self.course.as_programmed.extend(new.iter().map(|left| (place.line, left.fault.clone())));
-        if self.held.len() >= MOST_HELD {
-            self.held.pop_front();
-        }
-        self.held.push_back((span, place, said.clone()));
-    }
-
-    /// Notes what a move depends on: whether it goes anywhere too.
-    fn moves(&mut self, act: &Act) {
-        if act.event.kind.moves().is_none() {
-            return;
-        }
-        self.moved = true;
-        match act.event.state.path {
-            None => self.course.corners.unsaid = true,
-            Some(PathMode::ExactStop | PathMode::ExactPath | PathMode::Distance) => {}
-            Some(_) => self.course.corners.open |= act.event.state.within[..2] == [0; 2],
-        }
-        for (moved, (from, to)) in self.course.moved.iter_mut().zip(act.from.iter().zip(&act.event.end)) {
-            *moved |= from != to;
-        }
-        let length = match self.exec.length_edge() {
-            Some((tool, edge)) => Length::Edge(tool, edge),
-            None => Length::Entry(self.exec.length_entry().unwrap_or(0)),
-        };
-        let depends = (self.exec.offset_in_force(), length);
-        if self.depends != Some(depends) {
-            self.depends = Some(depends);
-            self.course.offsets.insert(depends.0);
-            self.course.lengths.insert(depends.1);
-        }
-    }
-
     /// Where a statement stands.
     fn place(&mut self, span: Span, text: &[u8]) -> (Place, Said) {
         let line = self.blocks.find(text, span.start);
@@ -586,79 +547,6 @@ impl<'d> Drive<'d> {
         self.course.refused = self.errors > 0;
         self.course.end = self.plan.start_time + self.clock.now();
         Ok(self.course)
-    }
-
-    /// Looks through statements for what is to be told, or known before they are executed.
-    fn look(&mut self, stmts: &[Stmt]) {
-        for stmt in stmts {
-            self.course.skip_levels |= stmt.skip.map_or(0, |level| 1 << level);
-            let says = !matches!(stmt.op, Op::Blank | Op::Comment(_));
-            self.course.blocks += u64::from(!stmt.joined && says);
-            match &stmt.op {
-                Op::ProgramStop | Op::OptionalProgramStop => self.course.stops = true,
-                Op::OrientToolAxis(_) => self.course.turns_onto_planes = true,
-                Op::UseToolCentrePoint(on) => self.course.tip |= on,
-                Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => self.course.in_machine = true,
-                Op::StartCutterRadiusCompensation { .. } => self.course.compensates = true,
-                Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
-                _ => {}
-            }
-        }
-    }
-
-    /// Takes the control's own parameters of a cycle from the dictionary.
-    fn parameters(&mut self, kind: &CycleKind, span: Span) {
-        let (option, name, drill) = match kind {
-            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
-                (PECK_CLEARANCE, "clearance of peck drilling", true)
-            }
-            CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
-                (BREAK_LIFT, "lift of chip-breaking drilling", false)
-            }
-            CycleKind::Drill
-            | CycleKind::DrillDwell { .. }
-            | CycleKind::DrillPeck { .. }
-            | CycleKind::DrillBreak { .. }
-            | CycleKind::Bore { .. }
-            | CycleKind::Tap(_)
-            | CycleKind::FineBore(_)
-            | CycleKind::BoreStop(_) => return,
-        };
-        let said = parameter(self.plan.job, option).and_then(|value| value.nanos(false));
-        match said.or(self.plan.parameters[usize::from(!drill)]) {
-            Some(nanos) => {
-                if drill {
-                    self.exec.set_peck_clearance(nanos);
-                } else {
-                    self.exec.set_break_lift(nanos);
-                }
-                let value = format!("{} mm", nanos as f64 / 1e9).into();
-                let fault = Fault::AssumedParameter { parameter: name.into(), value };
-                self.take(Diagnostic::new(fault, span));
-            }
-            None => {
-                let what = format!("an unknown {name}");
-                self.take(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span));
-            }
-        }
-    }
-
-    fn take_diagnostics(&mut self) {
-        for diagnostic in std::mem::take(&mut self.batch.diagnostics) {
-            self.take(diagnostic);
-        }
-    }
-
-    /// Takes what was found. An assumption that the machine's profile settles is none.
-    fn take(&mut self, mut diagnostic: Diagnostic) {
-        let job = self.plan.job;
-        match job.machines.answer(&diagnostic.fault, Told::Reader, &job.from, &job.to) {
-            Answer::Open => {}
-            Answer::Settled => return,
-            Answer::Denied(denied) => diagnostic.fault = denied,
-        }
-        self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
-        self.course.diagnostics.push(diagnostic);
     }
 }
 

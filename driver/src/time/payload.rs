@@ -15,7 +15,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::columns::{Columns, Row, units};
-use super::drive::{Said, Sink};
+use super::drive::{Said, Sink, Stage};
 use super::parameters;
 
 /// The JSON Schema of the document and of the lines of its long form.
@@ -68,14 +68,22 @@ struct Rotary {
     c1: f64,
 }
 
+/// How blocks stand in the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One document with all of them.
+    Document,
+    /// One block a line, and nothing around them.
+    Lines,
+}
+
 /// Writes the document.
 pub struct Payload<'m, W: Write> {
     machine: &'m Machine,
     columns: Columns,
-    /// One block a line, and nothing around them.
-    lines: bool,
-    /// Whether times are told.
-    timed: bool,
+    shape: Shape,
+    /// Times are told after processing.
+    stage: Stage,
     any: bool,
     /// Feed in force.
     feed: f64,
@@ -87,11 +95,11 @@ impl<'m, W: Write> Payload<'m, W> {
     pub fn new(
         header: &Header,
         machine: &'m Machine,
-        lines: bool,
-        timed: bool,
+        shape: Shape,
+        stage: Stage,
         mut out: W,
     ) -> io::Result<Payload<'m, W>> {
-        if lines {
+        if shape == Shape::Lines {
             serde_json::to_writer(&mut out, header)?;
             out.write_all(b"\n")?;
         } else {
@@ -107,24 +115,24 @@ impl<'m, W: Write> Payload<'m, W> {
             }
             out.write_all(b"  \"blocks\": [")?;
         }
-        Ok(Payload { machine, columns: Columns::default(), lines, timed, any: false, feed: 0.0, out })
+        Ok(Payload { machine, columns: Columns::default(), shape, stage, any: false, feed: 0.0, out })
     }
 
     /// Writes what stands after the blocks.
     pub fn finish(&mut self) -> io::Result<()> {
-        if !self.lines {
+        if self.shape == Shape::Document {
             self.out.write_all(b"\n  ]\n}\n")?;
         }
         self.out.flush()
     }
 
     fn block(&mut self, block: &Block) -> io::Result<()> {
-        if !self.lines {
+        if self.shape == Shape::Document {
             self.out.write_all(if self.any { b",\n    " } else { b"\n    " })?;
         }
         self.any = true;
         serde_json::to_writer(&mut self.out, block)?;
-        if self.lines {
+        if self.shape == Shape::Lines {
             self.out.write_all(b"\n")?;
         }
         Ok(())
@@ -173,7 +181,7 @@ impl<W: Write> Sink for Payload<'_, W> {
         }
         let mut block = block(&said.block, &row, &act.program_from, &act.program_to);
         block.cut_offset = act.cut_offset;
-        if self.timed {
+        if self.stage == Stage::After {
             block.time = micro(timed.duration);
             block.timestamp = micro(timed.end());
         }

@@ -12,7 +12,8 @@ use ncc_machines::reading::Told;
 use ncc_passes::values::variables::renamed::Renamed;
 
 use super::translation::Translation;
-use crate::verify_run::{Verifier, fixed};
+use crate::verify_run::Verifier;
+use crate::verify_run::controls::fixed;
 
 impl Translation<'_> {
     /// Makes statements of facts that always hold for the source's control, and not for the

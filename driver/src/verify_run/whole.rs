@@ -1,27 +1,28 @@
 //! Programs that are kept whole: both are run from where they begin to their ends, against each other.
 //!
-//! What a program reads and has not set is given values, the same in both by the variables' names: made of the
-//! numbers of the program itself, so that its decisions go both ways, and nothing at all for local variables. With
-//! which values the source cannot be executed, it says nothing. Ways that were not gone are told.
+//! What a program reads and has not set is given values (`values`). A set of values with which the source cannot be
+//! executed says nothing. Ways that were not gone are told.
+
+mod values;
 
 use ncc_exec::verify::Pair;
 use ncc_exec::{Event, Exec, Kind, Progress, Runner};
 use ncc_ir::canon::Modes;
-use ncc_ir::computed::open::{literals, open_variables};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::Var;
-use ncc_ir::expr::value::{Value, Wrong};
+use ncc_ir::expr::value::Wrong;
 use ncc_ir::program::valid::{anything, not_called};
-use ncc_ir::program::{Procedure, Program, Type};
+use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::{Taken, There, compares_nearly, computes_numbers, otherwise, places};
+use ncc_passes::values::otherwise::{There, compares_nearly, computes_numbers, otherwise, places};
 use ncc_passes::values::variables::renamed::Renamed;
 
+use self::values::READINGS;
 use super::facts::{Other, tries_facts};
 use super::forks::{Forks, Shown};
 use super::twice::outliving;
 use super::{Run, Stop, Verifier, different, levels, unreadable};
-use crate::job::given::Given as Stated;
+
+pub use self::values::Given;
 
 /// Events that are made on each side before they are compared.
 pub const PIECE: usize = 4096;
@@ -48,111 +49,8 @@ const MOST_TOLD: usize = 20;
 /// Blocks of the output that are told, where it decides more than the source.
 const MOST_BLOCKS: usize = 3;
 
-/// What another program has left in a variable.
-const LEFT_THERE: f64 = -791.3;
-
 /// Places of which it is asked whether a difference is made there; behind them it is told at the end.
 const MOST_PLACES: usize = 64;
-
-/// Values that any variable may have.
-const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
-
-/// What may be taken for granted of a source's numbers, alone and together.
-const READINGS: [&[Taken]; 7] = [
-    &[Taken::Apart],
-    &[Taken::NotNegative],
-    &[Taken::Together],
-    &[Taken::Apart, Taken::NotNegative],
-    &[Taken::Apart, Taken::Together],
-    &[Taken::NotNegative, Taken::Together],
-    &[Taken::Apart, Taken::NotNegative, Taken::Together],
-];
-
-/// Values for what a program reads and has not set.
-pub struct Given<'g> {
-    open: Vec<(Var, Span)>,
-    /// Parameters of the main procedure, and what they hold: each has a value, which a call has converted.
-    parameters: Vec<(Var, Type)>,
-    /// What is stated of them.
-    stated: &'g Stated,
-    /// What is tried first: the numbers of the program, and those beside them.
-    pool: Vec<f64>,
-    /// What the output calls the source's variables.
-    renamed: Renamed,
-    /// The source of an output that computes, in the other [`READINGS`].
-    other_readings: [Option<Program>; READINGS.len()],
-    /// Whether the output's comparisons find equal what is nearly so, and the source's do not.
-    near: bool,
-}
-
-impl<'g> Given<'g> {
-    fn new(source: &Program, stated: &'g Stated) -> Given<'g> {
-        let open = open_variables(source);
-        let mut pool = FIRST.to_vec();
-        if !open.is_empty() {
-            let own = literals(source);
-            pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
-        }
-        let main = source.procedures.first().into_iter();
-        let parameters = main.flat_map(|main| {
-            let kinds = main.kinds.iter().copied().chain(std::iter::repeat(Type::Real));
-            main.parameters.iter().cloned().zip(kinds)
-        });
-        let parameters = parameters.collect();
-        Given {
-            open,
-            parameters,
-            stated,
-            pool,
-            renamed: Renamed::default(),
-            other_readings: [const { None }; READINGS.len()],
-            near: false,
-        }
-    }
-
-    /// The value of a variable in a set: in the first one, a local variable has none.
-    pub fn value(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
-        if !self.open.iter().any(|(open, _)| open == var) {
-            return None;
-        }
-        let parameter = self.parameters.iter().find(|(own, _)| own == var).map(|(_, kind)| *kind);
-        let local = matches!(var, Var::Local(_)) && parameter.is_none();
-        let name = var.name();
-        let hash = name.bytes().chain(seed.to_le_bytes()).chain(set.to_le_bytes());
-        let hash =
-            hash.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
-        let hash = mixed(hash);
-        let converted = |value: f64| {
-            Value::Number(match parameter {
-                Some(Type::Int) => value.round(),
-                Some(Type::Bool) => f64::from(u8::from(value != 0.0)),
-                Some(Type::Real) | None => value,
-            })
-        };
-        if let Some(value) = self.stated.value(&name, set, hash) {
-            return Some(value.map_or(Value::Vacant, converted));
-        }
-        // In every second set all of them are given, else some are not.
-        if local && (set == 0 || set.is_multiple_of(2) && hash.is_multiple_of(4)) {
-            return Some(Value::Vacant);
-        }
-        let among = if set % 3 == 1 { FIRST.len() } else { self.pool.len() };
-        Some(converted(self.pool[(mixed(hash) >> 20) as usize % among]))
-    }
-}
-
-impl Given<'_> {
-    /// The value of one of the output's variables: that of the source's. What the source does not have, or leaves to
-    /// be set first, holds something there, where a control has no variables without a value.
-    pub fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
-        let source = self.renamed.source(var).unwrap_or(var);
-        let own = self.value(source, seed, set);
-        match var {
-            Var::Common(_) if own.is_none() && self.renamed.filled() => Some(Value::Number(LEFT_THERE)),
-            _ => own,
-        }
-    }
-}
 
 /// One of the sets of values, and how far a program is run with it: events, and steps that nothing comes of.
 #[derive(Clone, Copy)]
@@ -208,14 +106,6 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
         }
         _ => None,
     }
-}
-
-/// Bits well mixed (splitmix64).
-fn mixed(n: u64) -> u64 {
-    let n = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let n = (n ^ n >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let n = (n ^ n >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    n ^ n >> 31
 }
 
 /// Why a run ends before its end.
@@ -276,13 +166,7 @@ impl Verifier {
         inherited: &Modes,
         pairs: &mut dyn FnMut(&[Pair]),
     ) -> Result<(), Stop> {
-        self.reader.read(text, base, &mut self.batch);
-        self.reader.finish(&mut self.batch);
-        self.read_back(inherited)?;
-        let body = std::mem::take(&mut self.batch.stmts);
-        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
-        procedures.append(&mut self.batch.procedures);
-        let target = Program { procedures, ..Program::default() };
+        let target = self.read_target(text, base, inherited)?;
         let found: Vec<u16> = target.procedures.iter().map(|p| levels(&p.body)).collect();
         self.fork_for_target(&found);
         let computes = anything(&target).is_some();
@@ -366,32 +250,60 @@ impl Verifier {
             self.whole_with_facts(&starts[start], set, sides, given)?;
         }
         if let (false, Some((start, set))) = (came.through, came.goes_on) {
-            // Only a run that comes to its end shows that the program has one.
-            let mut run = starts[start].clone();
-            run.comparison.keep_pairs(false);
-            let to: To = (&mut gone, &mut |_| {});
-            match self.run_against(&mut run, sides, given, Set::long(set), to, None) {
-                Ok(()) => failed = None,
-                Err(Ended::Enough(at)) => {
-                    let fault = Fault::NoEnd { steps: MOST_EVENTS };
-                    return Err(Stop::Source(Diagnostic::new(fault, at)));
-                }
-                Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
-                Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
-            }
+            self.run_to_the_end(&starts[start], sides, given, set, &mut gone)?;
+            failed = None;
         }
         if let Some(fault) = failed.filter(|_| !came.through) {
             return Err(Stop::Source(fault));
         }
+        self.note_not_called(source);
+        if computes {
+            self.tell(source, (&target, text, base), given, &gone);
+        }
+        Ok(())
+    }
+
+    /// Reads the output's rest back.
+    fn read_target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<Program, Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        self.reader.finish(&mut self.batch);
+        self.read_back(inherited)?;
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        Ok(Program { procedures, ..Program::default() })
+    }
+
+    /// Notes the subprograms that nothing calls.
+    fn note_not_called(&mut self, source: &Program) {
         for procedure in not_called(source).into_iter().filter_map(|at| source.procedures.get(at)) {
             let at = procedure.body.first().map_or(self.last, |stmt| stmt.span);
             let name = procedure.name.as_ref().into();
             self.notes.push(Diagnostic::new(Fault::NotCalled { name }, at));
         }
-        if computes {
-            self.tell(source, (&target, text, base), given, &gone);
+    }
+
+    /// Runs both programs with a set of values as far as any is: only a run that comes to its end shows that the
+    /// program has one.
+    fn run_to_the_end(
+        &self,
+        start: &Run,
+        sides: [&Program; 2],
+        given: &Given,
+        set: u32,
+        gone: &mut Gone,
+    ) -> Result<(), Stop> {
+        let mut run = start.clone();
+        run.comparison.keep_pairs(false);
+        match self.run_against(&mut run, sides, given, Set::long(set), (gone, &mut |_| {}), None) {
+            Ok(()) => Ok(()),
+            Err(Ended::Enough(at)) => {
+                let fault = Fault::NoEnd { steps: MOST_EVENTS };
+                Err(Stop::Source(Diagnostic::new(fault, at)))
+            }
+            Err(Ended::Source(fault) | Ended::NotSo(fault)) => Err(Stop::Source(fault)),
+            Err(Ended::Target(fault)) => Err(Stop::Target(fault)),
         }
-        Ok(())
     }
 
     /// Runs both programs with sets of values, until every way of both was gone.

@@ -6,7 +6,7 @@ use ncc_exec::named_tool;
 use ncc_exec::world::World;
 use ncc_ir::canon::Modes;
 
-use super::fixed;
+use super::controls::fixed;
 use crate::job::Job;
 
 /// The world of a seed, as the source's control and as the target's has it.

@@ -3,7 +3,7 @@
 //!
 //! Not here: moves themselves.
 
-use super::{Attribute, Event, Exec, Kind, by_control};
+use super::{Attribute, Coolant, Event, Exec, Kind, by_control};
 use crate::world::Sideways;
 use ncc_ir::canon::{Axis, Distance, PathMode, Spindle};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -169,14 +169,12 @@ impl Exec {
 
     pub(super) fn coolant(
         &mut self,
-        flood: bool,
-        mist: bool,
+        to: Coolant,
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if (flood, mist) != (self.state.flood, self.state.mist) {
-            self.state.flood = flood;
-            self.state.mist = mist;
+        if to != self.state.coolant() {
+            (self.state.flood, self.state.mist) = (to.flood, to.mist);
             // The event tells that it undoes what the control did.
             let emitted = self.emit(Kind::Coolant, span, out);
             self.said_by_program(by_control::COOLANT);

@@ -257,6 +257,22 @@ pub mod by_control {
     pub const SPINDLE_AT_CHANGE: u8 = 128;
 }
 
+/// Which coolants are on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Coolant {
+    /// Flood coolant.
+    pub flood: bool,
+    /// Mist coolant.
+    pub mist: bool,
+}
+
+impl State {
+    /// The coolants that are on.
+    pub fn coolant(&self) -> Coolant {
+        Coolant { flood: self.flood, mist: self.mist }
+    }
+}
+
 /// What is on while an event happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct State {

@@ -30,7 +30,7 @@ pub mod world;
 pub use at_codes::cuts;
 pub use at_codes::touched;
 pub use conduct::named_tool;
-pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
+pub use event::{Attribute, Coolant, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub use frames::frame::Chain;
 pub use frames::slots::{Frames, Present, Rotation, Scale};
 pub use frames::tilt::TiltedPlane;
@@ -649,9 +649,9 @@ impl Exec {
             Op::SynchronisedFeed(m) => self.synchronised(m, span, out)?,
             Op::OrientSpindle(angle) => self.orient(angle.as_ref(), span, out)?,
             Op::MachineFunction(name) => self.emit(Kind::MachineFunction(name.clone()), span, out)?,
-            Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
-            Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
-            Op::CoolantOff => self.coolant(false, false, span, out)?,
+            Op::FloodOn => self.coolant(Coolant { flood: true, ..self.state.coolant() }, span, out)?,
+            Op::MistOn => self.coolant(Coolant { mist: true, ..self.state.coolant() }, span, out)?,
+            Op::CoolantOff => self.coolant(Coolant { flood: false, mist: false }, span, out)?,
             Op::Dwell(amount) => self.dwell_code(amount, span, out)?,
             Op::StartCycle(cycle) => self.start_cycle(cycle, span)?,
             Op::Hole(m) => self.hole(&m.to, span, out)?,

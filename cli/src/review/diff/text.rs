@@ -317,8 +317,9 @@ fn normal(line: &[u8], settings: &Settings, rules: &Rules, bare: &[bool; 26], ou
             if rules.format && len > 0 && (letters < 2 || of_letter) {
                 let letter = out.last().filter(|_| of_letter).map(|b| b.to_ascii_uppercase());
                 let counts = letter.is_some_and(|l| l.is_ascii_uppercase() && bare[(l - b'A') as usize]);
-                plain(&digits[..len], byte == b'-', counts, out);
-                at += usize::from(signed) + len;
+                let len = usize::from(signed) + len;
+                plain(&rest[..len], counts, out);
+                at += len;
             } else {
                 let len = len.max(1) + usize::from(signed && len > 0);
                 out.extend_from_slice(&rest[..len.min(rest.len())]);
@@ -354,8 +355,10 @@ fn after_number(line: &[u8], letter: Option<char>, skip: &[u8], out: &mut Vec<u8
     blanks(end)
 }
 
-/// A number in its shortest form; where it counts increments, it is marked.
-fn plain(digits: &[u8], negative: bool, increments: bool, out: &mut Vec<u8>) {
+/// A number, with its sign if it has one, in its shortest form; where it counts increments, it is marked.
+fn plain(number: &[u8], increments: bool, out: &mut Vec<u8>) {
+    let negative = number.starts_with(b"-");
+    let digits = &number[usize::from(number.starts_with(b"-") || number.starts_with(b"+"))..];
     let point = digits.contains(&b'.');
     let whole_end = digits.iter().position(|b| *b == b'.').unwrap_or(digits.len());
     let whole = &digits[..whole_end];

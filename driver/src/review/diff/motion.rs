@@ -15,7 +15,7 @@ use crate::review::feed::{Settings, records};
 use crate::review::stream::{Course, clearances};
 use crate::side::Side;
 use crate::side_by_side::{self, Take};
-use crate::verify_run::resolution;
+use crate::verify_run::controls::resolution;
 
 /// Pieces that a side may be ahead.
 const AHEAD: usize = 4;

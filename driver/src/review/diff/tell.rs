@@ -263,7 +263,7 @@ fn values(change: &Change) -> Option<[String; 2]> {
         Change::Dwell(a, b) | Change::Orient(a, b) => [number(*a), number(*b)],
         Change::Spindle(a, b) => [*a, *b].map(|s| spindle(s).to_owned()),
         Change::Tool(a, b) => [*a, *b].map(tool_name),
-        Change::Coolant(a, b) => [*a, *b].map(|[flood, mist]| coolant(flood, mist).to_owned()),
+        Change::Coolant(a, b) => [*a, *b].map(|on| coolant(on).to_owned()),
         Change::Compensation(a, b) => [a.words(), b.words()],
         Change::WorkOffset(a, b) => [a.to_string(), b.to_string()],
         Change::Length(a, b) => [length(a), length(b)],

@@ -24,7 +24,8 @@ use crate::machines::pair::Machines;
 use crate::review::stream::{Course, Made, Stage, Unsaid, clearances, stream, stream_as};
 use crate::side::Side;
 use crate::side_by_side::{self, Pieces, Take};
-use crate::verify_run::{WORLDS, alarms_of, fixed, resolution, stops_differ, worlds_of, writes};
+use crate::verify_run::controls::{alarms_of, fixed, resolution, writes};
+use crate::verify_run::{WORLDS, stops_differ, worlds_of};
 
 /// Events of a piece that a side hands over.
 const PIECE: usize = 4096;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::document::{Document, First, One, Place, Program, Word};
-use crate::render::words::plural;
+use crate::render::numbers::plural;
 
 /// Differences that are shown.
 const SHOWN: usize = 10;

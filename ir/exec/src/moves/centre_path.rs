@@ -333,7 +333,8 @@ impl CentrePath {
                 }
                 put(&mut event.end, self.axes, now);
                 if let (true, Leg::Arc { centre, ccw, .. }) = (on_contour, leg) {
-                    event.rate = self.rate_of_centre(event.rate, &programmed, centre, ccw, left);
+                    let turn = if ccw { Turn::Counterclockwise } else { Turn::Clockwise };
+                    event.rate = self.rate_of_centre(event.rate, &programmed, (centre, turn), left);
                 }
             }
         }
@@ -343,17 +344,22 @@ impl CentrePath {
     }
 
     /// The feed of the tool centre on an arc, from where the contour is, of which F is the speed along the contour.
-    fn rate_of_centre(&self, feed: Nanos, to: &[Nanos; AXES], centre: Spot, ccw: bool, left: bool) -> Nanos {
+    fn rate_of_centre(
+        &self,
+        feed: Nanos,
+        to: &[Nanos; AXES],
+        (centre, turn): (Spot, Turn),
+        left: bool,
+    ) -> Nanos {
         let Some(tool) = self.radius else { return feed };
         let normal = self.plane.axes().2 as usize;
         let from = spot(&self.contour, self.axes);
         let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
         let along = (to[normal] - self.contour[normal]) as f64 / ONE as f64;
         let of = |point: &[Nanos; AXES]| self.axes.map(|axis| point[axis]);
-        let turn = if ccw { Turn::Counterclockwise } else { Turn::Clockwise };
         let middle = centre.map(|mm| (mm * ONE as f64).round() as Nanos);
         let angle = geometry::sweep_degrees(of(&self.contour), of(to), middle, turn, 0).abs().to_radians();
-        let part = centre_speed(radius, tool.abs(), left == ccw, angle, along);
+        let part = centre_speed(radius, tool.abs(), left == (turn == Turn::Counterclockwise), angle, along);
         (feed as f64 * part).round() as Nanos
     }
 
