@@ -19,17 +19,17 @@ use ncc_exec::verify::{self, Comparison, Difference, Pair, Resolution};
 use ncc_exec::{Event, Exec};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::alarms::Alarms;
-use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::canon::Modes;
 use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::expr::Function;
-use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
 use crate::job::given::Given;
-use crate::job::{Job, Verified};
+use crate::job::{self, Job, Verified};
 use crate::translate::difference;
 use crate::translate::{bore_shift, orientation, parameter};
 
@@ -101,7 +101,7 @@ pub struct Verifier {
     watched: bool,
     /// The target knows one level only: the source's are on or off together.
     one_level: bool,
-    start: [Option<Nanos>; AXES],
+    start: job::start::Start,
     stood: bool,
     /// What the target's control always begins with, and the source's does not.
     own_facts: Modes,
@@ -268,7 +268,7 @@ impl Verifier {
             renamed: !renaming.is_empty(),
             watched: false,
             one_level: job.to.dialect.caps.skip_levels <= 1,
-            start: job.start,
+            start: job::start::Start::of(job),
             stood: false,
             own_facts: own_facts(job),
             given: job.given.clone(),
@@ -526,7 +526,7 @@ impl Verifier {
         for run in self.runs.iter_mut().chain(&mut self.others) {
             run.source.assume(assumed);
             if !self.stood {
-                run.source.stand_at(&self.start);
+                self.start.put([&mut run.source, &mut run.target]);
                 run.target.be_at(run.source.machine());
                 run.comparison.start_at(run.source.machine());
             }

@@ -1,10 +1,9 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, BLOCK_SKIP, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect,
-    FURTHER_POINT, MACRO_DEPTH, RADIUS_UNSAID, STORED_POSITION, STRAIGHT_LINE,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, MACRO_DEPTH,
+    RADIUS_UNSAID, STRAIGHT_LINE,
 };
-use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
@@ -12,20 +11,11 @@ use ncc_ir::program::numbered::Numbered;
 use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
+use super::cannot;
 use super::numbers::{millimetres, signed};
 use super::unsupported::{self, without_radius};
 use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
-
-/// The option of the source's dialect that states where a point of the machine is, which the target has no word for.
-fn place_option(what: &str, from: &Dialect) -> Option<&'static str> {
-    let option = match what {
-        "a move to a position that is stored in the control" => STORED_POSITION,
-        "a move to this point of the machine" => FURTHER_POINT,
-        _ => return None,
-    };
-    from.option.iter().any(|row| row.name == option).then_some(option)
-}
 
 /// Tolerances of arcs that are proposed: nanos of a millimetre, and millimetres as they are typed.
 const ARC_TOLERANCES: [(u64, &str); 4] =
@@ -106,7 +96,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
+        Fault::WordMissing { code, word } => cannot::word(code, word, at.from),
         Fault::WordTwice { .. } => own("keep one of the two"),
         Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
         Fault::PointNotAllowed { .. } => own("write it without a point"),
@@ -362,89 +352,14 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::MessageAsComment
         | Fault::CodeLeftOut { .. }
         | Fault::ToolNumbered { .. }
+        | Fault::EdgeNumbered { .. }
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
-        Fault::CannotSay { what } if what.ends_with("that is measured with the tool's length") => {
-            own("cancel the length in this block, and activate it with the next absolute Z")
-        }
-        Fault::CannotSay { what } if what.starts_with("a tool called ") => {
-            vec![
-                "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
-                    .into(),
-            ]
-        }
-        Fault::CannotSay { what }
-            if what.starts_with("a canned cycle that stays active over a tool change") =>
-        {
-            own("write `G80` before the tool change, and the whole cycle again after it")
-        }
-        Fault::CannotSay { what } if **what == *"control of the tool's tip" => {
-            vec![format!("{to} has none: post the program again for the axes of the machine")]
-        }
-        Fault::CannotSay { what } if what.starts_with("edge ") && what.ends_with(" of a tool") => {
-            vec![format!("{to} has a number for edge 1 alone: give this edge a tool of its own")]
-        }
-        Fault::CannotSay { what } if **what == *"mist coolant" => {
-            own("`--m-code M07=M08` for flood coolant in its place, `--m-code M07=drop` for none")
-        }
-        Fault::CannotSay { what }
-            if what.starts_with("a rigid thread with something else before its way back") =>
-        {
-            own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
-        }
-        Fault::CannotSay { what } if [NOWHERE, STILL].contains(&&**what) => own(
-            "leave out the blocks here that move by less than the target's least increment, or not in the plane",
-        ),
-        Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {
-            own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
-        }
-        Fault::CannotSay { what } if what.starts_with("fine boring whose direction") => own(
-            "state the parameter of the source's control: `--from-option bore_shift=+1` (`-1`, `+2`, `-2`: along the \
-             first or second axis of the plane)",
-        ),
-        Fault::CannotSay { what }
-            if what.starts_with("entry ") && what.contains("of the length table with tool") =>
-        {
-            vec![
-                "state in the profile of the source's machine that the entry is this tool's: `[[tool]]` with `number`, \
-                 `name` and `length_entry`, and the same `name` in the target's; `ncc doctor` writes both"
-                    .into(),
-            ]
-        }
-        Fault::CannotSay { what } if let Some(option) = place_option(what, at.from) => {
-            vec![
-                format!("if that point is the machine's zero: `--from-option {option}=zero`"),
-                "else write the move in machine coordinates, with G53".into(),
-            ]
-        }
-        Fault::CannotSay { what } if &**what == "a program that begins again" => {
-            own("write `M30` in its place: the program then runs once")
-        }
-        Fault::CannotSay { what } if &**what == "an optional stop" => {
-            own("`--m-code M1=drop` leaves it out: the program never stops there, as with the switch off")
-        }
-        Fault::CannotSay { what } if what.starts_with("a tool change by hand, which") => {
-            own("`--to-option tool_change=manual` writes a block that stops the program for it")
-        }
-        Fault::CannotSay { what }
-            if what.starts_with("a block that can be skipped and decides")
-                && at.from.option.iter().any(|row| row.name == BLOCK_SKIP) =>
-        {
-            own("state how the block-skip switch stands: `--from-option block_skip=on` or `=off`")
-        }
-        Fault::CannotSay { what } if what.starts_with("an arc so short") => {
-            own("leave this arc out where it is shorter than the target's least increment")
-        }
-        Fault::CannotSay { what } if &**what == "a tool change while a canned cycle is active" => {
-            own("write `G80` before this block")
-        }
-        Fault::CannotSay { what } if &**what == "a tool change that keeps the length of another tool" => {
-            own("state the tool length offset between the tool change and this move: `G43` with its H number")
-        }
+        Fault::CannotSay { what } if let Some(help) = cannot::help(what, at) => help,
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
             let option = Behaviour::SpindleAtChange.option();

@@ -4,6 +4,7 @@
 //! two forms on stderr, `summary` is the account at the end. Nothing here decides anything.
 
 pub mod advice;
+mod cannot;
 pub mod dialects;
 pub mod explain;
 pub mod head;

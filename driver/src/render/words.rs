@@ -4,7 +4,7 @@
 //! is in `advice`, the background on the fault's page in `pages/`.
 
 pub use super::numbers::{calls, numbered, plural};
-use super::numbers::{millimetres, rotary_turn, signed, thousands};
+use super::numbers::{given_number, millimetres, rotary_turn, signed, thousands};
 use super::spelled::{character, found_words, next_run, radii_of};
 pub use super::spelled::{kept, return_path, variables};
 use ncc_dialects::{Dialect, Meaning};
@@ -527,8 +527,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CodeLeftOut { code } => {
             (format!("{} left out", quoted(code)), "stated to have no effect on the cut".into())
         }
-        Fault::ToolNumbered { name, number } => {
-            (format!("T{number} is {}", plain(name)), "numbered in the order of use: put it into this place".into())
+        Fault::ToolNumbered { .. } | Fault::EdgeNumbered { .. } => {
+            (given_number(fault), "numbered in the order of use: put it into this place".into())
         }
         Fault::MessageAsComment => (
             "message kept as a comment".into(),

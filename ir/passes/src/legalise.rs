@@ -192,6 +192,7 @@ impl Legaliser {
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
         self.at_once = at_once::AtOnceState::default();
+        self.length.stands_alone();
         self.nothing_before();
     }
 
