@@ -182,6 +182,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         touched: mm(world.touched()),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         rotary_radius: world.rotary_radius(),
+        codes_at_start: [None; 2],
         waiting_tool: world.behaviours.does(Behaviour::ToolWithChange),
         line_without_centre: false,
         length_moves: world.behaviours.does(Behaviour::LengthWithoutAxis),

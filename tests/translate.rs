@@ -129,7 +129,14 @@ pub fn faults(dialect: &str, text: &[u8]) -> Vec<Fault> {
 /// # Errors
 /// It cannot be executed.
 pub fn execute(program: &Program, world: &World, skip: u16) -> Result<Vec<Event>, String> {
-    let mut exec = Exec::new(world, skip);
+    execute_by(Exec::new(world, skip), program)
+}
+
+/// The same by a control that has something in force already.
+///
+/// # Errors
+/// The program cannot be executed.
+pub fn execute_by(mut exec: Exec, program: &Program) -> Result<Vec<Event>, String> {
     exec.assume(&program.assumed);
     let mut events = Vec::new();
     let mut runner = Runner::new(program);

@@ -191,7 +191,7 @@ pub struct Translate {
     #[arg(long, value_name = "FILE", help_heading = "What to translate")]
     pub args: Option<PathBuf>,
     /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
-    /// output sets it. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
+    /// output sets it. `#4120=2` and `#4111=2` are the T and H code in force on a Fanuc. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
     /// such a one out [may be repeated]
     #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::given::value, help_heading = "What to translate")]
     pub value: Vec<(String, Option<Num>)>,

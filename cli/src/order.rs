@@ -12,6 +12,7 @@ use ncc_dialects::{Dialect, Settings};
 use ncc_driver::job::Job;
 use ncc_driver::job::given::{self, Given};
 use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::start;
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::Problem;
 use ncc_driver::provenance::annotate;
@@ -160,8 +161,9 @@ impl Order {
             source_name: source_name.to_owned(),
             called: None,
             project: self.settled.as_ref().map(|settled| Arc::clone(&settled.used)),
-            assumed: Vec::new(),
+            assumed: start::assumed(&args.standing.start.unwrap_or_default()),
             numbered_tools: Vec::new(),
+            further_edges: Vec::new(),
             rivals: Vec::new(),
             questions: if self.known.assumes() { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),

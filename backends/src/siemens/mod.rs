@@ -185,6 +185,11 @@ impl Writer {
         self.words.stand_at(start);
     }
 
+    /// The tool that is in the spindle before the program begins.
+    pub fn hold_tool(&mut self, tool: u32) {
+        self.words.hold_tool(tool);
+    }
+
     /// Begins to record where lines come from.
     pub(crate) fn trace(&mut self) {
         self.words.trace();

@@ -164,7 +164,7 @@ impl Bench<'_> {
         job.rivals = rivals;
         called::gather(&mut source, &job.from, self.known.folders(), &files::Disk)?;
         job.called.clone_from(&source.called);
-        job.assumed.clone_from(&source.assumed);
+        job.assumed.extend_from_slice(&source.assumed);
         tools_by_name::number(&mut job, &mut source.file)
             .map_err(|e| Problem::file("read", &source.shown, &e))?;
         source.rewind()?;

@@ -265,6 +265,10 @@ impl Opened {
             state_units(&mut from, known.units())?;
         }
         m_codes::state(&mut from, Whose::From, known)?;
+        for name in asked.given.names() {
+            let whole = asked.given.only(name).filter(|value| value.fract() == 0.0);
+            whole.into_iter().for_each(|value| from.state_value(name, value as i64));
+        }
         called::gather(&mut self.source, &from, known.folders(), &files::Disk)?;
         self.source.rewind()?;
         let mut side = Side::of(self.source, from, machines, asked.start);

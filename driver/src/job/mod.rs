@@ -11,6 +11,7 @@
 pub mod given;
 pub mod options;
 pub mod project_answers;
+pub mod start;
 
 use std::collections::BTreeSet;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -19,6 +20,7 @@ use std::sync::Arc;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_exec::maps::{Maps, Renaming};
+use ncc_exec::named_tool;
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::{AXES, AdviceKind};
@@ -81,6 +83,8 @@ pub struct Job {
     pub assumed: Vec<Diagnostic>,
     /// Numbers of tools that the source calls by name and no profile numbers, for a target without names.
     pub numbered_tools: Vec<(Text, u32)>,
+    /// Entries of the target's length table for edges of the source's tools other than the first.
+    pub further_edges: Vec<FurtherEdge>,
     /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
     pub rivals: Vec<&'static Dialect>,
     /// The handling of questions: facts that change the cut and that the program does not state.
@@ -89,6 +93,28 @@ pub struct Job {
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
     pub deny: Vec<Verdict>,
+}
+
+/// An edge of a tool other than the first, and the entry of the target's length table that has its length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FurtherEdge {
+    /// The tool's name on the source's control, where it is called so.
+    pub name: Option<Text>,
+    /// Its number there.
+    pub own: u32,
+    /// Its number on the target's control.
+    pub number: u32,
+    /// The edge, from 2 to 9.
+    pub edge: u32,
+    /// The entry.
+    pub entry: u32,
+}
+
+impl FurtherEdge {
+    /// The tool as execution of the source knows it.
+    pub fn in_source(&self) -> i64 {
+        self.name.as_deref().map_or(i64::from(self.own), named_tool)
+    }
 }
 
 impl Job {
@@ -113,6 +139,7 @@ impl Job {
             project: None,
             assumed: Vec::new(),
             numbered_tools: Vec::new(),
+            further_edges: Vec::new(),
             rivals: Vec::new(),
             questions: Policy::default(),
             allow: Vec::new(),
@@ -131,6 +158,8 @@ impl Job {
     pub fn maps(&self) -> Maps {
         let mut maps = self.machines.maps(self.to.dialect);
         maps.tool_names.extend(self.numbered_tools.iter().cloned());
+        maps.further_edges =
+            self.further_edges.iter().map(|own| ((own.number, own.edge), own.entry)).collect();
         maps
     }
 

@@ -9,6 +9,7 @@ use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
 
+use super::cannot;
 use super::numbers::{millimetres, signed};
 use super::spelled::mode;
 use super::text::{plain, plain_upto};
@@ -95,7 +96,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", plain(word))],
+        Fault::WordMissing { code, word } => cannot::word(code, word, at.from),
         Fault::WordTwice { .. } => own("keep one of the two"),
         Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
         Fault::PointNotAllowed { .. } => own("write it without a point"),
@@ -350,13 +351,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::MessageAsComment
         | Fault::CodeLeftOut { .. }
         | Fault::ToolNumbered { .. }
+        | Fault::EdgeNumbered { .. }
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
-        Fault::CannotSay { what } => unwritable::help(what, at.from, at.to),
+        Fault::CannotSay { what } => {
+            cannot::help(what, at).unwrap_or_else(|| unwritable::help(what, at.from, at.to))
+        }
         Fault::RotaryTurnOpen { by, or, .. } => rotary_turn([*by, *or], at),
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
         Fault::FactUnsaid { .. } => own("say it at the head of the program"),

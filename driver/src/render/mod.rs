@@ -8,6 +8,7 @@
 //! ```
 
 pub mod advice;
+mod cannot;
 pub mod dialects;
 pub mod explain;
 pub mod head;

@@ -40,6 +40,19 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
             let goes_without = from.option.iter().any(|row| row.name == RADIUS_UNSAID);
             std::iter::once(write).chain(goes_without.then(without_radius)).collect()
         }
+        "data input for the entry of a code in force that the program has not said" => {
+            let variable = code.rsplit_once('#').map_or("", |(_, number)| number);
+            vec![
+                format!("state the code that is in force at the start: `--value '#{variable}=NUMBER'`"),
+                "or write the number of the entry in its place: for example `P1`".into(),
+            ]
+        }
+        _ if name.ends_with("of a block before, of which entry is not known here") => {
+            let letter = name.chars().next().unwrap_or('H');
+            own(&format!(
+                "write the {letter} number in this block: for example `{code} {letter}1` for entry 1"
+            ))
+        }
         "data input for an entry whose number only the running program knows" => {
             own("write the number of the entry in its place: for example `P1`")
         }

@@ -343,6 +343,7 @@ impl Run<'_> {
             }
             if !stood {
                 control.exec.stand_at(&self.job.start);
+                self.job.tool_at_start().into_iter().for_each(|tool| control.exec.hold_tool(tool));
             }
         }
         if !stood {

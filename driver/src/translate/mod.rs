@@ -38,7 +38,7 @@ use crate::job::{Job, Outcome};
 use crate::provenance::trace::{Asked, Recorded, Trace};
 use crate::questions::{self, Policy};
 use crate::source::Readable;
-use crate::source::chunks::{Chunk, Chunks};
+use crate::source::chunks::{Chunk, Chunks, ends_by_return};
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -73,8 +73,11 @@ pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Ou
 }
 
 fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
+    // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
+    let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
     let mut chunks = Chunks::new(source);
     let mut translation = Translation::new(job);
+    translation.batch.whole |= returns;
     translation.record(asked);
     loop {
         match chunks.take()? {

@@ -85,14 +85,13 @@ impl<'j> Translation<'j> {
             legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }
         legaliser.set_source_behaviours(job.source_behaviours(), job.from.dialect.can.change_by_hand);
-        legaliser.stand_at(&job.start);
         let maps = job.maps();
-        legaliser.set_edge_entries(maps.edge_entries.clone());
+        legaliser.set_edge_entries(maps.edge_entries.clone(), maps.further_edges.clone());
         legaliser.set_program_numbers(maps.program_numbers.clone());
         let start = Tracker { position: job.start, ..Tracker::default() };
         let folder = job.folds().then(|| Folder::new(target(job), start, job.from.dialect.caps.flat));
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
-        writer.stand_at(&job.start);
+        job.stand(&mut legaliser, &mut writer);
         writer.set_form(job.machines.form());
         if job.between_controls() {
             writer.changes_apart();

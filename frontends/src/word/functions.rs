@@ -321,11 +321,7 @@ impl Lower {
             self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
-            let number = match word.value {
-                Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
-                Value::Number(_) | Value::Computed(_) | Value::None => None,
-            };
-            self.state.tool = Know::Said(number);
+            self.tool_in_force(&word);
             self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);
@@ -417,11 +413,7 @@ impl Lower {
                     let edge = Expr::int(1);
                     return self.push(code.span, Op::UseToolEdge { edge, said: true }, out);
                 }
-                let Some(word) = word else {
-                    let word = char::from(self.roles.length_entry).to_string().into();
-                    let code_text = code.row.code.as_str().into();
-                    return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
-                };
+                let Some(word) = word else { return self.length_as_before(code, words, out) };
                 return self.length_offset(&word, code.span.to(word.span), words, src, out);
             }
             Meaning::UseToolLength { added } => return self.stated_length(code, added, words, src, out),
@@ -493,12 +485,17 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        self.state.length_offset = Know::Said(());
-        self.state.level_open = true;
+        self.entry_in_force(word);
         self.length_named(word, out);
-        let Some(entry) = self.entry(word, words, src, out) else {
-            return;
-        };
+        match self.entry(word, words, src, out) {
+            Some(entry) => self.use_entry(entry, span, words, out),
+            None => self.state.length_open(),
+        }
+    }
+
+    /// Takes up a length by its entry, with the next Z.
+    pub(super) fn use_entry(&mut self, entry: Expr, span: Span, words: &Words, out: &mut Batch) {
+        self.state.length_open();
         let with_z = words.get(b'Z').is_some();
         if self.assume && !with_z && !std::mem::replace(&mut self.reported.offset_with_z, true) {
             out.report(Fault::AssumedOffsetWithZ, span);

@@ -8,6 +8,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::geometry::round::{ArcRule, MOST_SHORT};
 use ncc_ir::program::cycle::Approach;
 
@@ -16,6 +17,7 @@ use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
 use crate::schema::Dialect;
+use crate::stored::SystemRow;
 
 /// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
@@ -23,6 +25,12 @@ pub const CYCLE_APPROACH: &str = "cycle_approach";
 
 /// Option of a dictionary: what tapping is without a code that makes it rigid, `chuck` or `rigid`.
 pub const TAPPING: &str = "tapping";
+
+/// Option of a dictionary: what becomes of the dwell of a rigid tapping cycle, during which spindle and drilling axis stand.
+pub const TAP_DWELL: &str = "tap_dwell";
+
+/// Value of [`TAP_DWELL`]: it is left out, and told.
+pub const LEFT_OUT: &str = "left-out";
 
 /// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
 /// degrees) or `half` a turn to each side (the sine's -90 to 90).
@@ -227,6 +235,22 @@ impl Settings {
     /// The whole number that a variable is stated to hold at the start.
     pub fn stated_value(&self, name: &str) -> Option<i64> {
         self.values.get(name).copied()
+    }
+
+    /// The same of the variable by which a program asks this of the control, and the variable's name.
+    pub fn stated_of(&self, asked: &System) -> Option<(String, i64)> {
+        if self.values.is_empty() {
+            return None;
+        }
+        let name = self.variable_of(asked)?;
+        let value = self.stated_value(&name)?;
+        Some((name, value))
+    }
+
+    /// The name, without signs, of the variable by which a program asks this of the control.
+    pub fn variable_of(&self, asked: &System) -> Option<String> {
+        let rows = self.dialect.system.iter().filter(|row| row.counts(self));
+        rows.flat_map(SystemRow::says).find(|(says, _)| says == asked).map(|(_, name)| name)
     }
 
     /// Whether such a number is stated of any variable.

@@ -141,6 +141,7 @@ impl Legaliser {
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
         self.shared.states.forget::<AtOnceState>();
+        self.shared.states.of::<OffsetWithZState>().stands_alone();
         self.nothing_before();
     }
 

@@ -2,9 +2,7 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{
-    AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Hand, Quantity, TAPPING,
-};
+use ncc_dialects::{AskedDwell, Bare, CYCLE_APPROACH, CycleRow, Hand, Quantity, TAPPING};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -179,6 +177,7 @@ impl Lower {
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
         let bottom = self.dwells(row, dwell, code.span, out);
+        let bottom = self.tap_dwell(row, rigid, bottom, code.span, out);
         let kind = self.kind(row, rigid, bottom, pecks, code, out);
         let feed = self.now.feed;
         if feed.is_some() {
@@ -275,6 +274,7 @@ impl Lower {
         let rigid = active.kind.name() == "tap-rigid";
         let (dwell, peck, shrinking) = (active.dwell, active.peck.clone(), active.shrinking);
         let bottom = self.dwells(row, dwell, block, out);
+        let bottom = self.tap_dwell(row, rigid, bottom, block, out);
         let pecks = self.pecks(row, peck, shrinking, block, out);
         if let (Ok(kind), InForce::Active(active)) =
             (kind_of(row, rigid, bottom, pecks), &mut self.state.cycle)
@@ -373,59 +373,6 @@ impl Lower {
         let Some(plane) = plane.known() else { return Some(row.depth) };
         let normal = char::from(plane.axes().2.letter());
         (normal == row.depth || self.settings.dialect.cycles.any_plane && !row.one_plane).then_some(normal)
-    }
-
-    /// Takes note of a cycle's dwell where it stays in force for others.
-    fn note_dwell(&mut self, row: &CycleRow, dwell: Option<Num>, out: &mut Batch) {
-        let (Some(dwell), true) = (dwell, self.settings.dialect.cycles.dwell_left) else { return };
-        self.state.dwell_left = Know::Said(dwell);
-        self.dwells.said = true;
-        if let Some(relied) = self.dwells.relied.take() {
-            self.fault(left_open(&row.code), relied, out);
-        }
-    }
-
-    /// The dwell that a cycle without one takes over from an earlier one.
-    fn dwell_left(&mut self, row: &CycleRow, code: &Code, out: &mut Batch) -> Option<Num> {
-        let takes = self.settings.dialect.cycles.dwell_left && row.dwell.is_some() && !row.dwell_needed;
-        match self.state.dwell_left {
-            _ if !takes => None,
-            Know::Said(dwell) | Know::Taken(dwell) => Some(dwell),
-            Know::Unsaid => None,
-            Know::Lost | Know::Open | Know::Callers if self.dwells.said => {
-                self.refuse(left_open(&row.code), code.span, out)
-            }
-            Know::Lost | Know::Open | Know::Callers => {
-                self.dwells.relied.get_or_insert(code.span);
-                None
-            }
-        }
-    }
-
-    /// Control goes elsewhere: a cycle that is called up there keeps the dwell of the one in force.
-    pub(in crate::word) fn carry_dwell(&mut self, out: &mut Batch) {
-        let with_dwell = matches!(&self.state.cycle, InForce::Active(active) if active.dwell.is_some());
-        if !(with_dwell && self.settings.dialect.cycles.retained_by_all()) {
-            return;
-        }
-        self.dwells.carried = true;
-        if let Some((relied, code)) = self.dwells.over_unknown.take() {
-            self.fault(left_open(code), relied, out);
-        }
-    }
-
-    /// A cycle without a dwell of its own, called up where another may be in force whose dwell it would keep.
-    fn no_dwell_before(&mut self, row: &'static CycleRow, code: &Code, out: &mut Batch) {
-        let takes = row.dwell.is_some() || row.dwell_by.is_some();
-        if self.state.cycle != InForce::Lost || !takes || !self.settings.dialect.cycles.retained_by_all() {
-            return;
-        }
-        match self.dwells.carried {
-            true => self.fault(left_open(&row.code), code.span, out),
-            false => {
-                self.dwells.over_unknown.get_or_insert((code.span, &row.code));
-            }
-        }
     }
 
     /// A cycle cannot turn rotary axes on some controls.
@@ -533,29 +480,6 @@ impl Lower {
         }
     }
 
-    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
-    /// an option is asked.
-    fn dwells(
-        &mut self,
-        row: &'static CycleRow,
-        dwell: Option<Num>,
-        at: Span,
-        out: &mut Batch,
-    ) -> Option<Num> {
-        let dwell = dwell.filter(|_| row.dwell.is_some() || row.dwell_by.is_some())?;
-        let Some(asked) = row.dwell_by.as_ref().filter(|_| !dwell.is_zero()) else {
-            return Some(dwell);
-        };
-        match self.option(&asked.option, at, out) {
-            DWELLS => Some(dwell),
-            DWELL_REFUSED => {
-                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
-                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
-            }
-            _ => None,
-        }
-    }
-
     /// Whether a row's tapping is rigid: by its own kind, by a code before it, or as the machine is set.
     fn tap_is_rigid(&mut self, row: &CycleRow, at: Span, out: &mut Batch) -> bool {
         match row.kind.as_str() {
@@ -590,11 +514,6 @@ impl Lower {
         let word = letter.to_string().into();
         self.fault(Fault::WordMissing { code: code.row.code.as_str().into(), word }, code.span, out);
     }
-}
-
-fn left_open(code: &str) -> Fault {
-    let name = "dwell that another cycle left in force, on some way to here".into();
-    Fault::NotSupported { code: code.into(), name }
 }
 
 /// A cycle's words in one block.

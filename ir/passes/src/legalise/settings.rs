@@ -39,9 +39,15 @@ impl Legaliser {
     }
 
     /// The entries of the target's length table that have the lengths of its tools, where they are not
-    /// the tools' numbers.
-    pub fn set_edge_entries(&mut self, entries: BTreeMap<u32, u32>) {
-        self.shared.target.edge_entries = entries;
+    /// the tools' numbers, and those of edges of its tools other than the first, by tool and edge.
+    pub fn set_edge_entries(&mut self, first: BTreeMap<u32, u32>, further: BTreeMap<(u32, u32), u32>) {
+        (self.shared.target.edge_entries, self.shared.target.further_edges) = (first, further);
+    }
+
+    /// The tool that is in the spindle before the program begins, as the user states it.
+    pub fn hold_tool(&mut self, tool: u32) {
+        let tool = Some(i64::from(tool));
+        (self.shared.walk.at.tool, self.shared.walk.at.selected) = (tool, tool);
     }
 
     /// What the source's control has in parameters of fine boring: which way the tool is taken off the wall, and at

@@ -39,8 +39,10 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct ToolAxisState {
     tip: Known,
     tilt: Known,
-    /// Whether the length that comes next was said already with the word before it.
-    pair: bool,
+    /// How many lengths that come next were said already with the word before them.
+    pair: u32,
+    /// The work offset that was said already, before the word that it stands behind in the source.
+    offset: Option<u16>,
     /// Whether each was told.
     told: [bool; 2],
 }
@@ -96,11 +98,18 @@ impl ToolAxisState {
         self.tip.met
     }
 
+    /// Whether the length at hand was said already.
+    fn has_said_length(&mut self) -> bool {
+        let said = self.pair > 0;
+        self.pair = self.pair.saturating_sub(1);
+        said
+    }
+
     /// At the start of another body.
     pub(crate) fn start_over(&mut self) {
         self.tip.lose();
         self.tilt.lose();
-        self.pair = false;
+        (self.pair, self.offset) = (0, None);
     }
 }
 
@@ -130,7 +139,7 @@ pub(crate) fn over(
     diags: &mut Vec<Diagnostic>,
 ) {
     let caps = &target.caps;
-    let lengths = lengths_behind(body);
+    let said_behind = said_behind(body);
     let oriented = orientations_behind(body);
     let mut at = 0;
     rebuild(body, |stmt, made: &mut Rebuild| {
@@ -173,8 +182,10 @@ pub(crate) fn over(
                     return made.leave_out(stmt);
                 }
                 if caps.tools.tip == TipForm::WithLength {
-                    let behind = lengths.get(place).copied().flatten();
-                    if let Err(what) = with_length(stmt, on, behind, before, state, made) {
+                    let behind = said_behind.get(place).copied().unwrap_or_default();
+                    if let Err(what) =
+                        with_length(stmt, on, behind, [before, offset.map(u32::from)], state, made)
+                    {
                         diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
                     }
                     return;
@@ -183,7 +194,7 @@ pub(crate) fn over(
             }
             Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
                 let entry = number(entry);
-                if std::mem::take(&mut state.pair) {
+                if state.has_said_length() {
                     return made.leave_out(stmt);
                 }
                 if state.tip.is_off() {
@@ -196,7 +207,7 @@ pub(crate) fn over(
             }
             // The one in force is said again; a control may take no such word there.
             Op::SetOriginOffsets(n) if caps.tools.tip == TipForm::WithLength && !state.tip.is_off() => {
-                match offset == Some(*n) && state.tip.is_on() {
+                match (state.offset.take() == Some(*n) || offset == Some(*n)) && state.tip.is_on() {
                     true => made.leave_out(stmt),
                     false => made.push(stmt),
                 }
@@ -288,8 +299,8 @@ pub(crate) fn over(
 fn with_length(
     stmt: Stmt,
     on: bool,
-    behind: Option<u32>,
-    in_force: Option<u32>,
+    behind: Behind,
+    [in_force, offset]: [Option<u32>; 2],
     state: &mut ToolAxisState,
     made: &mut Rebuild,
 ) -> Result<(), &'static str> {
@@ -298,9 +309,13 @@ fn with_length(
     if stmt.skip.is_some() {
         return Err("control of the tool's tip in a block that can be skipped");
     }
-    match (on, behind) {
+    if let Some(own) = behind.offset.filter(|own| on && offset != Some(u32::from(*own))) {
+        state.offset = Some(own);
+        made.push(Stmt::new(stmt.span, Op::SetOriginOffsets(own)));
+    }
+    match (on, behind.length) {
         (true, Some(entry @ 1..)) | (false, Some(entry @ 0)) => {
-            state.pair = true;
+            state.pair = behind.lengths;
             made.replace(stmt, [(true, op), (true, length(entry))]);
         }
         (true, None) => match in_force {
@@ -325,25 +340,42 @@ fn number(entry: &Expr) -> Option<u32> {
     entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok())
 }
 
-/// For each statement that switches control of the tip: the length that is said behind it before anything
-/// moves.
-fn lengths_behind(body: &[Stmt]) -> Vec<Option<u32>> {
+/// What is said behind a word that switches control of the tip, before anything moves.
+#[derive(Clone, Copy, Debug, Default)]
+struct Behind {
+    /// The last length; the others before it are never used.
+    length: Option<u32>,
+    /// How many lengths.
+    lengths: u32,
+    /// The work offset.
+    offset: Option<u16>,
+}
+
+/// For each statement that switches control of the tip: what is said behind it before anything moves. Blocks that can
+/// be skipped end what is looked at.
+fn said_behind(body: &[Stmt]) -> Vec<Behind> {
     if !body.iter().any(|stmt| matches!(stmt.op, Op::UseToolCentrePoint(_))) {
         return Vec::new();
     }
-    let mut behind = vec![None; body.len()];
-    let mut next: Option<(u32, Option<u8>)> = None;
+    let mut behind = vec![Behind::default(); body.len()];
+    let mut next = Behind::default();
     for (place, stmt) in body.iter().enumerate().rev() {
         match &stmt.op {
-            Op::UseToolLengthOffset(entry) => next = number(entry).map(|entry| (entry, stmt.skip)),
+            _ if stmt.skip.is_some() => next = Behind::default(),
+            Op::UseToolLengthOffset(entry) => match (next.lengths, number(entry)) {
+                (0, entry) => (next.length, next.lengths) = (entry, u32::from(entry.is_some())),
+                (_, Some(_)) => next.lengths += 1,
+                (_, None) => (next.length, next.lengths) = (None, 0),
+            },
+            Op::SetOriginOffsets(own) => next.offset = next.offset.or(Some(*own)),
             Op::UseToolCentrePoint(_) => {
                 if let Some(behind) = behind.get_mut(place) {
-                    *behind = next.filter(|next| next.1 == stmt.skip).map(|next| next.0);
+                    *behind = next;
                 }
-                next = None;
+                next = Behind::default();
             }
             miscellaneous!() | conduct!() | modes!() | Op::SetFeedRate(_) => {}
-            _ => next = None,
+            _ => next = Behind::default(),
         }
     }
     behind
