@@ -169,6 +169,8 @@ pub struct Caps {
     pub behaviours: Behaviours,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub cycles_measured_anew: bool,
+    /// The initial level of a hole is where the tool stands before its block; else where it stood before the series.
+    pub level_of_block: bool,
     /// Which arcs it accepts.
     pub arcs: ArcRule,
     /// What it refuses while cutter radius compensation is on.
@@ -455,6 +457,10 @@ pub struct CycleCap {
     pub clearance: bool,
     /// Whether that can be left to a parameter of the control.
     pub parameter: bool,
+    /// Whether each of its pecks goes out to where the tool is left, and down at feed.
+    pub from_return: bool,
+    /// Seconds that the control dwells by itself after each peck, at the bottom too.
+    pub pause: Option<Num>,
     /// Whether it can say another first peck, and dwells between pecks.
     pub strokes: bool,
     /// Whether it can say pecks that decrease from the first one to a least one.

@@ -83,6 +83,10 @@ pub(crate) struct CycleCode {
     pub to_level: bool,
     /// Whether its dwell must be said.
     pub dwell_needed: bool,
+    /// Whether the control dwells after each peck by itself.
+    pub own_pause: bool,
+    /// Whether each peck goes out to where the tool is left, and down at feed.
+    pub from_return: bool,
 }
 
 /// A bolt circle's words.
@@ -361,6 +365,8 @@ impl Finder {
                 form: CycleForm::Control(row.own()),
                 to_level: row.feed_to_level,
                 dwell_needed: row.dwell_needed,
+                own_pause: row.pause.is_some(),
+                from_return: row.from_return,
                 peck: match row.peck.or(row.shift) {
                     Some(letter) => Some(self.letter(letter, Quantity::Length)?),
                     None => None,

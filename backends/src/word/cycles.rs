@@ -193,8 +193,13 @@ impl Writer {
             CycleKind::DrillDwell { dwell } => Some(dwell),
             CycleKind::DrillPeck { dwell, clearance, .. }
             | CycleKind::DrillBreak { dwell, lift: clearance, .. } => {
-                if *clearance != Clearance::Parameter {
+                let of = self.codes.cycles.iter().filter(|row| row.kind == cycle.kind.name());
+                let mut fits = of.filter(|row| row.from_return == (*clearance == Clearance::FromReturn));
+                let Some(row) = fits.next().filter(|_| !matches!(clearance, Clearance::Stated(_))) else {
                     return Err(cannot("the clearance of a peck, which is a parameter of the machine"));
+                };
+                if row.own_pause {
+                    return Ok(row);
                 }
                 dwell.as_ref()
             }
@@ -528,7 +533,12 @@ impl Writer {
                 Err(cannot("a cycle whose return level is not known"))
             }
             (Fact::Entry, None) => Ok(None),
-            (Fact::Known(level), None) if self.force.level == Some(level) && !self.force.our_level => {
+            (Fact::Known(level), None)
+                if self.force.level == Some(level)
+                    && !self.force.our_level
+                    // Else the last move has ended it.
+                    && !self.dialect.cycles.level_lost =>
+            {
                 Ok(None)
             }
             (Fact::Known(level), None) => {

@@ -538,6 +538,8 @@ pub(crate) enum Token {
     Clearance,
     #[token("parameter")]
     Parameter,
+    #[token("from-return")]
+    FromReturn,
     #[token("depth")]
     Depth,
     #[token("return")]

@@ -18,6 +18,7 @@ use crate::names::{CallRow, NameRow, ParameterRole};
 use crate::power_on::{PathName, PowerOn, SafeStart};
 use crate::repeats::{PolarRules, RepeatRules};
 use crate::stored::{DataRow, SystemRow};
+use crate::variants::VariantRow;
 
 /// A dialect's dictionary.
 #[derive(Clone, Debug, Deserialize)]
@@ -108,6 +109,9 @@ pub struct Dialect {
     /// What codes do besides their names.
     #[serde(default)]
     pub behaviour: Vec<BehaviourRow>,
+    /// Rows that hold where options are chosen so.
+    #[serde(default)]
+    pub variant: Vec<VariantRow>,
     /// Capabilities that follow from no other row.
     #[serde(default)]
     pub can: Can,

@@ -190,7 +190,11 @@ impl Lower {
             self.state.cycle = InForce::Lost;
             return;
         };
-        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed };
+        let called = match &mut self.state.cycle {
+            InForce::Active(before) => before.called.take(),
+            InForce::None | InForce::Lost => None,
+        };
+        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed, called };
         self.state.cycle = InForce::Active(Box::new(active));
         self.call_up(block, out);
         if dialect.cycles.hole_on_definition && has_hole_word {
@@ -287,6 +291,7 @@ impl Lower {
     /// The cycle in force as a statement.
     pub(in crate::word) fn call_up(&mut self, block: Span, out: &mut Batch) {
         let return_level = self.return_level(block, out);
+        let anew = self.start_anew(return_level, block, out);
         let InForce::Active(active) = &self.state.cycle else {
             return;
         };
@@ -306,6 +311,41 @@ impl Lower {
             feed: active.feed.map(Expr::Num),
         };
         self.push(block, Op::StartCycle(Box::new(cycle)), out);
+        if anew {
+            self.separate(out);
+        }
+    }
+
+    /// Ends the cycle in force before it is called up again, on a control whose initial level is where the tool stands
+    /// before each block, where that level counts and may be another than before the series.
+    fn start_anew(&mut self, level: Fact<ReturnLevel>, block: Span, out: &mut Batch) -> bool {
+        if !self.settings.dialect.cycles.level_of_block {
+            return false;
+        }
+        let InForce::Active(active) = &mut self.state.cycle else { return false };
+        let called = active.called.replace((level, active.retract.clone()));
+        let Some((before, retract)) = called else { return false };
+        let from_level = active.retract.distance != Fact::Known(Distance::Absolute);
+        let counts = level != Fact::Known(ReturnLevel::Retract) || from_level;
+        let same = before == level && level == Fact::Known(ReturnLevel::Initial) && retract == active.retract;
+        let anew = counts && (!same || from_level);
+        if anew {
+            self.push(block, Op::EndCycle, out);
+            self.separate(out);
+        }
+        anew
+    }
+
+    /// After a block, on a control where every move that is no cycle's makes the initial level the level of return, and
+    /// every block while no motion is in force.
+    pub(in crate::word) fn lose_level(&mut self, moves: bool) {
+        let lost = self.settings.dialect.cycles.level_lost && (moves || self.state.no_motion);
+        if lost && !matches!(self.state.cycle, InForce::Active(_)) {
+            self.state.return_level = match self.now.skip {
+                None => Know::Said(ReturnLevel::Initial),
+                Some(_) => self.state.return_level.lost(),
+            };
+        }
     }
 
     /// One hole, or as many as the block says.
@@ -628,16 +668,17 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>
     let none = row.kind != "drill-dwell";
     let is_one = |dwell: &Num| !(none && dwell.is_zero());
     let bottom = dwell.filter(is_one).map(Expr::Num);
+    let own_pause = row.own_pause().map(Expr::Num);
     Ok(match row.kind.as_str() {
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
         "drill-peck" => CycleKind::DrillPeck {
             peck: peck.ok_or(row.peck.unwrap_or(' '))?,
             first,
             less,
-            clearance: Clearance::Parameter,
-            pause: None,
+            clearance: if row.from_return { Clearance::FromReturn } else { Clearance::Parameter },
+            pause: own_pause.clone(),
             settle: None,
-            dwell: bottom,
+            dwell: own_pause.or(bottom),
         },
         "drill-break" => CycleKind::DrillBreak {
             peck: peck.ok_or(row.peck.unwrap_or(' '))?,
@@ -645,8 +686,8 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>
             less,
             lift: Clearance::Parameter,
             lift_at_feed: false,
-            pause: None,
-            dwell: bottom,
+            pause: own_pause.clone(),
+            dwell: own_pause.or(bottom),
         },
         "tap" | "tap-rigid" => {
             let turn = row.hand.unwrap_or(Hand::Right).turn();

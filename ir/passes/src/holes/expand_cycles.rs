@@ -7,7 +7,8 @@
 //!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole
 //!    that was left no higher than R straight to the level of return above the next;
 //! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
-//!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
+//!    the clearance above the last depth, the last peck clipped at the bottom (without a clearance, by rapid to
+//!    where the tool is left and down at feed); dwell, if there is one;
 //! 3. out by rapid to R or to the level where the tool stood when the cycle was called up, which
 //!    under [`Approach::RaiseFirst`] is not below R (NIST RS274/NGC 3.5.20); [`CycleKind::Bore`]
 //!    feeds to R first.
@@ -98,11 +99,15 @@ pub(crate) fn over(
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
                 let kept_before = walk.at.cycle.is_some() && !state.expanding;
+                let fresh = walk.at.cycle.is_none() && !walk.at.cycle_in_doubt;
                 // Cycles called up one after another share the initial level.
                 let chained = state.expanding;
                 walk.step(&stmt);
                 let must = match &walk.at.cycle {
-                    Some(in_force) => chained || must_expand(walk, in_force, target, stmt.span, diags),
+                    Some(in_force) => {
+                        let here = fresh || level_is_here(walk, in_force, target);
+                        chained || !here || must_expand(walk, in_force, target, stmt.span, diags)
+                    }
                     None => false,
                 };
                 if !must {
@@ -327,15 +332,19 @@ pub(crate) fn sayable(
         CycleKind::DrillDwell { .. } => (true, true),
         CycleKind::DrillPeck { dwell, clearance, first, less, pause, settle, .. } => {
             let other_first = first.is_some() && less.is_none();
-            let strokes = other_first || pause.is_some() || settle.is_some();
-            (dwell.is_some(), says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks)))
+            let own = dwells_alike(caps, kind, [pause, dwell]);
+            let strokes = other_first || settle.is_some() || own.is_none() && pause.is_some();
+            let says = says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks));
+            (own.is_none() && dwell.is_some(), says && own != Some(false))
         }
         CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
-            let strokes = first.is_some() && less.is_none() || pause.is_some();
+            let own = dwells_alike(caps, kind, [pause, dwell]);
+            let strokes = first.is_some() && less.is_none() || own.is_none() && pause.is_some();
             let rapid = cap(|c| c.lift_at_feed != Some(true));
             let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
             let shrinks = less.is_none() || cap(|c| c.shrinks);
-            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
+            let says = says_pecks(&cap, lift, strokes) && way && shrinks;
+            (own.is_none() && dwell.is_some(), says && own != Some(false))
         }
         CycleKind::Bore { dwell, feed_out, .. } => {
             (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
@@ -377,11 +386,20 @@ fn driven(caps: &Caps, cycle: &Cycle) -> bool {
     caps.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
 }
 
+/// Whether a control that dwells after each peck by itself does so for as long as the cycle has it, at the bottom too.
+/// `None` if the target's cycle of this kind has no such dwell.
+fn dwells_alike(caps: &Caps, kind: &str, dwells: [&Option<Expr>; 2]) -> Option<bool> {
+    let own = caps.cycles.iter().find(|c| c.kind == kind)?.pause?;
+    let same = |dwell: &Option<Expr>| dwell.as_ref().and_then(Expr::literal).is_some_and(|n| n.nanos(false) == own.nanos(false));
+    Some(dwells.into_iter().all(same))
+}
+
 /// Whether the target can say how a hole is pecked.
 fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance, strokes: bool) -> bool {
     let stated = match clearance {
         Clearance::Stated(_) => cap(|c| c.clearance),
         Clearance::Parameter => cap(|c| c.parameter),
+        Clearance::FromReturn => cap(|c| c.from_return),
     };
     stated && (!strokes || cap(|c| c.strokes))
 }
@@ -396,6 +414,19 @@ fn must_expand(
     let cycle = &in_force.cycle;
     let same_way = target.caps.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
+}
+
+/// Whether a control that returns to where the tool stood before the block, and not before the series, comes to the
+/// same level.
+fn level_is_here(walk: &Walk, in_force: &InForce, target: &Target) -> bool {
+    let cycle = &in_force.cycle;
+    let retract = cycle.return_level.known().or(walk.at.modes.return_level) == Some(ReturnLevel::Retract);
+    if !target.caps.level_of_block || retract || cycle.return_plane.is_some() {
+        return true;
+    }
+    let Some(plane) = walk.at.plane(cycle.plane) else { return false };
+    let here = walk.at.position[plane.axes().2 as usize];
+    here.is_some() && here == in_force.initial && in_force.retract.is_some_and(|r| here >= Some(r))
 }
 
 /// A level of a cycle as an absolute word.
@@ -529,7 +560,7 @@ pub(crate) fn hole(
         }
         return Ok(());
     }
-    pecks(walk, in_force, normal, target, stated, moves)?;
+    pecks(walk, in_force, [&retract, out.as_ref().unwrap_or(&retract)], target, stated, moves)?;
     let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
     moves.push((stated && first_cut, cut(depth)));
     let dwell = match &cycle.kind {
@@ -564,8 +595,8 @@ pub(crate) fn hole(
 
 /// What comes between two pecks.
 enum Between<'c> {
-    /// Out of the hole and back to the clearance.
-    Out { clearance: Nanos, settle: Option<&'c Expr> },
+    /// Out of the hole and back to the clearance, if there is one.
+    Out { clearance: Option<Nanos>, settle: Option<&'c Expr> },
     /// Up a little.
     Up { lift: Nanos, at_feed: bool },
 }
@@ -574,11 +605,13 @@ enum Between<'c> {
 fn pecks(
     walk: &Walk,
     in_force: &InForce,
-    normal: Axis,
+    [retract_word, left]: [&Point; 2],
     target: &Target,
     stated: bool,
     moves: &mut Vec<(bool, Op)>,
 ) -> Result<(), Fault> {
+    let normal =
+        walk.at.plane(in_force.cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?.axes().2;
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
     let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
         Some(nanos) => Ok(nanos),
@@ -588,18 +621,19 @@ fn pecks(
     let (peck, first, less, pause, between) = match &in_force.cycle.kind {
         CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, .. } => {
             let clearance = match clearance {
-                Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter => parameter(
+                Clearance::Stated(value) => Some(length(value)?),
+                Clearance::Parameter => Some(parameter(
                     target.peck_clearance,
                     "peck drilling whose clearance is a parameter of the control",
-                )?,
+                )?),
+                Clearance::FromReturn => None,
             };
             (peck, first, less, pause, Between::Out { clearance, settle: settle.as_ref() })
         }
         CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, .. } => {
             let lift = match lift {
                 Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter => parameter(
+                Clearance::Parameter | Clearance::FromReturn => parameter(
                     target.break_lift,
                     "chip-breaking drilling whose lift is a parameter of the control",
                 )?,
@@ -626,7 +660,6 @@ fn pecks(
     }
     let unit = unit_of(normal, walk.unit());
     let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
-    let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
     let mut stroke = first;
     let mut bottom = retract.saturating_sub(stroke);
     let mut joined = stated;
@@ -638,11 +671,14 @@ fn pecks(
         }
         match &between {
             Between::Out { clearance, settle } => {
+                let up = if clearance.is_some() { retract_word } else { left };
                 moves.push((false, traverse(up.clone())));
                 if let Some(settle) = settle.filter(|settle| lasts(settle)) {
                     moves.push((false, Op::Dwell((*settle).clone())));
                 }
-                moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
+                if let Some(clearance) = clearance {
+                    moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
+                }
             }
             Between::Up { lift, at_feed } => {
                 let to = go(bottom.saturating_add(*lift));
