@@ -8,6 +8,7 @@
 
 mod by_hand;
 mod corner;
+mod cycle_rows;
 mod cycles;
 mod data;
 mod frame;

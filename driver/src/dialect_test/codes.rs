@@ -9,7 +9,7 @@ use ncc_ir::program::cycle::Approach;
 use ncc_ir::program::{CentreFrom, PoleFrom};
 
 use super::proof::{Bench, Said, Tried, in_place, refusal};
-use super::words::with_procedure;
+use super::words::{pecks_text, with_procedure};
 use super::{Row, local_call};
 
 /// A polar point about program zero.
@@ -520,11 +520,11 @@ fn dwells(bench: &Bench, row: &CodeRow, rows: &mut Vec<Row>) {
 
 /// Values of a cycle's words, in mm and seconds.
 #[derive(Clone, Debug)]
-struct Values {
+pub(super) struct Values {
     retract: &'static str,
     depth: &'static str,
     dwell: &'static str,
-    peck: &'static str,
+    pub(super) peck: &'static str,
 }
 
 impl Default for Values {
@@ -544,8 +544,8 @@ fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
         "bore-fine" => vec![format!("shift parameter {}mm, after clockwise", values.peck)],
         "bore-stop" if row.turns_on => vec!["after as-before".to_owned()],
         "bore-stop" => vec!["after clockwise".to_owned()],
-        "drill-peck" => vec![format!("peck {}mm, clearance parameter", values.peck)],
-        "drill-break" => vec![format!("peck {}mm, lift parameter", values.peck)],
+        "drill-peck" => vec![pecks_text(row, "clearance", values)],
+        "drill-break" => vec![pecks_text(row, "lift", values)],
         _ => Vec::new(),
     };
     let last = if row.kind == "bore" { 0 } else { own.len() };

@@ -13,7 +13,7 @@ use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
 use super::numbers::{millimetres, signed};
-use super::unsupported::{self, without_radius};
+use super::unsupported::{self, m_code, without_radius};
 use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
 
@@ -85,7 +85,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::NotSupported { code, .. } if is_open(code, at.from) => vec![m_code(code)],
+        Fault::NotSupported { code, .. } if is_open(code, at.from) => {
+            unsupported::variant(code, at.from).unwrap_or_else(|| vec![m_code(code)])
+        }
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
@@ -622,14 +624,6 @@ fn mend(at: Context) -> String {
 fn is_open(code: &str, dialect: &Dialect) -> bool {
     let number = code.strip_prefix('M').and_then(|number| number.parse::<u32>().ok());
     number.is_some_and(|number| may_be_stated(dialect.code_row(b'M', number.saturating_mul(10))))
-}
-
-/// What can be said of a code that is the machine's own.
-fn m_code(code: &str) -> String {
-    format!(
-        "`--m-code {code}=drop` if it has no effect on the cut, `--m-code {code}=carry` if the target's machine has \
-         it too, `--m-code {code}=M…` if that has another code for it; or `[[m_code]]` in the profiles"
-    )
 }
 
 /// Whether what a code does may be stated by the user: the dialect does not have it, or refuses it, and it does not name

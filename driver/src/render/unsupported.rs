@@ -1,10 +1,13 @@
 //! What to type where a code is not supported.
 
-use ncc_dialects::{Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID};
+use ncc_dialects::{CodeRow, Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID};
 
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
 pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
     let own = |text: &str| vec![text.to_owned()];
+    if let Some(variant) = variant(code, from) {
+        return variant;
+    }
     match name {
         _ if name.starts_with("return in the main program") => vec![
             "to run it once: delete this block, and end the program with M30".into(),
@@ -60,6 +63,27 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),
     }
+}
+
+/// The options under which the source's control has a code that it refuses else.
+pub(super) fn variant(code: &str, from: &Dialect) -> Option<Vec<String>> {
+    let same = |row: &CodeRow| row.code == code && row.means.is_some();
+    let variant = from.variant.iter().find(|variant| variant.code.iter().any(same))?;
+    let holds =
+        |option: &str, value: &str| from.option.iter().any(|row| row.name == option && row.default == value);
+    let left = variant.when.iter().filter(|(option, value)| !holds(option, value));
+    let options: Vec<String> =
+        left.map(|(option, value)| format!("--from-option {option}={value}")).collect();
+    let options = options.join(" ");
+    (!options.is_empty()).then(|| vec![format!("if the control of this program has {code}: `{options}`")])
+}
+
+/// What can be said of a code that is the machine's own.
+pub(super) fn m_code(code: &str) -> String {
+    format!(
+        "`--m-code {code}=drop` if it has no effect on the cut, `--m-code {code}=carry` if the target's machine has \
+         it too, `--m-code {code}=M…` if that has another code for it; or `[[m_code]]` in the profiles"
+    )
 }
 
 /// The option for a control that goes without compensation where no radius is named.

@@ -538,8 +538,6 @@ pub(crate) enum Token {
     Clearance,
     #[token("parameter")]
     Parameter,
-    #[token("from-return")]
-    FromReturn,
     #[token("depth")]
     Depth,
     #[token("return")]

@@ -52,7 +52,8 @@ impl Lower {
             || state.no_motion
             || state.rigid.is_some()
             || state.cycle != InForce::None
-            || self.settings.dialect.cycles.level_lost && state.return_level.value() == Some(ReturnLevel::Retract)
+            || self.settings.dialect.cycles.level_lost
+                && state.return_level.value() == Some(ReturnLevel::Retract)
             || state.unplaced != 0
             || state.words != Words::Cartesian
             || state.follows_polar

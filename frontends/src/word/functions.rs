@@ -139,8 +139,9 @@ impl Lower {
         // The length is in force by now whose radius may be meant.
         self.compensation(codes, words, src, out);
         let others = codes.iter().any(|code| takes_axes(code.meaning));
-        let moves = motion.iter().any(|code| motion_of(code.meaning).is_some() || matches!(code.meaning, Meaning::StraightProbe(_)))
-            || !others && self.has_axis_word(words);
+        let moves = motion.iter().any(|code| {
+            motion_of(code.meaning).is_some() || matches!(code.meaning, Meaning::StraightProbe(_))
+        }) || !others && self.has_axis_word(words);
         self.motion_codes(motion, dwell, block.span, words, src, out);
         self.lose_level(moves);
         for code in after {

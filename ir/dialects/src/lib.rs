@@ -7,6 +7,7 @@
 //!
 //! Not here: lexing, lowering and layout. A dictionary says what, never how.
 
+mod behaviours;
 mod caps;
 mod check;
 mod codes;
@@ -25,6 +26,7 @@ mod settings;
 mod stored;
 mod variants;
 
+pub use behaviours::{BehaviourRow, Sureness};
 pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;

@@ -19,11 +19,12 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::Deserialize;
 
+use crate::behaviours::BehaviourRow;
 use crate::codes::CodeRow;
 use crate::cycles::{CycleRow, CycleRules};
 use crate::load::renew;
 use crate::merge::same;
-use crate::schema::{Address, BehaviourRow, Dialect};
+use crate::schema::{Address, Dialect};
 use crate::stored::DataRow;
 
 /// Rows that hold where options are chosen so.
@@ -134,7 +135,6 @@ pub(crate) fn chosen(dialect: &'static Dialect, value: impl Fn(&str) -> String) 
     for row in at.iter().filter_map(|at| dialect.variant.get(*at)) {
         row.put_into(&mut derived);
     }
-    derived.variant.clear();
     // The loader has tried each variant; where two of them do not fit together, the first rows stay in force.
     if renew(&mut derived).is_err() {
         return dialect;

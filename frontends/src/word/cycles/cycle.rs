@@ -2,17 +2,16 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{
-    AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Hand, Quantity, TAPPING,
-};
-use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
+use ncc_dialects::{AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Quantity, TAPPING};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
-use ncc_ir::program::{Coord, Move, Op, Pitch};
+use ncc_ir::program::cycle::{Cycle, CycleKind};
+use ncc_ir::program::{Coord, Move, Op};
 use ncc_ir::source::Span;
 
+use super::kind::{Pecks, kind_of};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
@@ -316,38 +315,6 @@ impl Lower {
         }
     }
 
-    /// Ends the cycle in force before it is called up again, on a control whose initial level is where the tool stands
-    /// before each block, where that level counts and may be another than before the series.
-    fn start_anew(&mut self, level: Fact<ReturnLevel>, block: Span, out: &mut Batch) -> bool {
-        if !self.settings.dialect.cycles.level_of_block {
-            return false;
-        }
-        let InForce::Active(active) = &mut self.state.cycle else { return false };
-        let called = active.called.replace((level, active.retract.clone()));
-        let Some((before, retract)) = called else { return false };
-        let from_level = active.retract.distance != Fact::Known(Distance::Absolute);
-        let counts = level != Fact::Known(ReturnLevel::Retract) || from_level;
-        let same = before == level && level == Fact::Known(ReturnLevel::Initial) && retract == active.retract;
-        let anew = counts && (!same || from_level);
-        if anew {
-            self.push(block, Op::EndCycle, out);
-            self.separate(out);
-        }
-        anew
-    }
-
-    /// After a block, on a control where every move that is no cycle's makes the initial level the level of return, and
-    /// every block while no motion is in force.
-    pub(in crate::word) fn lose_level(&mut self, moves: bool) {
-        let lost = self.settings.dialect.cycles.level_lost && (moves || self.state.no_motion);
-        if lost && !matches!(self.state.cycle, InForce::Active(_)) {
-            self.state.return_level = match self.now.skip {
-                None => Know::Said(ReturnLevel::Initial),
-                Some(_) => self.state.return_level.lost(),
-            };
-        }
-    }
-
     /// One hole, or as many as the block says.
     fn hole(
         &mut self,
@@ -644,72 +611,4 @@ struct Given {
     dwell: Option<Num>,
     peck: Option<Expr>,
     shrinking: Option<[Num; 3]>,
-}
-
-/// How deep pecks are.
-#[derive(Clone, Debug)]
-struct Pecks {
-    /// Each of them; the least of those that decrease.
-    peck: Expr,
-    /// The first, and how much less each further one is.
-    shrinking: Option<[Num; 2]>,
-}
-
-/// The cycle of a row; `Err` with the letter of the word that it lacks.
-fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>) -> Result<CycleKind, char> {
-    let (own, to_level) = (row.own(), row.feed_to_level);
-    let shrinking = pecks.as_ref().and_then(|pecks| pecks.shrinking);
-    let peck = pecks.map(|pecks| pecks.peck);
-    let (first, less) = (shrinking.map(|s| Expr::Num(s[0])), shrinking.map(|s| Expr::Num(s[1])));
-    if row.dwell_needed && dwell.is_none() {
-        return Err(row.dwell.map_or(' ', |d| d.letter));
-    }
-    // A dwell of no seconds is none, where a cycle can go without.
-    let none = row.kind != "drill-dwell";
-    let is_one = |dwell: &Num| !(none && dwell.is_zero());
-    let bottom = dwell.filter(is_one).map(Expr::Num);
-    let own_pause = row.own_pause().map(Expr::Num);
-    Ok(match row.kind.as_str() {
-        "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
-        "drill-peck" => CycleKind::DrillPeck {
-            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
-            first,
-            less,
-            clearance: if row.from_return { Clearance::FromReturn } else { Clearance::Parameter },
-            pause: own_pause.clone(),
-            settle: None,
-            dwell: own_pause.or(bottom),
-        },
-        "drill-break" => CycleKind::DrillBreak {
-            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
-            first,
-            less,
-            lift: Clearance::Parameter,
-            lift_at_feed: false,
-            pause: own_pause.clone(),
-            dwell: own_pause.or(bottom),
-        },
-        "tap" | "tap-rigid" => {
-            let turn = row.hand.unwrap_or(Hand::Right).turn();
-            let chuck = !rigid;
-            let after = if chuck { turn.spindle() } else { Spindle::Stopped };
-            let (dwell, back, settle) = match own.dwells_turned {
-                true => (None, bottom, None),
-                false => (bottom.clone(), None, bottom),
-            };
-            let pitch = Pitch::Feed;
-            CycleKind::Tap(Box::new(Tap { turn, pitch, chuck, dwell, back, settle, after, to_level }))
-        }
-        "bore-fine" => {
-            let shift = Shift::Parameter(peck.ok_or(row.shift.unwrap_or(' '))?);
-            let after = own.after();
-            CycleKind::FineBore(Box::new(FineBore { turn: None, dwell: bottom, angle: None, shift, after }))
-        }
-        "bore-stop" => {
-            CycleKind::BoreStop(BoreStop { turn: None, dwell: bottom, stop: false, after: own.after() })
-        }
-        "bore" => CycleKind::Bore { dwell: bottom, feed_out: None, to_level },
-        // The loader lets no other kind pass.
-        _ => CycleKind::Drill,
-    })
 }

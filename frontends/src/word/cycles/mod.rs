@@ -8,5 +8,7 @@
 //! Not here: the moves of a hole; the executor and passes have those.
 
 pub(super) mod cycle;
+mod kind;
+mod levels;
 pub(super) mod no_cycle;
 pub(super) mod pattern;
