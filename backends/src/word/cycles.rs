@@ -4,6 +4,8 @@
 //! kind a call is held back until its first position; a cycle that ends before leaves nothing but
 //! its feed.
 
+mod rows;
+
 use ncc_ir::canon::{Axis, Fact, FeedMode, Motion, Plane, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};

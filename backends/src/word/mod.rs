@@ -8,7 +8,6 @@
 
 mod by_hand;
 mod corner;
-mod cycle_rows;
 mod cycles;
 mod data;
 mod frame;

@@ -85,9 +85,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::NotSupported { code, .. } if is_open(code, at.from) => {
-            unsupported::variant(code, at.from).unwrap_or_else(|| vec![m_code(code)])
-        }
+        Fault::NotSupported { code, .. } if is_open(code, at.from) => unsupported::open(code, at.from),
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }

@@ -78,6 +78,11 @@ pub(super) fn variant(code: &str, from: &Dialect) -> Option<Vec<String>> {
     (!options.is_empty()).then(|| vec![format!("if the control of this program has {code}: `{options}`")])
 }
 
+/// What can be said of an M code that the dialect refuses.
+pub(super) fn open(code: &str, from: &Dialect) -> Vec<String> {
+    variant(code, from).into_iter().flatten().chain([m_code(code)]).collect()
+}
+
 /// What can be said of a code that is the machine's own.
 pub(super) fn m_code(code: &str) -> String {
     format!(

@@ -49,7 +49,7 @@ impl Lower {
             self.lose_level(true);
             return;
         }
-        self.length_alone(codes, words, out);
+        self.length_alone(codes, words, src, out);
         let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
         if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
             self.option(CHANGE_IN_BLOCK, change.span, out);
@@ -440,10 +440,6 @@ impl Lower {
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
-                let zero = matches!(word.value, Value::Number(d) if d.mantissa == 0);
-                if zero && code.row.no_entry_zero {
-                    return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
-                }
                 return self.length_offset(&word, code.span.to(word.span), words, src, out);
             }
             Meaning::UseToolLength { added } => return self.stated_length(code, added, words, src, out),

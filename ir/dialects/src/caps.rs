@@ -83,22 +83,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             };
             all.into_iter().map(cap).collect()
         } else {
-            let cap = |row: &CycleRow, kind: &str| CycleCap {
-                kind: kind.to_owned(),
-                returns: returns.clone(),
-                dwell: row.dwell.is_some(),
-                clearance: false,
-                parameter: !row.from_return,
-                from_return: row.from_return,
-                pause: row.own_pause(),
-                strokes: false,
-                shrinks: row.shrinking.is_some(),
-                feed_out: false,
-                form: CycleForm::Control(row.own()),
-                turns: row.hand.map(|hand| hand.turn()).into_iter().collect(),
-                lift_at_feed: Some(false),
-                to_level: Some(row.feed_to_level),
-            };
+            let cap = |row: &CycleRow, kind: &str| cycle_cap(row, kind, &returns);
             let called = |row: &CallRow| {
                 let has = |role| row.place(role).is_some();
                 let caps = row.kind.cycles().iter().map(|kind| CycleCap {
@@ -436,6 +421,26 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             })
         }),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
+    }
+}
+
+/// What a row of a cycle can say.
+fn cycle_cap(row: &CycleRow, kind: &str, returns: &[ReturnLevel]) -> CycleCap {
+    CycleCap {
+        kind: kind.to_owned(),
+        returns: returns.to_vec(),
+        dwell: row.dwell.is_some(),
+        clearance: false,
+        parameter: !row.from_return,
+        from_return: row.from_return,
+        pause: row.own_pause(),
+        strokes: false,
+        shrinks: row.shrinking.is_some(),
+        feed_out: false,
+        form: CycleForm::Control(row.own()),
+        turns: row.hand.map(|hand| hand.turn()).into_iter().collect(),
+        lift_at_feed: Some(false),
+        to_level: Some(row.feed_to_level),
     }
 }
 

@@ -394,17 +394,15 @@ impl Exec {
                 self.dwell(dwell, span, out)?;
             }
             Way::Peck { strokes, clearance, settle } => {
-                let mut stroke = strokes.first;
-                let mut bottom = cycle.retract - stroke;
+                let (mut stroke, mut bottom) = (strokes.first, cycle.retract - strokes.first);
                 while bottom > cycle.depth {
                     self.go_to_level(normal, bottom, true, span, out)?;
                     self.dwell(strokes.pause, span, out)?;
-                    let up = if clearance.is_some() { cycle.retract } else { out_to };
+                    // Without a clearance it goes down at feed.
+                    let [up, down] = clearance.map_or([out_to; 2], |by| [cycle.retract, bottom + by]);
                     self.go_to_level(normal, up, false, span, out)?;
                     self.dwell(settle, span, out)?;
-                    if let Some(clearance) = clearance {
-                        self.go_to_level(normal, bottom + clearance, false, span, out)?;
-                    }
+                    self.go_to_level(normal, down, false, span, out)?;
                     stroke = next_peck(stroke, strokes.peck, strokes.less);
                     bottom -= stroke;
                 }

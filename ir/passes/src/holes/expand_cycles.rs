@@ -94,16 +94,12 @@ pub(crate) fn over(
         match &stmt.op {
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
-                let kept_before = walk.at.cycle.is_some() && !state.expanding;
-                let fresh = walk.at.cycle.is_none() && !walk.at.cycle_in_doubt;
-                // Cycles called up one after another share the initial level.
-                let chained = state.expanding;
+                let [kept, doubt] = in_force_before(walk).map(|is| is && !state.expanding);
                 walk.step(&stmt);
                 let must = match &walk.at.cycle {
-                    Some(in_force) => {
-                        let here = fresh || level_is_here(walk, in_force, target);
-                        chained || !here || must_expand(walk, in_force, target, stmt.span, diags)
-                    }
+                    // Cycles called up one after another share the initial level.
+                    Some(_) if state.expanding => true,
+                    Some(now) => must_expand(walk, now, kept || doubt, target, stmt.span, diags),
                     None => false,
                 };
                 if !must {
@@ -119,7 +115,7 @@ pub(crate) fn over(
                 let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
                 state.owed = feed.clone().map(owed);
                 state.feed = feed;
-                if kept_before {
+                if kept {
                     made.replace(stmt, [(true, Op::EndCycle)]);
                 } else {
                     made.leave_out(stmt);
@@ -392,14 +388,23 @@ fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance
     stated && (!strokes || cap(|c| c.strokes))
 }
 
+/// Whether a cycle is in force, and whether one may be.
+fn in_force_before(walk: &Walk) -> [bool; 2] {
+    [walk.at.cycle.is_some(), walk.at.cycle_in_doubt]
+}
+
 fn must_expand(
     walk: &Walk,
     in_force: &InForce,
+    kept: bool,
     target: &Target,
     span: Span,
     diags: &mut Vec<Diagnostic>,
 ) -> bool {
     let cycle = &in_force.cycle;
+    if kept && !level_is_here(walk, in_force, target) {
+        return true;
+    }
     let same_way = target.caps.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
 }

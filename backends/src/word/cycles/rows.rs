@@ -6,9 +6,9 @@ use ncc_ir::canon::{Fact, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind};
 
-use super::Writer;
 use crate::common::codes::CycleCode;
 use crate::common::fault::cannot;
+use crate::word::Writer;
 
 impl Writer {
     /// The row of a cycle.
