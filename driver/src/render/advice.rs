@@ -106,7 +106,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
+        Fault::WordMissing { code, word } => unsupported::missing(code, word, at.from),
         Fault::WordTwice { .. } => own("keep one of the two"),
         Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
         Fault::PointNotAllowed { .. } => own("write it without a point"),

@@ -1,12 +1,14 @@
 //! What to type where a code is not supported.
 
-use ncc_dialects::{CodeRow, Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID};
+use ncc_dialects::{
+    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
+};
 
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
 pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
     let own = |text: &str| vec![text.to_owned()];
-    if let Some(variant) = variant(code, from) {
-        return variant;
+    if let Some(typed) = variant(code, from).or_else(|| by_option(name, from)) {
+        return typed;
     }
     match name {
         _ if name.starts_with("return in the main program") => vec![
@@ -63,6 +65,27 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),
     }
+}
+
+/// What to write where a code lacks a word.
+pub(super) fn missing(code: &str, word: &str, from: &Dialect) -> Vec<String> {
+    let add = format!("add `{}` to this block", super::words::plain(word));
+    let retract = from.cycle_row(code).is_some_and(|row| row.retract.to_string() == word)
+        && from.cycles.retained_by_all();
+    let why = format!(
+        "without {word} a control stops with an alarm, goes on with the {word} of an earlier cycle, or drills from where \
+         the tool stands: its manual does not say which"
+    );
+    std::iter::once(add).chain(retract.then_some(why)).collect()
+}
+
+/// What to type where an option decides what a word is: its name in brackets ends the fault's.
+fn by_option(name: &str, from: &Dialect) -> Option<Vec<String>> {
+    let option = name.split_once("(option ")?.1.strip_suffix(')')?;
+    let row = from.option.iter().find(|row| row.name == option)?;
+    let values = row.values.iter().filter(|value| *value != DWELL_REFUSED);
+    let typed: Vec<String> = values.map(|value| format!("`--from-option {option}={value}`")).collect();
+    Some(vec![format!("state what the control does with it: {}; else delete it", typed.join(" or "))])
 }
 
 /// The options under which the source's control has a code that it refuses else.

@@ -177,7 +177,7 @@ impl Lower {
             self.missing(code, depth_letter, out);
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
-        let bottom = self.dwells(row, dwell, code.span, out);
+        let bottom = self.dwells(row, [given.dwell, dwell], code.span, out);
         let kind = self.kind(row, rigid, bottom, pecks, code, out);
         let feed = self.now.feed;
         if feed.is_some() {
@@ -277,7 +277,7 @@ impl Lower {
         active.shrinking = given.shrinking.or(active.shrinking);
         let rigid = active.kind.name() == "tap-rigid";
         let (dwell, peck, shrinking) = (active.dwell, active.peck.clone(), active.shrinking);
-        let bottom = self.dwells(row, dwell, block, out);
+        let bottom = self.dwells(row, [given.dwell, dwell], block, out);
         let pecks = self.pecks(row, peck, shrinking, block, out);
         if let (Ok(kind), InForce::Active(active)) =
             (kind_of(row, rigid, bottom, pecks), &mut self.state.cycle)
@@ -537,29 +537,6 @@ impl Lower {
                 Some(Pecks { peck: Expr::Num(peck), shrinking: Some([first, less]) })
             }
             (None, None) => None,
-        }
-    }
-
-    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
-    /// an option is asked.
-    fn dwells(
-        &mut self,
-        row: &'static CycleRow,
-        dwell: Option<Num>,
-        at: Span,
-        out: &mut Batch,
-    ) -> Option<Num> {
-        let dwell = dwell.filter(|_| row.dwell.is_some() || row.dwell_by.is_some())?;
-        let Some(asked) = row.dwell_by.as_ref().filter(|_| !dwell.is_zero()) else {
-            return Some(dwell);
-        };
-        match self.option(&asked.option, at, out) {
-            DWELLS => Some(dwell),
-            DWELL_REFUSED => {
-                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
-                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
-            }
-            _ => None,
         }
     }
 

@@ -1,11 +1,16 @@
-//! How the hole of a cycle's row is made.
+//! How the hole of a cycle's row is made, and whether it has a dwell.
 
-use ncc_dialects::{CycleRow, Hand};
+use ncc_dialects::{CycleRow, DWELL_REFUSED, DWELLS, Hand};
 use ncc_ir::canon::Spindle;
+use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::Pitch;
 use ncc_ir::program::cycle::{BoreStop, Clearance, CycleKind, FineBore, Shift, Tap};
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::word::lower::Lower;
 
 /// How deep pecks are.
 #[derive(Clone, Debug)]
@@ -76,6 +81,34 @@ pub(super) fn kind_of(
         }
         "bore" => CycleKind::Bore { dwell: bottom, feed_out: None, to_level },
         // The loader lets no other kind pass.
-        _ => CycleKind::Drill,
+        _ => bottom.map_or(CycleKind::Drill, |dwell| CycleKind::DrillDwell { dwell }),
     })
+}
+
+impl Lower {
+    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
+    /// an option is asked. A cycle that refuses one says nothing of what an earlier cycle has left.
+    pub(super) fn dwells(
+        &mut self,
+        row: &'static CycleRow,
+        [given, dwell]: [Option<Num>; 2],
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let dwell = dwell.filter(|_| row.dwell.is_some() || row.dwell_by.is_some())?;
+        let Some(asked) = row.dwell_by.as_ref().filter(|_| !dwell.is_zero()) else {
+            return Some(dwell);
+        };
+        if given.is_none() && self.settings.get(&asked.option) == DWELL_REFUSED {
+            return None;
+        }
+        match self.option(&asked.option, at, out) {
+            DWELLS => Some(dwell),
+            DWELL_REFUSED => {
+                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
+                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
+            }
+            _ => None,
+        }
+    }
 }
