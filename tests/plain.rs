@@ -687,6 +687,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "siemens" => interpreter::siemens::run(text, setup),
         "linuxcnc" => interpreter::linuxcnc::run(text, setup),
         "grbl" => interpreter::grbl::run(text, setup),
+        "grblhal" => interpreter::grbl::run_hal(text, setup),
         "mach3" => interpreter::mach3::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };

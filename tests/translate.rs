@@ -18,11 +18,19 @@ use ncc_ir::program::{Procedure, Program};
 
 use crate::corpus;
 
+/// A Grbl with the options of a grblHAL, as pages and tests call it.
+pub const GRBLHAL: &str = "grblhal";
+
 /// A dialect with the working choice for its options.
 ///
 /// # Panics
 /// There is no such dialect.
 pub fn settings(id: &str) -> Settings {
+    if id == GRBLHAL {
+        let mut settings = settings("grbl");
+        settings.choose("controller", id).expect("an option of the dialect");
+        return settings;
+    }
     Settings::new(builtin(id).unwrap_or_else(|| panic!("no dialect {id}")))
 }
 

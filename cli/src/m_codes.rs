@@ -98,7 +98,7 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     for (code, number) in &numbers {
         at_odds(code, *number, side, source)?;
     }
-    settings.dialect = known.derived(source, side, |dialect| {
+    let put = |dialect: &mut Dialect| {
         dialect.program.calls_left_out = calls.to_vec();
         // The command line goes before the machine's profile.
         dialect.program.variables_elsewhere.splice(0..0, variables.iter().cloned());
@@ -116,7 +116,8 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
                 row.read_as = read_as.map(|written| format!("M{written:02}"));
             }
         }
-    });
+    };
+    settings.change(|plain| known.derived(plain, side, put));
     Ok(())
 }
 

@@ -30,6 +30,7 @@ use crate::milling::{self, Assumed, Voice};
 use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
+use crate::running::Running;
 use crate::sugar::{Said, rewrite};
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
@@ -250,7 +251,7 @@ fn translated(
     }
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let asked = Asked { map: args.map.is_some(), annotate: args.annotate };
-    let watch = args.print_after.clone().map(print_after);
+    let watch = (args.print_after.clone().map(print_after), Running::shown(&source.name, say));
     let (mut outcome, record) = translate::translate_recording(&job, asked, &mut source.file)
         .map_err(|e| cannot_read(&e, &source))?;
     drop(watch);

@@ -41,6 +41,9 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[[option]]`", "OptionRow", "[[option]]\nname = \"zz\"\n@"),
     ("`[[behaviour]]`", "BehaviourRow", "[[behaviour]]\nname = \"zz\"\n@"),
     ("`[can]`", "Can", "[can]\n@"),
+    ("`[[variant]]`", "VariantRow", "[[variant]]\nwhen = { a = \"b\" }\n@"),
+    ("`[variant.block]`", "VariantBlock", "[[variant]]\nwhen = { a = \"b\" }\n[variant.block]\n@"),
+    ("`[variant.can]`", "VariantCan", "[[variant]]\nwhen = { a = \"b\" }\n[variant.can]\n@"),
 ];
 
 /// Lists of values, and a text in which they can be asked for.
@@ -118,6 +121,8 @@ fn sources() -> String {
         "names.rs",
         "power_on.rs",
         "stored.rs",
+        "behaviours.rs",
+        "variants.rs",
     ]
     .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
     .join("\n")

@@ -25,6 +25,7 @@ use crate::args::Color;
 use crate::files::{self, Destination};
 use crate::known::Known;
 use crate::review::side::{Asked, open_one};
+use crate::running::Running;
 use ncc_driver::check::told::Graded;
 use ncc_driver::check::told::Program;
 use ncc_driver::guess::better;
@@ -104,7 +105,9 @@ fn one(
     let shown = source.shown.clone();
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
     let limits = limits(profile.or(job.machines.from.as_deref()), args.rapid_plane);
+    let running = Running::shown(&source.name, say);
     let course = drive::drive(&job, limits, args.switches.on(), &mut source).map_err(wrong)?;
+    drop(running);
     if let Some(problem) = halted::problem(&course.diagnostics, &mut source).map_err(wrong)? {
         return Err(problem);
     }

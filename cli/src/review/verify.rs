@@ -25,6 +25,7 @@ use super::side::{Asked, open, operand};
 use crate::args::{Format, pair};
 use crate::files;
 use crate::known::Known;
+use crate::running::Running;
 use crate::setting::{Holding, Nearness, Standing, Telling};
 pub use ncc_driver::review::verify::document::SCHEMA;
 use ncc_driver::review::verify::document::Word;
@@ -236,8 +237,10 @@ pub(crate) fn compare(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Document, Problem> {
+    let running = Running::shown(&sides[0].source.name, args.format == Format::Human && !args.telling.quiet);
     let found = ncc_driver::review::verify::pair::compare(sides, call.tolerance.unwrap_or_default())
         .map_err(cannot_compare)?;
+    drop(running);
     if args.format == Format::Human {
         for (side, course) in sides.iter_mut().zip(&found.courses) {
             if !args.telling.quiet {

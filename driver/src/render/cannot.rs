@@ -4,7 +4,6 @@ use ncc_dialects::{BLOCK_SKIP, Dialect, FURTHER_POINT, LEFT_OUT, Meaning, Role, 
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::expr::system::System;
 
-use super::text::plain;
 use super::words::Context;
 
 /// The ways out of what cannot be written; `None` if there is none to name here.
@@ -119,17 +118,15 @@ fn rigid_dwell(from: &Dialect) -> Vec<String> {
 }
 
 /// The ways out of a code without a word that it needs.
-pub(super) fn word(code: &str, word: &str, from: &Dialect) -> Vec<String> {
-    let mut all = vec![format!("add `{}` to this block", plain(word))];
+pub(super) fn length_in_force(code: &str, word: &str, from: &Dialect) -> Option<String> {
     let length =
         from.code.iter().any(|row| row.code == code && row.means == Some(Meaning::UseToolLengthOffset));
     let letter = from.letter_for(Role::LengthEntry).map(String::from);
-    if length && letter.as_deref() == Some(word) {
-        all.extend(variable(&System::LengthEntry, from).map(|name| {
-            format!("or state the {word} code that is in force at the start: `--value '#{name}=NUMBER'`")
-        }));
+    if !length || letter.as_deref() != Some(word) {
+        return None;
     }
-    all
+    let name = variable(&System::LengthEntry, from)?;
+    Some(format!("or state the {word} code that is in force at the start: `--value '#{name}=NUMBER'`"))
 }
 
 /// The number of the variable by which a program asks this of the control.

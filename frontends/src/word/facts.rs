@@ -77,6 +77,9 @@ pub(super) struct Active {
     pub(super) shrinking: Option<[Num; 3]>,
     /// Feed of the cycle's own block.
     pub(super) feed: Option<Num>,
+    /// Level of return and retract plane with which it was called up last, on a control whose initial level is where the
+    /// tool stands before each block.
+    pub(super) called: Option<(Fact<ReturnLevel>, Coord)>,
 }
 
 /// Whether a cycle is in force.

@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 use super::facts::{InForce, Kept};
 use super::frames::is_frame;
 use super::lower::Lower;
-use super::sort::{Code, Words};
+use super::sort::{Code, Words, motion_of};
 use super::text::block::Block;
 use crate::Batch;
 use crate::common::Source;
@@ -21,6 +21,18 @@ use crate::common::known::Know;
 use crate::common::setting::setting;
 use crate::common::sort::{RANK_AFTER, RANK_MOTION, RANK_WORDS};
 use crate::common::words::{Value, Word};
+
+/// Whether a code takes the axis words of its block, so that they are no move.
+fn takes_axes(meaning: Meaning) -> bool {
+    is_frame(meaning)
+        || matches!(
+            meaning,
+            Meaning::GoToReference { .. }
+                | Meaning::SetData
+                | Meaning::StorePosition(_)
+                | Meaning::UseToolLength { .. }
+        )
+}
 
 impl Lower {
     /// The block's functions, in the order in which they happen.
@@ -34,9 +46,10 @@ impl Lower {
         out: &mut Batch,
     ) {
         if self.change_by_hand(codes, words, block.span, src, out) {
+            self.lose_level(true);
             return;
         }
-        self.length_alone(codes, words, out);
+        self.length_alone(codes, words, src, out);
         let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
         if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
             self.option(CHANGE_IN_BLOCK, change.span, out);
@@ -125,7 +138,12 @@ impl Lower {
         self.corrector(words, src, out);
         // The length is in force by now whose radius may be meant.
         self.compensation(codes, words, src, out);
+        let others = codes.iter().any(|code| takes_axes(code.meaning));
+        let moves = motion.iter().any(|code| {
+            motion_of(code.meaning).is_some() || matches!(code.meaning, Meaning::StraightProbe(_))
+        }) || !others && self.has_axis_word(words);
         self.motion_codes(motion, dwell, block.span, words, src, out);
+        self.lose_level(moves);
         for code in after {
             self.skip_in_tail(block, code, level);
             self.function(code, words, src, out);

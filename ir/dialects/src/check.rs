@@ -27,6 +27,7 @@ pub(crate) struct Places {
     pub(crate) option: Vec<Range<usize>>,
     pub(crate) behaviour: Vec<Range<usize>>,
     pub(crate) data: Vec<Range<usize>>,
+    pub(crate) variant: Vec<Range<usize>>,
 }
 
 /// Kinds of cycles, as `ncc_ir::program::cycle::CycleKind::name` has them.
@@ -93,6 +94,29 @@ fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fau
             source: row.source.clone(),
         });
         places.option.push(places.behaviour.get(at).cloned().unwrap_or_default());
+    }
+    Ok(())
+}
+
+/// Checks that the options of variants are there, and that their rows fit into the dictionary.
+pub(crate) fn variants(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
+    for (at, variant) in dialect.variant.iter().enumerate() {
+        let wrong = |row: &str, wrong| fault(row, wrong, &places.variant, at);
+        for (option, value) in &variant.when {
+            let row = dialect.option.iter().find(|row| row.name == *option);
+            let row = row.ok_or_else(|| wrong(option, "is no option, so that the variant never holds"))?;
+            if !row.values.contains(value) {
+                return Err(wrong(value, "is no value of this option, so that the variant never holds"));
+            }
+            if variant.when.len() == 1 && row.default == *value {
+                return Err(wrong(value, "is the option's default, so that the variant always holds"));
+            }
+        }
+        let mut with = dialect.clone();
+        variant.put_into(&mut with);
+        let own = |(wrong, _): Fault| (wrong, places.variant.get(at).cloned());
+        spread(&mut with, &mut Places::default()).map_err(own)?;
+        index(&with, &Places::default()).map_err(own)?;
     }
     Ok(())
 }

@@ -14,6 +14,7 @@
 //!
 //! Not here: lexing, lowering and layout. A dictionary says what, never how.
 
+mod behaviours;
 mod caps;
 mod check;
 mod codes;
@@ -30,7 +31,9 @@ mod repeats;
 mod schema;
 mod settings;
 mod stored;
+mod variants;
 
+pub use behaviours::{BehaviourRow, Sureness};
 pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
@@ -52,3 +55,4 @@ pub use settings::{
     STORED_POSITION, STRAIGHT_LINE, SettingError, Settings, TAP_DWELL, TAPPING, TOOL_CHANGE,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};
+pub use variants::{VariantBlock, VariantCan, VariantRow};

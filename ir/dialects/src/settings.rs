@@ -18,6 +18,7 @@ use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
 use crate::schema::Dialect;
 use crate::stored::SystemRow;
+use crate::variants;
 
 /// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
@@ -83,7 +84,7 @@ pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 /// Value of that option: the block's axes move first.
 pub const AFTER_MOTION: &str = "after-motion";
 
-/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused.
+/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused; or a code of a variant.
 pub const TOOL_CHANGE: &str = "tool_change";
 
 /// Value of [`TOOL_CHANGE`]: a block of its own that stops the program.
@@ -166,8 +167,12 @@ pub const SPINDLE_ANGLE: &str = "spindle_angle";
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The dictionary.
+    /// The dictionary, as the options make it.
     pub dialect: &'static Dialect,
+    /// The dictionary as it was before any option was chosen.
+    plain: &'static Dialect,
+    /// The units at power-on, as they are stated for this run.
+    units: Option<Units>,
     chosen: BTreeMap<String, String>,
     /// Whole numbers that variables hold at the start, as the user states them, by their names.
     values: BTreeMap<String, i64>,
@@ -203,7 +208,24 @@ fn is_amount(text: &str) -> bool {
 impl Settings {
     /// The dialect with the working choice for every option.
     pub fn new(dialect: &'static Dialect) -> Settings {
-        Settings { dialect, chosen: BTreeMap::new(), values: BTreeMap::new() }
+        Settings { dialect, plain: dialect, units: None, chosen: BTreeMap::new(), values: BTreeMap::new() }
+    }
+
+    /// Puts another dictionary in the place of this one: the same with rows of the user's.
+    pub fn change(&mut self, with: impl FnOnce(&'static Dialect) -> &'static Dialect) {
+        self.plain = with(self.plain);
+        self.derive();
+    }
+
+    /// Finds the dictionary anew as the options make it.
+    fn derive(&mut self) {
+        self.dialect = variants::chosen(self.plain, |option| self.get(option).to_owned());
+        if self.get(DWELL_UNIT) == "milliseconds" && self.is_chosen(DWELL_UNIT) {
+            self.dialect = in_milliseconds(self.dialect);
+        }
+        if let Some(units) = self.units {
+            self.dialect = with_units(self.dialect, units);
+        }
     }
 
     /// Chooses a value.
@@ -221,9 +243,7 @@ impl Settings {
             return Err(SettingError::NoValue { option: option.to_owned(), values: row.values.clone() });
         }
         self.chosen.insert(option.to_owned(), value.to_owned());
-        if option == DWELL_UNIT && value == "milliseconds" {
-            self.dialect = in_milliseconds(self.dialect);
-        }
+        self.derive();
         Ok(())
     }
 
@@ -275,7 +295,8 @@ impl Settings {
         if let Some(row) = self.dialect.power_on.units.as_ref().filter(|row| row.always) {
             return Units::from(row.value) == units;
         }
-        self.dialect = with_units(self.dialect, units);
+        self.units = Some(units);
+        self.derive();
         true
     }
 

@@ -39,10 +39,10 @@ pub use moves::compensation::{Compensation, NOWHERE, STILL};
 pub use moves::fine::Increments;
 pub use moves::pace::{DEGREES, LINEAR};
 pub use moves::rotary::end as rotary_end;
-pub use run::Runner;
 pub use run::again;
 pub use run::go::{Halt, Progress};
 pub use run::left::Again;
+pub use run::{MOST_STEPS, Runner};
 
 use crate::world::World;
 use frames::frame::Length;

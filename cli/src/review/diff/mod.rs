@@ -25,6 +25,7 @@ use self::text::Texts;
 use super::side::{Asked, open};
 use crate::args::pair;
 use crate::known::Known;
+use crate::running::Running;
 use crate::setting::{Holding, Nearness, Standing, Telling};
 use crate::{files, project};
 pub use ncc_driver::review::diff::json::SCHEMA;
@@ -209,7 +210,9 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         texts = Some(found);
         account
     } else {
+        let running = Running::shown(&sides[0].source.name, !args.telling.quiet);
         let found = motion(&mut sides, args.nearness.tolerance).map_err(|e| cannot(&e))?;
+        drop(running);
         if !args.telling.quiet {
             for (side, course) in sides.iter_mut().zip(&found.courses) {
                 questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err)?;

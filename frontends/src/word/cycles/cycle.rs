@@ -2,15 +2,18 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{AskedDwell, Bare, CYCLE_APPROACH, CycleRow, Hand, Quantity, TAPPING};
+use ncc_dialects::{
+    AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Hand, Quantity, TAPPING,
+};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
-use ncc_ir::program::{Coord, Move, Op, Pitch};
+use ncc_ir::program::cycle::{Cycle, CycleKind};
+use ncc_ir::program::{Coord, Move, Op};
 use ncc_ir::source::Span;
 
+use super::kind::{Pecks, kind_of};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
@@ -176,7 +179,7 @@ impl Lower {
             self.missing(code, depth_letter, out);
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
-        let bottom = self.dwells(row, dwell, code.span, out);
+        let bottom = self.dwells(row, [given.dwell, dwell], code.span, out);
         let bottom = self.tap_dwell(row, rigid, bottom, code.span, out);
         let kind = self.kind(row, rigid, bottom, pecks, code, out);
         let feed = self.now.feed;
@@ -189,7 +192,11 @@ impl Lower {
             self.state.cycle = InForce::Lost;
             return;
         };
-        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed };
+        let called = match &mut self.state.cycle {
+            InForce::Active(before) => before.called.take(),
+            InForce::None | InForce::Lost => None,
+        };
+        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed, called };
         self.state.cycle = InForce::Active(Box::new(active));
         self.call_up(block, out);
         if dialect.cycles.hole_on_definition && has_hole_word {
@@ -273,7 +280,7 @@ impl Lower {
         active.shrinking = given.shrinking.or(active.shrinking);
         let rigid = active.kind.name() == "tap-rigid";
         let (dwell, peck, shrinking) = (active.dwell, active.peck.clone(), active.shrinking);
-        let bottom = self.dwells(row, dwell, block, out);
+        let bottom = self.dwells(row, [given.dwell, dwell], block, out);
         let bottom = self.tap_dwell(row, rigid, bottom, block, out);
         let pecks = self.pecks(row, peck, shrinking, block, out);
         if let (Ok(kind), InForce::Active(active)) =
@@ -287,6 +294,7 @@ impl Lower {
     /// The cycle in force as a statement.
     pub(in crate::word) fn call_up(&mut self, block: Span, out: &mut Batch) {
         let return_level = self.return_level(block, out);
+        let anew = self.start_anew(return_level, block, out);
         let InForce::Active(active) = &self.state.cycle else {
             return;
         };
@@ -306,6 +314,9 @@ impl Lower {
             feed: active.feed.map(Expr::Num),
         };
         self.push(block, Op::StartCycle(Box::new(cycle)), out);
+        if anew {
+            self.separate(out);
+        }
     }
 
     /// One hole, or as many as the block says.
@@ -523,71 +534,4 @@ struct Given {
     dwell: Option<Num>,
     peck: Option<Expr>,
     shrinking: Option<[Num; 3]>,
-}
-
-/// How deep pecks are.
-#[derive(Clone, Debug)]
-struct Pecks {
-    /// Each of them; the least of those that decrease.
-    peck: Expr,
-    /// The first, and how much less each further one is.
-    shrinking: Option<[Num; 2]>,
-}
-
-/// The cycle of a row; `Err` with the letter of the word that it lacks.
-fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>) -> Result<CycleKind, char> {
-    let (own, to_level) = (row.own(), row.feed_to_level);
-    let shrinking = pecks.as_ref().and_then(|pecks| pecks.shrinking);
-    let peck = pecks.map(|pecks| pecks.peck);
-    let (first, less) = (shrinking.map(|s| Expr::Num(s[0])), shrinking.map(|s| Expr::Num(s[1])));
-    if row.dwell_needed && dwell.is_none() {
-        return Err(row.dwell.map_or(' ', |d| d.letter));
-    }
-    // A dwell of no seconds is none, where a cycle can go without.
-    let none = row.kind != "drill-dwell";
-    let is_one = |dwell: &Num| !(none && dwell.is_zero());
-    let bottom = dwell.filter(is_one).map(Expr::Num);
-    Ok(match row.kind.as_str() {
-        "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
-        "drill-peck" => CycleKind::DrillPeck {
-            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
-            first,
-            less,
-            clearance: Clearance::Parameter,
-            pause: None,
-            settle: None,
-            dwell: bottom,
-        },
-        "drill-break" => CycleKind::DrillBreak {
-            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
-            first,
-            less,
-            lift: Clearance::Parameter,
-            lift_at_feed: false,
-            pause: None,
-            dwell: bottom,
-        },
-        "tap" | "tap-rigid" => {
-            let turn = row.hand.unwrap_or(Hand::Right).turn();
-            let chuck = !rigid;
-            let after = if chuck { turn.spindle() } else { Spindle::Stopped };
-            let (dwell, back, settle) = match own.dwells_turned {
-                true => (None, bottom, None),
-                false => (bottom.clone(), None, bottom),
-            };
-            let pitch = Pitch::Feed;
-            CycleKind::Tap(Box::new(Tap { turn, pitch, chuck, dwell, back, settle, after, to_level }))
-        }
-        "bore-fine" => {
-            let shift = Shift::Parameter(peck.ok_or(row.shift.unwrap_or(' '))?);
-            let after = own.after();
-            CycleKind::FineBore(Box::new(FineBore { turn: None, dwell: bottom, angle: None, shift, after }))
-        }
-        "bore-stop" => {
-            CycleKind::BoreStop(BoreStop { turn: None, dwell: bottom, stop: false, after: own.after() })
-        }
-        "bore" => CycleKind::Bore { dwell: bottom, feed_out: None, to_level },
-        // The loader lets no other kind pass.
-        _ => CycleKind::Drill,
-    })
 }

@@ -66,29 +66,6 @@ impl Lower {
         }
     }
 
-    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
-    /// an option is asked.
-    pub(super) fn dwells(
-        &mut self,
-        row: &'static CycleRow,
-        dwell: Option<Num>,
-        at: Span,
-        out: &mut Batch,
-    ) -> Option<Num> {
-        let dwell = dwell.filter(|_| row.dwell.is_some() || row.dwell_by.is_some())?;
-        let Some(asked) = row.dwell_by.as_ref().filter(|_| !dwell.is_zero()) else {
-            return Some(dwell);
-        };
-        match self.option(&asked.option, at, out) {
-            DWELLS => Some(dwell),
-            DWELL_REFUSED => {
-                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
-                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
-            }
-            _ => None,
-        }
-    }
-
     /// The dwell of a rigid tapping cycle, unless the user has it left out.
     pub(super) fn tap_dwell(
         &mut self,

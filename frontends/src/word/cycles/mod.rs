@@ -9,5 +9,7 @@
 
 pub(super) mod cycle;
 mod dwells;
+mod kind;
+mod levels;
 pub(super) mod no_cycle;
 pub(super) mod pattern;

@@ -41,7 +41,7 @@ const DEEPEST: usize = 64;
 
 /// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
 /// end.
-const MOST_STEPS: u64 = 50_000_000;
+pub const MOST_STEPS: u64 = 50_000_000;
 
 /// Most of them between two statements that are executed by themselves, and between two that anything comes of: a
 /// control that executes a thousand blocks a second stands still for half an hour with so many.
@@ -232,7 +232,7 @@ impl<'p> Runner<'p> {
                 return Ok(None);
             };
             let span = stmt.span;
-            if halt::is_asked() {
+            if halt::is_asked_at(self.steps) {
                 return Err(Diagnostic::new(Fault::Interrupted { steps: self.steps }, span));
             }
             if self.steps > self.most {

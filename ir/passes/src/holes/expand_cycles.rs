@@ -7,7 +7,8 @@
 //!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole
 //!    that was left no higher than R straight to the level of return above the next;
 //! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
-//!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
+//!    the clearance above the last depth, the last peck clipped at the bottom (without a clearance, by rapid to
+//!    where the tool is left and down at feed); dwell, if there is one;
 //! 3. out by rapid to R or to the level where the tool stood when the cycle was called up, which
 //!    under [`Approach::RaiseFirst`] is not below R (NIST RS274/NGC 3.5.20); [`CycleKind::Bore`]
 //!    feeds to R first.
@@ -20,17 +21,18 @@ use super::sayable::{lasts, level, sayable};
 use crate::arcs::polar_places;
 use crate::holes::approach::is_one_way;
 use crate::holes::expand_patterns;
+use crate::holes::pecks::{dwells_alike, level_is_here, pecks};
 use crate::holes::spindle_holes::with_spindle;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
-use crate::support::write::{Rebuild, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of};
+use crate::support::write::{Rebuild, at, cut, is_absolute, only, rebuild, traverse};
 use crate::{Target, each_body};
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Num};
-use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift, absolute, next_peck};
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
@@ -48,9 +50,6 @@ pub(crate) const PASS: Pass = Pass {
     ),
     parametric: None,
 };
-
-/// Most pecks of one hole; more is a slip of the pen.
-const MOST_PECKS: i64 = 100_000;
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
@@ -95,12 +94,12 @@ pub(crate) fn over(
         match &stmt.op {
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
-                let kept_before = walk.at.cycle.is_some() && !state.expanding;
-                // Cycles called up one after another share the initial level.
-                let chained = state.expanding;
+                let [kept, doubt] = in_force_before(walk).map(|is| is && !state.expanding);
                 walk.step(&stmt);
                 let must = match &walk.at.cycle {
-                    Some(in_force) => chained || must_expand(walk, in_force, target, stmt.span, diags),
+                    // Cycles called up one after another share the initial level.
+                    Some(_) if state.expanding => true,
+                    Some(now) => must_expand(walk, now, kept || doubt, target, stmt.span, diags),
                     None => false,
                 };
                 if !must {
@@ -116,7 +115,7 @@ pub(crate) fn over(
                 let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
                 state.owed = feed.clone().map(owed);
                 state.feed = feed;
-                if kept_before {
+                if kept {
                     made.replace(stmt, [(true, Op::EndCycle)]);
                 } else {
                     made.leave_out(stmt);
@@ -306,14 +305,23 @@ fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     }
 }
 
+/// Whether a cycle is in force, and whether one may be.
+fn in_force_before(walk: &Walk) -> [bool; 2] {
+    [walk.at.cycle.is_some(), walk.at.cycle_in_doubt]
+}
+
 fn must_expand(
     walk: &Walk,
     in_force: &InForce,
+    kept: bool,
     target: &Target,
     span: Span,
     diags: &mut Vec<Diagnostic>,
 ) -> bool {
     let cycle = &in_force.cycle;
+    if kept && !level_is_here(walk, in_force, target) {
+        return true;
+    }
     let same_way = target.caps.holes.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
@@ -430,7 +438,7 @@ pub(crate) fn hole(
         }
         return Ok(());
     }
-    pecks(walk, in_force, normal, target, stated, moves)?;
+    pecks(walk, in_force, [&retract, out.as_ref().unwrap_or(&retract)], target, stated, moves)?;
     let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
     moves.push((stated && first_cut, cut(depth)));
     let dwell = match &cycle.kind {
@@ -459,99 +467,6 @@ pub(crate) fn hole(
             }
         }
         (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),
-    }
-    Ok(())
-}
-
-/// What comes between two pecks.
-enum Between<'c> {
-    /// Out of the hole and back to the clearance.
-    Out { clearance: Nanos, settle: Option<&'c Expr> },
-    /// Up a little.
-    Up { lift: Nanos, at_feed: bool },
-}
-
-/// All pecks but the last.
-fn pecks(
-    walk: &Walk,
-    in_force: &InForce,
-    normal: Axis,
-    target: &Target,
-    stated: bool,
-    moves: &mut Vec<(bool, Op)>,
-) -> Result<(), Fault> {
-    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
-    let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
-        Some(nanos) => Ok(nanos),
-        None => Err(Fault::CannotSay { what: what.into() }),
-    };
-    let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
-    let (peck, first, less, pause, between) = match &in_force.cycle.kind {
-        CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, .. } => {
-            let clearance = match clearance {
-                Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter => parameter(
-                    target.peck_clearance,
-                    "peck drilling whose clearance is a parameter of the control",
-                )?,
-            };
-            (peck, first, less, pause, Between::Out { clearance, settle: settle.as_ref() })
-        }
-        CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, .. } => {
-            let lift = match lift {
-                Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter => parameter(
-                    target.break_lift,
-                    "chip-breaking drilling whose lift is a parameter of the control",
-                )?,
-            };
-            (peck, first, less, pause, Between::Up { lift, at_feed: *lift_at_feed })
-        }
-        CycleKind::Drill
-        | CycleKind::DrillDwell { .. }
-        | CycleKind::Bore { .. }
-        | CycleKind::Tap(_)
-        | CycleKind::FineBore(_)
-        | CycleKind::BoreStop(_) => return Ok(()),
-    };
-    let (Some(retract), Some(depth)) = (in_force.retract, in_force.depth) else { return Err(unknown) };
-    let peck = length(peck)?.checked_abs().unwrap_or(0);
-    let first = match first {
-        Some(first) => length(first)?,
-        None => peck,
-    };
-    let less = less.as_ref().map(length).transpose()?;
-    let grows = less.is_some_and(|less| less < 0 || first < peck);
-    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MOST_PECKS {
-        return Err(Fault::OutOfRange { word: "depth of a peck".into() });
-    }
-    let unit = unit_of(normal, walk.unit());
-    let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
-    let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
-    let mut stroke = first;
-    let mut bottom = retract.saturating_sub(stroke);
-    let mut joined = stated;
-    while bottom > depth {
-        moves.push((joined, cut(go(bottom))));
-        joined = false;
-        if let Some(pause) = pause.as_ref().filter(|pause| lasts(pause)) {
-            moves.push((false, Op::Dwell(pause.clone())));
-        }
-        match &between {
-            Between::Out { clearance, settle } => {
-                moves.push((false, traverse(up.clone())));
-                if let Some(settle) = settle.filter(|settle| lasts(settle)) {
-                    moves.push((false, Op::Dwell((*settle).clone())));
-                }
-                moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
-            }
-            Between::Up { lift, at_feed } => {
-                let to = go(bottom.saturating_add(*lift));
-                moves.push((false, if *at_feed { cut(to) } else { traverse(to) }));
-            }
-        }
-        stroke = next_peck(stroke, peck, less);
-        bottom = bottom.saturating_sub(stroke);
     }
     Ok(())
 }

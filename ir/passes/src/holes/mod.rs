@@ -15,6 +15,7 @@ pub mod expand_cycles;
 pub mod expand_patterns;
 pub mod feed_with_cycle;
 pub(crate) mod pattern_forms;
+mod pecks;
 pub mod planes_checked;
 pub mod return_plane;
 pub(crate) mod sayable;

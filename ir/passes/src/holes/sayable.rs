@@ -1,6 +1,7 @@
 //! Which cycles a target says as they are.
 
 use crate::Target;
+use crate::holes::pecks::dwells_alike;
 use crate::support::walk::Walk;
 use crate::support::write::{as_absolute, at, is_absolute};
 use ncc_ir::canon::{Axis, ReturnLevel};
@@ -31,15 +32,19 @@ pub(crate) fn sayable(
         CycleKind::DrillDwell { .. } => (true, true),
         CycleKind::DrillPeck { dwell, clearance, first, less, pause, settle, .. } => {
             let other_first = first.is_some() && less.is_none();
-            let strokes = other_first || pause.is_some() || settle.is_some();
-            (dwell.is_some(), says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks)))
+            let own = dwells_alike(caps, kind, [pause, dwell]);
+            let strokes = other_first || settle.is_some() || own.is_none() && pause.is_some();
+            let says = says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks));
+            (own.is_none() && dwell.is_some(), says && own != Some(false))
         }
         CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
-            let strokes = first.is_some() && less.is_none() || pause.is_some();
+            let own = dwells_alike(caps, kind, [pause, dwell]);
+            let strokes = first.is_some() && less.is_none() || own.is_none() && pause.is_some();
             let rapid = cap(|c| c.lift != Lift::Feed);
             let way = if *lift_at_feed { cap(|c| c.lift != Lift::Rapid) } else { rapid };
             let shrinks = less.is_none() || cap(|c| c.shrinks);
-            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
+            let says = says_pecks(&cap, lift, strokes) && way && shrinks;
+            (own.is_none() && dwell.is_some(), says && own != Some(false))
         }
         CycleKind::Bore { dwell, feed_out, .. } => {
             (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
@@ -86,6 +91,7 @@ fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance
     let stated = match clearance {
         Clearance::Stated(_) => cap(|c| c.clearance),
         Clearance::Parameter => cap(|c| c.parameter),
+        Clearance::FromReturn => cap(|c| c.from_return),
     };
     stated && (!strokes || cap(|c| c.strokes))
 }
