@@ -1,7 +1,7 @@
 //! The dwells of cycles: those that another cycle has left in force, those that an option decides, and those of rigid
 //! tapping that are left out.
 
-use ncc_dialects::{CycleRow, DWELL_REFUSED, DWELLS, LEFT_OUT, TAP_DWELL};
+use ncc_dialects::{CycleRow, LEFT_OUT, TAP_DWELL};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
