@@ -16,7 +16,7 @@ use ncc_driver::provenance::trace::Asked;
 use ncc_driver::questions::of_translation;
 use ncc_driver::render::human::Loudness;
 use ncc_driver::render::terminal::Shown;
-use ncc_driver::render::{About, dialects, explain, json, questions, report};
+use ncc_driver::render::{About, dialects, explain, json, line, questions, report};
 use ncc_driver::source::not_milling::Refusal;
 use ncc_driver::source::{Source, called};
 use ncc_driver::translate::{self, tools_by_name};
@@ -258,7 +258,7 @@ fn translated(
     if let Destination::File(folder) = &destination
         && folder.is_dir()
     {
-        let name = job.machines.output_name(job.to.dialect, &source.name, &outcome);
+        let name = outcome.file_name(&job.machines, job.to.dialect, &source.name);
         let name = folder.join(name);
         source.guard(Some(&name))?;
         destination = Destination::File(name);
@@ -291,7 +291,7 @@ fn translated(
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.telling.quiet) {
         let _ = say_where(to, &job, &source.shown, args.format, err);
     }
-    Ok(Exit::of(outcome.release))
+    Ok(outcome.exit())
 }
 
 /// Where the output goes: the file of `-o`, or standard output, which the shell may send to a file.
@@ -320,7 +320,7 @@ fn not_milling(
         files::to_file(name, &mut |out| report::refused(out, (named, &order.to), source, refusal))?;
     }
     if voice == Voice::Json {
-        json::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
+        line::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
             .map_err(|e| Problem::file("write", "messages", &e))?;
         refusal.line(err)?;
     }
@@ -365,11 +365,11 @@ pub(crate) fn tell(
         Format::Json => {
             let mut out = ncc_driver::problem::as_write(err);
             for asked in questions::ask(about, &of_translation(about.job, outcome))? {
-                json::line(&mut out, &asked)?;
+                line::line(&mut out, &asked)?;
             }
             json::print(&mut out, about, &outcome.diagnostics, loudness)?;
             if loudness != Loudness::Quiet {
-                json::line(&mut out, &report::Summary::of(about.job, outcome))?;
+                line::line(&mut out, &report::Summary::of(about.job, outcome))?;
             }
         }
         Format::Human => ncc_driver::render::tell(err, about, outcome, loudness)?,

@@ -34,9 +34,9 @@ use self::facts::{Other, closed_by_rounding, done_by_target, looked_at};
 use self::twice::Outliving;
 use self::with_facts::MOST_WITH_FACT;
 use crate::job::given::Given;
+use crate::job::parameters::{bore_shift, orientation, parameter};
 use crate::job::{self, Job, Verified};
 use crate::translate::difference;
-use crate::translate::{bore_shift, orientation, parameter};
 
 pub use self::facts::stops_differ;
 pub use self::worlds::worlds_of;

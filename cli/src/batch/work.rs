@@ -206,7 +206,7 @@ impl Bench<'_> {
             (Err(Failure::Refused), _) => Came::Refused,
             (Err(Failure::VerificationFailed), _) => Came::VerificationFailed,
         };
-        row.exit = Exit::of(outcome.release);
+        row.exit = outcome.exit();
         row.events = outcome.verified.filter(|_| outcome.release.is_ok()).map(|v| v.events);
         row.program_number = outcome.program_number.filter(|_| outcome.release.is_ok());
         let shown = source.shown.clone();
@@ -256,7 +256,7 @@ impl Bench<'_> {
         let to = job.to.dialect;
         let below = folder.join(&item.below);
         let plain = below.join(job.machines.file_name(to, &source.name, outcome.program_number));
-        let main = below.join(job.machines.output_name(to, &source.name, outcome));
+        let main = below.join(outcome.file_name(&job.machines, to, &source.name));
         let otherwise = (plain != main).then_some(plain);
         let cannot = |path: &Path, e: &io::Error| Problem::file("write", &path.display().to_string(), e);
         let Some(store) = self.store else {

@@ -240,7 +240,7 @@ fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Exam
     source.rewind()?;
     let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
     let mut outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
-    let exit = Exit::of(outcome.release);
+    let exit = outcome.exit();
     let codes = outcome.rests.iter().filter_map(|rest| match &rest.place {
         Place::Code(code) => Some(code.clone()),
         _ => None,

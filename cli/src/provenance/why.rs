@@ -9,7 +9,7 @@ use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::state::{Around, State, WHAT, around};
 use ncc_driver::provenance::text::Text;
 use ncc_driver::source::Source;
-use ncc_driver::source::called::Called;
+use ncc_driver::source::called_files::Called;
 use serde::Serialize;
 
 use super::args::Why;

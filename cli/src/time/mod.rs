@@ -499,7 +499,7 @@ fn stream(
         }
         Form::Canon => match canonical(args, shop, &plan, source, &mut out, err)? {
             Ok(course) => course,
-            Err(failure) => return Ok(Exit::of(Err(failure))),
+            Err(failure) => return Ok(failure.exit()),
         },
         Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
             let header =

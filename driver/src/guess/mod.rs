@@ -279,7 +279,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         if !letter.is_ascii_uppercase() {
             if !b" \t/+-.0123456789%:".contains(&letter) && dialect.block.end.as_bytes() != [letter] {
                 let c = char::from(letter);
-                evidence.con(number, format!("`{}` is no sign of it", crate::render::source::visible(c)));
+                evidence.con(number, format!("`{}` is no sign of it", crate::render::text::visible(c)));
             }
             continue;
         }

@@ -10,6 +10,7 @@
 
 pub mod given;
 pub mod options;
+pub mod parameters;
 pub mod project_answers;
 pub mod start;
 
@@ -37,8 +38,10 @@ use ncc_passes::{Compensating, Pass};
 use crate::job::given::Given;
 use crate::job::project_answers::Used;
 use crate::machines::pair::Machines;
-use crate::questions::{Policy, Question};
-use crate::source::called::Called;
+use crate::problem::Exit;
+use crate::questions::question::{Policy, Question};
+use crate::source::called;
+use crate::source::called_files::Called;
 use crate::source::spool::Spool;
 
 /// The pass that writes the path of the tool's centre.
@@ -297,12 +300,34 @@ pub struct Outcome {
     pub blocks: u64,
 }
 
+impl Failure {
+    /// Its exit code.
+    pub fn exit(self) -> Exit {
+        match self {
+            Failure::Refused => Exit::Refused,
+            Failure::VerificationFailed => Exit::VerificationFailed,
+        }
+    }
+}
+
 impl Outcome {
     /// Whether open questions alone stop the translation.
     pub fn is_asked(&self, job: &Job) -> bool {
         self.release == Err(Failure::Refused)
             && !self.questions.is_empty()
             && !self.diagnostics.iter().any(|diagnostic| job.refuses(diagnostic))
+    }
+
+    /// The exit code, by whether the output may be used.
+    pub fn exit(&self) -> Exit {
+        self.release.map_or_else(Failure::exit, |()| Exit::Done)
+    }
+
+    /// The name of the output's file; that of a subprogram that stands alone, for a control that finds them by their
+    /// files, is the one by which its callers look for it.
+    pub fn file_name(&self, machines: &Machines, to: &Dialect, source: &str) -> String {
+        let called = self.output.called().and_then(|name| called::file_of(to, name));
+        called.unwrap_or_else(|| machines.file_name(to, source, self.program_number))
     }
 
     /// How many constructs came through with a verdict.

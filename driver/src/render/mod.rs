@@ -14,6 +14,7 @@ pub mod explain;
 pub mod head;
 pub mod human;
 pub mod json;
+pub mod line;
 pub mod numbers;
 pub mod questions;
 pub mod report;

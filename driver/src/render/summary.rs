@@ -19,7 +19,7 @@ use super::words::{Context, words};
 use crate::job::{Failure, Outcome};
 use crate::questions::Question;
 use crate::render::head::{assumption, by_name};
-use crate::source::called::Called;
+use crate::source::called_files::Called;
 
 /// Of one phrase, so many line numbers are named.
 const MOST_LINES: usize = 6;

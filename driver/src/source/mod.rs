@@ -8,8 +8,10 @@
 //! Not here: what a text means (front-ends).
 
 pub mod called;
+pub mod called_files;
 pub mod chunks;
 pub mod halted;
+pub mod interrupted;
 pub mod not_milling;
 pub mod spool;
 
@@ -22,7 +24,7 @@ use ncc_ir::diag::Diagnostic;
 
 use crate::job::project_answers::Used;
 use crate::problem::Problem;
-use crate::source::called::Called;
+use crate::source::called_files::Called;
 
 /// Bytes that can be read again, from wherever the host keeps them.
 pub trait Readable: Read + Seek {}

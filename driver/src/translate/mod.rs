@@ -26,8 +26,6 @@ pub mod tools_by_name;
 mod translation;
 mod writing;
 
-pub use parametric::{bore_shift, orientation, parameter};
-
 use std::io;
 
 use ncc_ir::canon::Modes;

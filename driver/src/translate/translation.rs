@@ -1,8 +1,7 @@
 //! One translation on its way: what is between source and output, piece by piece.
 
-use super::heading;
 use super::parametric::{self, target};
-use super::parametric::{bore_shift, orientation, parameter};
+use crate::job::parameters::{bore_shift, orientation, parameter};
 
 use std::collections::BTreeSet;
 
@@ -189,8 +188,8 @@ impl<'j> Translation<'j> {
 
     pub(super) fn count(&mut self) {
         let procedures = &self.batch.procedures;
-        self.sets_path |=
-            heading::sets_path(&self.batch.stmts) || procedures.iter().any(|p| heading::sets_path(&p.body));
+        self.sets_path |= parametric::sets_path(&self.batch.stmts)
+            || procedures.iter().any(|p| parametric::sets_path(&p.body));
         let blocks = self.batch.stmts.iter().filter(|s| !s.joined).count();
         self.blocks += blocks as u64;
         let told = |s: &&Stmt| !matches!(s.op, Op::Blank | Op::Comment(_));
