@@ -20,11 +20,12 @@ use ncc_driver::questions::Policy;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
-use crate::args::{Eol, Translate};
+use crate::args::Translate;
 use crate::known::Known;
 use crate::machines::agreed;
 use crate::project::{InForce, Settled, Sides, Stated, settle};
-use crate::run::INTO_WHAT;
+use crate::recognised::INTO_WHAT;
+use crate::typed::Eol;
 use crate::{files, m_codes};
 
 /// What all programs of a command have in common.

@@ -23,19 +23,19 @@ use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
 
-use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
+use crate::args::{Cli, DialectsWhat, Translate, Verb};
 use crate::files::{self, Destination, arrow};
 use crate::known::{self, Known};
-use crate::milling::{self, Assumed, Voice};
+use crate::milling::{self, Voice};
 use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
+use crate::recognised::recognise_all;
 use crate::running::Running;
 use crate::sugar::{Said, rewrite};
+use crate::typed::Assumed;
+use crate::typed::{Color, Eol, Format, Style};
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
-
-/// What to say to who names no target.
-pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --machine-to MACHINE";
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -407,37 +407,6 @@ fn say_where(to: &Dialect, job: &Job, shown: &str, format: Format, err: &mut dyn
         "The program is in the file `{to}` of this folder: the shell took `> {to}` for a redirection.\n\
          To choose a name: ncc {from} to {to} {shown} -o NAME, or now: mv {to} NAME"
     )
-}
-
-/// The dialect of a source, recognised; with `say`, tells by what.
-///
-/// # Errors
-/// It cannot be told for certain, or the source cannot be read.
-pub(crate) fn recognise(
-    source: &mut Source,
-    say: bool,
-    known: &Known,
-    err: &mut dyn WriteColor,
-) -> Result<&'static Dialect, Problem> {
-    recognise_all(source, say, known, err).map(|(dialect, _)| dialect)
-}
-
-/// The same, and the dialects that explain the source as well.
-///
-/// # Errors
-/// As of [`recognise`].
-pub(crate) fn recognise_all(
-    source: &mut Source,
-    say: bool,
-    known: &Known,
-    err: &mut dyn WriteColor,
-) -> Result<(&'static Dialect, Vec<&'static Dialect>), Problem> {
-    let found = ncc_driver::guess::recognise(source, &known.all())?;
-    if say {
-        let reasons = found.reasons.join(", ");
-        let _ = writeln!(err, "{}: read as {}: {reasons}", source.shown, found.dialect.id);
-    }
-    Ok((found.dialect, found.rivals))
 }
 
 fn passes() -> String {

@@ -25,9 +25,10 @@ use sha2::{Digest, Sha256};
 use super::gather::Item;
 use super::orders::Orders;
 use super::summary::{Missing, Result as Came, Row};
-use crate::args::{Eol, Format, Translate};
+use crate::args::Translate;
 use crate::known::Known;
-use crate::{files, run};
+use crate::typed::{Eol, Format};
+use crate::{files, recognised, run};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -150,7 +151,7 @@ impl Bench<'_> {
         }
         let (from, rivals) = match order.named {
             Some(dialect) => (dialect, Vec::new()),
-            None => run::recognise_all(&mut source, say, self.known, &mut done.told)?,
+            None => recognised::recognise_all(&mut source, say, self.known, &mut done.told)?,
         };
         done.row.from = Some(from.id.clone());
         done.row.project = source.project.as_deref().cloned();

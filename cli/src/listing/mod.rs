@@ -25,8 +25,9 @@ use ncc_frontends::Batch;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
 
-use crate::args::{Format, Style, Translate};
+use crate::args::Translate;
 use crate::files::{self, Destination};
+use crate::typed::{Format, Style};
 
 /// What the command line asks for beside a listing that has no meaning there.
 ///

@@ -6,10 +6,9 @@
 //!
 //! Not here: the form of a profile (`ncc_machines`).
 
-mod args;
+pub mod args;
 
 pub use args::Machines;
-
 use std::path::Path;
 use std::sync::Arc;
 
@@ -25,8 +24,8 @@ use ncc_machines::schema::LineEnds;
 use ncc_machines::{Profile, ProfileError, shipped};
 
 use self::args::What;
-use crate::args::Eol;
 use crate::known::Known;
+use crate::typed::Eol;
 use crate::{files, machines};
 
 /// The schema of profiles, as it is documented.

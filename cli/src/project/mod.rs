@@ -11,6 +11,7 @@
 //! machine = "haas-vf2.toml"
 //! ```
 
+pub mod args;
 pub mod config;
 pub mod init;
 mod load;
@@ -18,7 +19,6 @@ mod settle;
 
 pub(crate) use load::{InForce, Projects};
 pub(crate) use settle::{Settled, Sides, Stated, settle};
-
 use std::path::Path;
 use std::sync::Arc;
 

@@ -9,6 +9,7 @@
 //! ncc verify part.nc part.mpf  whether both make the same cut
 //! ```
 
+pub mod args;
 pub mod cert;
 pub mod diff;
 pub(crate) mod side;

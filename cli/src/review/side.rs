@@ -20,15 +20,15 @@ use ncc_driver::source::{Source, called};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
-use crate::args::Start;
 use crate::files::{self, AS_STORED};
 use crate::known::Known;
 use crate::m_codes;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::{self, InForce, Look, Sides, Stated, settle};
-use crate::run::recognise;
+use crate::recognised::recognise;
 use crate::sugar::is_name;
+use crate::typed::Start;
 
 /// What a command says of one side.
 #[derive(Clone, Debug, Default)]

@@ -43,7 +43,7 @@ use crate::known::Known;
 use crate::m_codes;
 use crate::milling::{self, Voice};
 use crate::project::{self, Sides, Stated};
-use crate::run::recognise_all;
+use crate::recognised::recognise_all;
 pub use ncc_driver::time::payload::SCHEMA;
 use ncc_driver::time::summary::Report;
 use ncc_driver::time::summary::Timing;
