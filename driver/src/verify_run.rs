@@ -237,7 +237,7 @@ impl Verifier {
             start: job::start::Start::of(job),
             stood: false,
             own_facts: own_facts(job),
-            given: job.given.clone(),
+            given: job.given_to_runs(),
             fineness: fineness(job),
             near: job.to.caps().flow.computes.is_some_and(|computes| computes.near),
             functions: job

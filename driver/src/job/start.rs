@@ -13,6 +13,7 @@ use ncc_ir::source::Span;
 use ncc_passes::Legaliser;
 
 use super::Job;
+use super::given::Given;
 use crate::render::numbers::signed;
 
 /// What is stated of the start.
@@ -57,6 +58,13 @@ impl Job {
             legaliser.hold_tool(tool);
             writer.hold_tool(tool);
         }
+    }
+
+    /// What variables may be given when the program runs: not the T and H code in force at the start, which are read with
+    /// the text.
+    pub(crate) fn given_to_runs(&self) -> Given {
+        let with_text = [System::SelectedTool, System::LengthEntry].map(|of| self.from.variable_of(&of));
+        with_text.into_iter().flatten().fold(self.given.clone(), |given, name| given.without(&name))
     }
 
     /// The tool in the spindle before the program begins, as far as the user states the T code in force.

@@ -208,11 +208,10 @@ impl Verifier {
         notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
         // A value that tells which code a block has is read with the text.
         let with_text = |name: &str| {
-            let start = [format!("variable {name} at the start"), format!("code at the start (#{name})")];
-            let about = |parameter: &str| start.iter().any(|own| parameter.ends_with(own.as_str()));
-            reported.iter().any(
-                |own| matches!(&own.fault, Fault::AssumedParameter { parameter, .. } if about(parameter)),
-            )
+            let start = format!("variable {name} at the start");
+            reported.iter().any(|own| {
+                matches!(&own.fault, Fault::AssumedParameter { parameter, .. } if **parameter == *start)
+            })
         };
         notes.retain(|note| !matches!(&note.fault, Fault::ValueNotRead { name } if with_text(name)));
         notes.extend(told);

@@ -75,11 +75,14 @@ impl Lower {
         if !self.assume {
             return None;
         }
-        let (name, stated) = self.settings.stated_of(asked)?;
+        let (_, stated) = self.settings.stated_of(asked)?;
         let stated = u32::try_from(stated).ok()?;
         self.tools.at_start.used[which] = Some(stated);
-        let letter = if which == TOOL { self.roles.tool } else { self.roles.length_entry };
-        let parameter = format!("{} code at the start (#{name})", char::from(letter)).into();
+        let parameter = match which {
+            TOOL => format!("{} code of the tool in the spindle at the start", char::from(self.roles.tool)),
+            _ => format!("{} code in force at the start", char::from(self.roles.length_entry)),
+        };
+        let parameter = parameter.into();
         out.report(Fault::AssumedParameter { parameter, value: stated.to_string().into() }, at);
         Some(stated)
     }
@@ -91,9 +94,8 @@ impl Lower {
         let entry = match self.state.length_entry {
             Know::Said(entry) | Know::Taken(entry) => {
                 if self.assume && self.first_time(code.row) {
-                    let without = format!("{} without {letter}", code.row.code).into();
-                    let meaning = format!("the {letter} of a block before").into();
-                    out.report(Fault::AssumedRow { code: without, meaning }, code.span);
+                    let meaning = format!("the last {letter}, in a block without one").into();
+                    out.report(Fault::AssumedRow { code: code_text.clone(), meaning }, code.span);
                 }
                 Some(entry)
             }

@@ -12,7 +12,7 @@ use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_exec::TiltedPlane;
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::caps::{TiltForm, TipForm};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -147,8 +147,7 @@ pub(crate) fn over(
         at += 1;
         walk.enter(stmt.skip);
         let span = stmt.span;
-        let before = walk.at.modes.length_offset;
-        let offset = walk.at.modes.work_offset;
+        let before = walk.at.modes;
         walk.step(&stmt);
         let mut refuse = |what: &str| {
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
@@ -183,9 +182,7 @@ pub(crate) fn over(
                 }
                 if caps.tools.tip == TipForm::WithLength {
                     let behind = said_behind.get(place).copied().unwrap_or_default();
-                    if let Err(what) =
-                        with_length(stmt, on, behind, [before, offset.map(u32::from)], state, made)
-                    {
+                    if let Err(what) = with_length(stmt, on, behind, &before, state, made) {
                         diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
                     }
                     return;
@@ -200,14 +197,15 @@ pub(crate) fn over(
                 if state.tip.is_off() {
                     return made.push(stmt);
                 }
-                if entry.is_some() && entry == before && state.tip.is_on() {
+                if entry.is_some() && entry == before.length_offset && state.tip.is_on() {
                     return made.leave_out(stmt);
                 }
                 refuse("another length where the tool's tip may be under control");
             }
             // The one in force is said again; a control may take no such word there.
             Op::SetOriginOffsets(n) if caps.tools.tip == TipForm::WithLength && !state.tip.is_off() => {
-                match (state.offset.take() == Some(*n) || offset == Some(*n)) && state.tip.is_on() {
+                let said = [state.offset.take(), before.work_offset].contains(&Some(*n));
+                match said && state.tip.is_on() {
                     true => made.leave_out(stmt),
                     false => made.push(stmt),
                 }
@@ -300,7 +298,7 @@ fn with_length(
     stmt: Stmt,
     on: bool,
     behind: Behind,
-    [in_force, offset]: [Option<u32>; 2],
+    before: &Modes,
     state: &mut ToolAxisState,
     made: &mut Rebuild,
 ) -> Result<(), &'static str> {
@@ -309,7 +307,7 @@ fn with_length(
     if stmt.skip.is_some() {
         return Err("control of the tool's tip in a block that can be skipped");
     }
-    if let Some(own) = behind.offset.filter(|own| on && offset != Some(u32::from(*own))) {
+    if let Some(own) = behind.offset.filter(|own| on && before.work_offset != Some(*own)) {
         state.offset = Some(own);
         made.push(Stmt::new(stmt.span, Op::SetOriginOffsets(own)));
     }
@@ -318,7 +316,7 @@ fn with_length(
             state.pair = behind.lengths;
             made.replace(stmt, [(true, op), (true, length(entry))]);
         }
-        (true, None) => match in_force {
+        (true, None) => match before.length_offset {
             Some(entry @ 1..) => {
                 made.replace(stmt, [(true, op), (true, length(entry))]);
             }
@@ -327,7 +325,7 @@ fn with_length(
         (true, Some(0)) => return Err("control of the tool's tip without a length"),
         // The word that ends it takes the length away too.
         (false, Some(_)) => made.replace(stmt, [(true, op), (true, length(0))]),
-        (false, None) => match in_force {
+        (false, None) => match before.length_offset {
             Some(0) => made.replace(stmt, [(true, op), (true, length(0))]),
             Some(entry) => made.replace(stmt, [(true, op), (true, length(0)), (false, length(entry))]),
             None => return Err("the end of control of the tool's tip under a length that is not known"),
