@@ -23,7 +23,6 @@ pub mod project;
 pub mod provenance;
 pub mod review;
 pub mod run;
-mod running;
 pub mod setting;
 pub mod sugar;
 pub mod time;

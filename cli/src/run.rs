@@ -29,8 +29,8 @@ use crate::milling::{self, Assumed, Voice};
 use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
-use crate::running::Running;
 use crate::sugar::{Said, rewrite};
+use crate::time::running::Running;
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
 /// What to say to who names no target.

@@ -11,6 +11,7 @@ use ncc_driver::job::Job;
 use ncc_exec::world::World;
 use ncc_ir::expr::num::ONE;
 use ncc_tests::expect::Failures;
+use ncc_tests::interpreter::Setup;
 use ncc_tests::interpreter::grbl::run_hal;
 use ncc_tests::plain::{self, Corners, Plain, Tolerance};
 use ncc_tests::{besides, corpus, translate};
@@ -138,6 +139,41 @@ fn programs_of_a_grblhal_are_read_as_its_source_has_them() {
         let plain = translate::settings("grbl");
         if translate::read_as(plain, &program.text).is_ok() {
             failures.add(&program.file, "Grbl 1.1 reads it too".to_owned());
+        }
+    }
+    failures.finish();
+}
+
+/// A Sinumerik that leaves the tool's length out in coordinates of the machine (MD 10760 = 1), and one that counts it:
+/// with D1 in the block, with D1 before it, and with another code.
+#[test]
+fn the_length_in_coordinates_of_the_machine() {
+    let mut failures = Failures::default();
+    for block in
+        ["SUPA G0 Z0 D1", "D1\nSUPA G0 X5 Z0", "G0 Z50 D1\nG153 Z0", "G0 Z50 D1\nG53 Z-5", "SUPA G0 Z0 D0"]
+    {
+        let text = format!(
+            "G710 G17 G90 G94 G54\nT1 M6 D0\nS1000 M3\nG0 X10 Y10\n{block}\nG0 X20 Y20\nZ50 D1\nG1 Z-1 F100\nM30\n"
+        );
+        for value in ["counted", "suppressed"] {
+            let mut settings = translate::settings("siemens");
+            settings.choose("machine_length", value).expect("an option of the dialect");
+            let what = format!("{block} {value}");
+            let Some(read) = failures.check(&what, translate::read_as(settings.clone(), text.as_bytes()))
+            else {
+                continue;
+            };
+            for seed in [0, 1, 2] {
+                let world = plain::of_dialect(plain::world(seed), "siemens");
+                let setup = Setup { length_suppressed: value == "suppressed", ..plain::setup(&world, 0) };
+                let start = world.start.map(|n| n as f64 / 1e9);
+                let result = plain::second("siemens", text.as_bytes(), setup).and_then(|machine| {
+                    let expected = plain::of_machine(&machine, start);
+                    let events = translate::execute(&read, &world, 0)?;
+                    plain::compare(&expected, &plain::of_events(&events, start), Tolerance::SAME)
+                });
+                failures.check(&what, result);
+            }
         }
     }
     failures.finish();

@@ -21,7 +21,7 @@ use crate::args::Color;
 use crate::files::{self, Destination};
 use crate::known::Known;
 use crate::review::side::{Asked, open_one};
-use crate::running::Running;
+use crate::time::running::Running;
 use ncc_driver::check::told::Graded;
 use ncc_driver::check::told::Program;
 use ncc_driver::guess::better;

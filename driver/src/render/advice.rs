@@ -369,7 +369,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
         Fault::CannotSay { what } if what.ends_with("that is measured with the tool's length") => {
-            own("cancel the length in this block, and activate it with the next absolute Z")
+            unsupported::machine_length(at.from)
         }
         Fault::CannotSay { what } if what.starts_with("a tool called ") => {
             vec![

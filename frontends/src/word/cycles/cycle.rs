@@ -2,7 +2,7 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Quantity, TAPPING};
+use ncc_dialects::{AskedDwell, Bare, CYCLE_APPROACH, CycleRow, Quantity, TAPPING};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
