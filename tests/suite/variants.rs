@@ -37,6 +37,33 @@ struct Program {
     settings: Settings,
 }
 
+/// The order in which options are chosen makes no difference, and a later choice takes the rows away again: a profile's
+/// options stand in the order of their names, and the command line goes before them.
+#[test]
+fn options_are_chosen_in_any_order() {
+    let all = [
+        ("coolant_at_change", "does-not"),
+        ("controller", "grblhal"),
+        ("tool_change", "m6"),
+        ("tool_table", "yes"),
+        ("z_at_change", "stays"),
+    ];
+    let orders: [Vec<usize>; 3] = [vec![0, 1, 2, 3, 4], vec![4, 3, 2, 1, 0], vec![2, 0, 4, 1, 3]];
+    for order in orders {
+        let mut settings = translate::settings("grbl");
+        for at in &order {
+            settings.choose(all[*at].0, all[*at].1).expect("an option of the dialect");
+        }
+        let says = |settings: &Settings, code: &str| {
+            settings.dialect.code.iter().any(|row| row.code == code && row.means.is_some())
+        };
+        assert!(["G81", "M6", "G43"].into_iter().all(|code| says(&settings, code)), "{order:?}");
+        assert_eq!(settings.get("z_at_change"), "stays", "{order:?}");
+        settings.choose("controller", "grbl").expect("an option of the dialect");
+        assert!(!["G81", "M6", "G43"].into_iter().any(|code| says(&settings, code)), "{order:?}");
+    }
+}
+
 /// Every row of a variant is tried by `ncc dialects test`; every one with a meaning is met by a program.
 #[test]
 fn every_row_of_a_variant_is_met() {
