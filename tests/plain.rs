@@ -185,6 +185,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         codes_at_start: [None; 2],
         waiting_tool: world.behaviours.does(Behaviour::ToolWithChange),
         line_without_centre: false,
+        length_suppressed: false,
         length_moves: world.behaviours.does(Behaviour::LengthWithoutAxis),
         orientation: mm(world.orientation),
         kinematics: Kinematics {

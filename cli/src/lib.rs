@@ -30,7 +30,6 @@ pub mod provenance;
 mod recognised;
 pub mod review;
 pub mod run;
-mod running;
 pub mod setting;
 pub mod sugar;
 pub mod time;

@@ -31,10 +31,9 @@ use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
 use crate::recognised::recognise_all;
-use crate::running::Running;
 use crate::sugar::{Said, rewrite};
-use crate::typed::Assumed;
-use crate::typed::{Color, Eol, Format, Style};
+use crate::time::running::Running;
+use crate::typed::{Assumed, Color, Eol, Format, Style};
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
 /// Runs `ncc` with its arguments, the program's name first.

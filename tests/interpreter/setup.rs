@@ -48,6 +48,8 @@ pub struct Setup {
     pub line_without_centre: bool,
     /// A Fanuc's parameter 5006#6 (TOS) at 0: a length without an axis word moves Z.
     pub length_moves: bool,
+    /// A Sinumerik's machine datum 10760 at 1: G53, G153 and SUPA leave the tool's length out.
+    pub length_suppressed: bool,
     /// Where M19 stops the spindle, degrees.
     pub orientation: f64,
     /// How the machine is built, as far as it shows.
@@ -144,6 +146,7 @@ impl Setup {
             waiting_tool: false,
             line_without_centre: false,
             length_moves: false,
+            length_suppressed: false,
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),

@@ -11,6 +11,7 @@ use ncc_driver::job::Job;
 use ncc_exec::world::World;
 use ncc_ir::expr::num::ONE;
 use ncc_tests::expect::Failures;
+use ncc_tests::interpreter::Setup;
 use ncc_tests::interpreter::grbl::run_hal;
 use ncc_tests::plain::{self, Corners, Plain, Tolerance};
 use ncc_tests::{besides, corpus, translate};
@@ -34,6 +35,33 @@ struct Program {
     file: String,
     text: Vec<u8>,
     settings: Settings,
+}
+
+/// The order in which options are chosen makes no difference, and a later choice takes the rows away again: a profile's
+/// options stand in the order of their names, and the command line goes before them.
+#[test]
+fn options_are_chosen_in_any_order() {
+    let all = [
+        ("coolant_at_change", "does-not"),
+        ("controller", "grblhal"),
+        ("tool_change", "m6"),
+        ("tool_table", "yes"),
+        ("z_at_change", "stays"),
+    ];
+    let orders: [Vec<usize>; 3] = [vec![0, 1, 2, 3, 4], vec![4, 3, 2, 1, 0], vec![2, 0, 4, 1, 3]];
+    for order in orders {
+        let mut settings = translate::settings("grbl");
+        for at in &order {
+            settings.choose(all[*at].0, all[*at].1).expect("an option of the dialect");
+        }
+        let says = |settings: &Settings, code: &str| {
+            settings.dialect.code.iter().any(|row| row.code == code && row.means.is_some())
+        };
+        assert!(["G81", "M6", "G43"].into_iter().all(|code| says(&settings, code)), "{order:?}");
+        assert_eq!(settings.get("z_at_change"), "stays", "{order:?}");
+        settings.choose("controller", "grbl").expect("an option of the dialect");
+        assert!(!["G81", "M6", "G43"].into_iter().any(|code| says(&settings, code)), "{order:?}");
+    }
 }
 
 /// Every row of a variant is tried by `ncc dialects test`; every one with a meaning is met by a program.
@@ -138,6 +166,41 @@ fn programs_of_a_grblhal_are_read_as_its_source_has_them() {
         let plain = translate::settings("grbl");
         if translate::read_as(plain, &program.text).is_ok() {
             failures.add(&program.file, "Grbl 1.1 reads it too".to_owned());
+        }
+    }
+    failures.finish();
+}
+
+/// A Sinumerik that leaves the tool's length out in coordinates of the machine (MD 10760 = 1), and one that counts it:
+/// with D1 in the block, with D1 before it, and with another code.
+#[test]
+fn the_length_in_coordinates_of_the_machine() {
+    let mut failures = Failures::default();
+    for block in
+        ["SUPA G0 Z0 D1", "D1\nSUPA G0 X5 Z0", "G0 Z50 D1\nG153 Z0", "G0 Z50 D1\nG53 Z-5", "SUPA G0 Z0 D0"]
+    {
+        let text = format!(
+            "G710 G17 G90 G94 G54\nT1 M6 D0\nS1000 M3\nG0 X10 Y10\n{block}\nG0 X20 Y20\nZ50 D1\nG1 Z-1 F100\nM30\n"
+        );
+        for value in ["counted", "suppressed"] {
+            let mut settings = translate::settings("siemens");
+            settings.choose("machine_length", value).expect("an option of the dialect");
+            let what = format!("{block} {value}");
+            let Some(read) = failures.check(&what, translate::read_as(settings.clone(), text.as_bytes()))
+            else {
+                continue;
+            };
+            for seed in [0, 1, 2] {
+                let world = plain::of_dialect(plain::world(seed), "siemens");
+                let setup = Setup { length_suppressed: value == "suppressed", ..plain::setup(&world, 0) };
+                let start = world.start.map(|n| n as f64 / 1e9);
+                let result = plain::second("siemens", text.as_bytes(), setup).and_then(|machine| {
+                    let expected = plain::of_machine(&machine, start);
+                    let events = translate::execute(&read, &world, 0)?;
+                    plain::compare(&expected, &plain::of_events(&events, start), Tolerance::SAME)
+                });
+                failures.check(&what, result);
+            }
         }
     }
     failures.finish();

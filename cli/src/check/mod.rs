@@ -24,7 +24,7 @@ use self::args::{Check, Form};
 use crate::files::{self, Destination};
 use crate::known::Known;
 use crate::review::side::{Asked, open_one};
-use crate::running::Running;
+use crate::time::running::Running;
 use crate::typed::Color;
 use ncc_driver::check::told::Graded;
 use ncc_driver::check::told::Program;

@@ -24,7 +24,7 @@ use super::cert;
 use super::side::{Asked, open, operand};
 use crate::files;
 use crate::known::Known;
-use crate::running::Running;
+use crate::time::running::Running;
 use crate::typed::Format;
 pub use ncc_driver::review::verify::document::SCHEMA;
 use ncc_driver::review::verify::document::Word;

@@ -11,6 +11,7 @@
 
 pub mod args;
 mod progress;
+pub(crate) mod running;
 
 use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};

@@ -52,6 +52,7 @@ pub fn test(dialect: &'static Dialect) -> Vec<Row> {
                 "address" => variant.address.iter().any(|own| code == own.letter.to_string()),
                 "code" => variant.code.iter().any(|own| own.code == code),
                 "cycle" => variant.cycle.iter().any(|own| own.code == code),
+                "name" => variant.name.iter().any(|own| own.name == code),
                 "data" => variant.data.iter().any(|own| row.row.starts_with(&own.name)),
                 _ => false,
             }

@@ -1,7 +1,7 @@
 //! What to type where a code is not supported.
 
 use ncc_dialects::{
-    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
+    CodeRow, DWELL_REFUSED, Dialect, MACHINE_LENGTH, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
 };
 
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
@@ -77,6 +77,19 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
         "pocket milling" => own(POCKET),
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),
+    }
+}
+
+/// The ways out of a move in machine coordinates in which the tool's length counts.
+pub(super) fn machine_length(from: &Dialect) -> Vec<String> {
+    let own = from.option.iter().find(|row| row.name == MACHINE_LENGTH);
+    let suppressed = format!(
+        "if the control leaves the length out of such blocks (MD 10760 = 1): `--from-option {MACHINE_LENGTH}=suppressed`"
+    );
+    let cancel = "else cancel the length in this block, and activate it with the next absolute Z: for example `SUPA Z0 D0`";
+    match own {
+        Some(_) => vec![suppressed, cancel.to_owned()],
+        None => vec!["cancel the length in this block, and activate it with the next absolute Z".to_owned()],
     }
 }
 

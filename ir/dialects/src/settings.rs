@@ -109,6 +109,9 @@ pub const STORED_POSITION: &str = "stored_position";
 /// Option of a dictionary: where the second and further reference points are: `zero`, the machine's zero.
 pub const FURTHER_POINT: &str = "further_point";
 
+/// Option of a dictionary: whether the tool's length counts in a block of machine coordinates.
+pub const MACHINE_LENGTH: &str = "machine_length";
+
 /// Option of a dictionary: what cutter radius compensation does where no entry of a radius has been programmed.
 pub const RADIUS_UNSAID: &str = "radius_without_d";
 

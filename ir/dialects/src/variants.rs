@@ -24,6 +24,7 @@ use crate::codes::CodeRow;
 use crate::cycles::{CycleRow, CycleRules};
 use crate::load::renew;
 use crate::merge::same;
+use crate::names::NameRow;
 use crate::schema::{Address, Dialect};
 use crate::stored::DataRow;
 
@@ -54,6 +55,9 @@ pub struct VariantRow {
     /// Tables that a program puts values into.
     #[serde(default)]
     pub data: Vec<DataRow>,
+    /// Words of several letters.
+    #[serde(default)]
+    pub name: Vec<NameRow>,
     /// What codes do besides their names.
     #[serde(default)]
     pub behaviour: Vec<BehaviourRow>,
@@ -98,6 +102,7 @@ impl VariantRow {
         lay(&mut dialect.cycle, &self.cycle, |row| same(&row.code));
         lay(&mut dialect.code, &self.code, |row| same(&row.code));
         lay(&mut dialect.data, &self.data, |row| row.name.clone());
+        lay(&mut dialect.name, &self.name, |row| row.name.clone());
         lay(&mut dialect.behaviour, &self.behaviour, |row| row.name.clone());
         for (option, value) in &self.when {
             dialect.option.iter_mut().filter(|row| row.name == *option).for_each(|row| {

@@ -24,7 +24,7 @@ use self::args::{Diff, Form, Ignore};
 use self::text::Texts;
 use super::side::{Asked, open};
 use crate::known::Known;
-use crate::running::Running;
+use crate::time::running::Running;
 use crate::{files, project};
 pub use ncc_driver::review::diff::json::SCHEMA;
 use ncc_driver::review::diff::motion::Motion;
