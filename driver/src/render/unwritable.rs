@@ -6,6 +6,8 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
+use super::unsupported;
+
 /// The ways out of what cannot be written: `what` names it.
 pub(super) fn help(what: &str, from: &Dialect, to: &Dialect) -> Vec<String> {
     let own = |text: &str| vec![text.to_owned()];
