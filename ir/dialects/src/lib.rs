@@ -23,6 +23,7 @@ mod repeats;
 mod schema;
 mod settings;
 mod stored;
+mod words;
 
 pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
@@ -45,3 +46,4 @@ pub use settings::{
     STRAIGHT_LINE, SettingError, Settings, TAPPING, TOOL_CHANGE,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};
+pub use words::{Address, Bare, NumberRules, PointRule, Quantity, Role};
