@@ -1,6 +1,9 @@
 //! What a word of the `ir` text carries: a number with its unit, which of several functions it names, why it is none.
 
+use ncc_ir::canon::CornerShape;
+use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::{Op, Text, ToolLength};
 
 /// Why a stretch of text is no word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,6 +63,26 @@ pub(crate) enum Valued {
     ChamferCornerByLength,
 }
 
+impl Valued {
+    /// The function of a number.
+    pub(super) fn of(self, value: Expr) -> Op {
+        match self {
+            Valued::SetFeedRate => Op::SetFeedRate(value),
+            Valued::SetSpindleSpeed => Op::SetSpindleSpeed(value),
+            Valued::LimitSpindleSpeed => Op::LimitSpindleSpeed(value),
+            Valued::SelectTool => Op::SelectTool(value),
+            Valued::UseToolLengthOffset => Op::UseToolLengthOffset(value),
+            Valued::UseToolLength => Op::UseToolLength(Box::new(ToolLength::Value(value))),
+            Valued::AddToolLength => Op::UseToolLength(Box::new(ToolLength::Added(value))),
+            Valued::AddToolLengthOffset => Op::UseToolLength(Box::new(ToolLength::AddedEntry(value))),
+            Valued::Dwell => Op::Dwell(value),
+            Valued::RoundCorner => Op::Corner { shape: CornerShape::Round, size: value },
+            Valued::ChamferCorner => Op::Corner { shape: CornerShape::Leg, size: value },
+            Valued::ChamferCornerByLength => Op::Corner { shape: CornerShape::Length, size: value },
+        }
+    }
+}
+
 /// A function with a text as its argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Worded {
@@ -68,4 +91,17 @@ pub(crate) enum Worded {
     Message,
     MachineFunction,
     SelectToolByName,
+}
+
+impl Worded {
+    /// The function of a text.
+    pub(super) fn of(self, text: Text) -> Op {
+        match self {
+            Worded::Comment => Op::Comment(text),
+            Worded::NoEffect => Op::NoEffect(text),
+            Worded::Message => Op::Message(text),
+            Worded::MachineFunction => Op::MachineFunction(text),
+            Worded::SelectToolByName => Op::SelectToolByName(text),
+        }
+    }
 }
