@@ -118,6 +118,7 @@ fn sources() -> String {
         "names.rs",
         "power_on.rs",
         "stored.rs",
+        "words.rs",
     ]
     .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
     .join("\n")
