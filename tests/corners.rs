@@ -15,7 +15,7 @@ impl Corners {
     pub fn between(a: &str, b: &str) -> Corners {
         match [a, b] {
             // Its corners are always rounded, and it has no words for it.
-            pair if pair.contains(&"mach9") || pair.contains(&"grbl") => Corners::Nothing,
+            pair if pair.iter().any(|d| matches!(*d, "mach9" | "grbl" | "grblhal")) => Corners::Nothing,
             pair if pair.iter().any(|d| matches!(*d, "fanuc" | "haas" | "siemens" | "mach3")) => {
                 Corners::StopOrRounded
             }

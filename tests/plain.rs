@@ -182,8 +182,10 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         touched: mm(world.touched()),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         rotary_radius: world.rotary_radius(),
+        codes_at_start: [None; 2],
         waiting_tool: world.behaviours.does(Behaviour::ToolWithChange),
         line_without_centre: false,
+        length_suppressed: false,
         length_moves: world.behaviours.does(Behaviour::LengthWithoutAxis),
         orientation: mm(world.orientation),
         kinematics: Kinematics {
@@ -686,6 +688,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "siemens" => interpreter::siemens::run(text, setup),
         "linuxcnc" => interpreter::linuxcnc::run(text, setup),
         "grbl" => interpreter::grbl::run(text, setup),
+        "grblhal" => interpreter::grbl::run_hal(text, setup),
         "mach3" => interpreter::mach3::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };

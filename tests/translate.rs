@@ -18,11 +18,19 @@ use ncc_ir::program::{Procedure, Program};
 
 use crate::corpus;
 
+/// A Grbl with the options of a grblHAL, as pages and tests call it.
+pub const GRBLHAL: &str = "grblhal";
+
 /// A dialect with the working choice for its options.
 ///
 /// # Panics
 /// There is no such dialect.
 pub fn settings(id: &str) -> Settings {
+    if id == GRBLHAL {
+        let mut settings = settings("grbl");
+        settings.choose("controller", id).expect("an option of the dialect");
+        return settings;
+    }
     Settings::new(builtin(id).unwrap_or_else(|| panic!("no dialect {id}")))
 }
 
@@ -129,7 +137,14 @@ pub fn faults(dialect: &str, text: &[u8]) -> Vec<Fault> {
 /// # Errors
 /// It cannot be executed.
 pub fn execute(program: &Program, world: &World, skip: u16) -> Result<Vec<Event>, String> {
-    let mut exec = Exec::new(world, skip);
+    execute_by(Exec::new(world, skip), program)
+}
+
+/// The same by a control that has something in force already.
+///
+/// # Errors
+/// The program cannot be executed.
+pub fn execute_by(mut exec: Exec, program: &Program) -> Result<Vec<Event>, String> {
     exec.assume(&program.assumed);
     let mut events = Vec::new();
     let mut runner = Runner::new(program);

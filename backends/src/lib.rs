@@ -4,6 +4,10 @@
 //! interprets: what its dialect cannot say has been expanded by passes before, and what still
 //! cannot be said is a diagnostic at the statement's place.
 //!
+//! ```text
+//! STRAIGHT_FEED(X 10.5mm) & SET_FEED_RATE(100mm)    `G1 X10.5 F100.`
+//! ```
+//!
 //! Not here: reading, passes, verification, file access, printing.
 
 pub mod canon;

@@ -168,6 +168,16 @@ impl Writer {
         }
     }
 
+    /// Says which tool is in the spindle before the program begins.
+    pub fn hold_tool(&mut self, tool: u32) {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.hold_tool(tool),
+            Kind::Siemens(writer) => writer.hold_tool(tool),
+            // These name no tool that the program does not.
+            Kind::Canon(_) | Kind::Ir(_) => {}
+        }
+    }
+
     /// Writes further statements of the main procedure. `assumed` are the facts taken for granted
     /// so far.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {

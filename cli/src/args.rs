@@ -5,17 +5,17 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use ncc_backends::Numbering;
-use ncc_driver::job::given::decimal;
-use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::diag::Verdict;
-use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::expr::num::Num;
 use ncc_passes::Pass;
 
-use crate::m_codes::{self, MCode};
-use crate::milling::Assumed;
+use crate::m_codes;
 use crate::setting::{Lines, Standing, Telling};
+use crate::typed::Assumed;
+use crate::typed::MCode;
+use crate::typed::{Color, Format, Style, UnitsArg, numbering, pair};
 
 /// `ncc` and its verbs.
 #[derive(Debug, Parser)]
@@ -120,9 +120,9 @@ pub enum Verb {
     /// Translate a program, and verify the result [short: A to B FILE]
     Translate(Box<Translate>),
     /// Write `ncc.toml`: which machines the programs of a folder are for, with what is to be answered
-    Init(Box<crate::project::init::Init>),
+    Init(Box<crate::project::args::Init>),
     /// Show what `ncc.toml` states of a program, and in which line
-    Config(crate::project::config::Config),
+    Config(crate::project::args::Config),
     /// List the dialects, or show one: its words, options, sources
     Dialects(Dialects),
     /// How long a program takes on a machine, and when everything in it happens
@@ -134,19 +134,19 @@ pub enum Verb {
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
     /// Do two programs make the same cut? As strictly as a translation is verified; certificates
-    Verify(Box<crate::review::verify::Verify>),
+    Verify(Box<crate::review::args::Verify>),
     /// Do two programs make the same cut? If not, what differs?
-    Diff(Box<crate::review::diff::Diff>),
+    Diff(Box<crate::review::diff::args::Diff>),
     /// The same as a driver for git, which calls it with seven arguments
-    GitDiff(crate::review::diff::git::GitDiff),
+    GitDiff(crate::review::diff::args::GitDiff),
     /// Print what a program does, one line an event, for git's own diff
-    GitTextconv(crate::review::textconv::Textconv),
+    GitTextconv(crate::review::args::Textconv),
     /// Where a line of a translated program comes from, by which words, and what is in force there
     Why(crate::provenance::args::Why),
     /// List the machines, show a profile, or test one
-    Machines(crate::machines::Machines),
+    Machines(crate::machines::args::Machines),
     /// List the facts about both machines that a translation depends on, and ask for them
-    Doctor(Box<crate::doctor::Doctor>),
+    Doctor(Box<crate::doctor::args::Doctor>),
     /// List the rewriting passes, in the order in which they are run
     Passes,
     /// Explain a message by its code
@@ -191,7 +191,7 @@ pub struct Translate {
     #[arg(long, value_name = "FILE", help_heading = "What to translate")]
     pub args: Option<PathBuf>,
     /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
-    /// output sets it. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
+    /// output sets it. `#4120=2` and `#4111=2` are the T and H code in force on a Fanuc. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
     /// such a one out [may be repeated]
     #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::given::value, help_heading = "What to translate")]
     pub value: Vec<(String, Option<Num>)>,
@@ -366,67 +366,6 @@ pub struct Completions {
     pub shell: clap_complete::Shell,
 }
 
-/// How canon is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Style {
-    /// As a program that can be read again
-    Plain,
-    /// As LinuxCNC's stand-alone interpreter prints calls
-    Rs274,
-}
-
-/// Line ends of the output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Eol {
-    /// Those of the source's first line
-    Keep,
-    /// LF
-    Lf,
-    /// CR LF
-    Crlf,
-}
-
-/// The unit of lengths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum UnitsArg {
-    /// Millimetres
-    Mm,
-    /// Inches
-    Inch,
-}
-
-impl From<UnitsArg> for Units {
-    fn from(units: UnitsArg) -> Units {
-        match units {
-            UnitsArg::Mm => Units::Mm,
-            UnitsArg::Inch => Units::Inch,
-        }
-    }
-}
-
-/// Form of the messages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// For people
-    Human,
-    /// One JSON object a line
-    Json,
-}
-
-/// Colour of the messages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Color {
-    /// If somebody can see it
-    Auto,
-    /// Yes
-    Always,
-    /// No
-    Never,
-}
-
-/// Where the axes stand before the first block.
-pub type Start = [Option<Nanos>; AXES];
-
 fn pass(name: &str) -> Result<&'static Pass, String> {
     ncc_driver::translate::rewrite::pass(name)
         .ok_or_else(|| "there is no such pass; `ncc passes` lists them".to_owned())
@@ -437,65 +376,9 @@ fn verdicts() -> impl TypedValueParser<Value = Verdict> {
         .map(|name| Verdict::ALL.into_iter().find(|v| v.name() == name).unwrap_or(Verdict::Exact))
 }
 
-pub(crate) fn pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
-            Ok((name.to_owned(), value.to_owned()))
-        }
-        Some(_) | None => Err("write it as NAME=VALUE".to_owned()),
-    }
-}
-
-pub(crate) fn numbering(text: &str) -> Result<Numbering, String> {
-    match text {
-        "off" => return Ok(Numbering::Off),
-        "keep" => return Ok(Numbering::Keep),
-        _ => {}
-    }
-    let every = text.split_once(':').and_then(|(first, step)| {
-        let (first, step) = (first.parse().ok()?, step.parse().ok()?);
-        (step > 0 && first < 100_000_000 && step < 100_000_000).then_some(Numbering::Every { first, step })
-    });
-    every.ok_or_else(|| "write `off`, `keep`, or the first number and the step, such as 10:10".to_owned())
-}
-
-pub(crate) fn start(text: &str) -> Result<Start, String> {
-    let mut start = [None; AXES];
-    for word in text.split(',').map(str::trim) {
-        let mut chars = word.chars();
-        let axis = chars.next().map(|c| c.to_ascii_uppercase());
-        let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
-        let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
-        let value = decimal(chars.as_str()).ok_or_else(|| {
-            format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
-        })?;
-        if start[axis as usize].replace(value).is_some() {
-            return Err(format!("{} stands twice", axis.letter() as char));
-        }
-    }
-    Ok(start)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_stated_start_is_exact() {
-        let s = start("X-9,Y15.588,z+3").unwrap();
-        assert_eq!(s[..3], [Some(-9_000_000_000), Some(15_588_000_000), Some(3_000_000_000)]);
-        for wrong in ["", "X", "X.", "Q1", "X1,X2", "X1e3", "X1.2.3", "X99999999999", "X0.1234567890"] {
-            assert!(start(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn numbering_forms() {
-        assert_eq!(numbering("10:5"), Ok(Numbering::Every { first: 10, step: 5 }));
-        for wrong in ["", "10", "10:0", ":", "a:b", "-1:1", "OFF"] {
-            assert!(numbering(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn clap_agrees_with_itself() {

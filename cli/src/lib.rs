@@ -2,6 +2,12 @@
 //!
 //! `run` goes from the arguments to the exit code. `order` and `review::side` make a job of options, profile and project
 //! file; a verb's module does it and prints what came of it. Only this crate reads files and prints.
+//!
+//! ```text
+//! ncc mach9 to fanuc part.cn    args → order (a job) → driver → render
+//! ```
+//!
+//! Not here: the compiler, and the words of its messages.
 
 pub mod args;
 pub mod batch;
@@ -21,8 +27,10 @@ pub mod plot;
 mod print_after;
 pub mod project;
 pub mod provenance;
+mod recognised;
 pub mod review;
 pub mod run;
 pub mod setting;
 pub mod sugar;
 pub mod time;
+pub mod typed;

@@ -3,55 +3,13 @@
 //!
 //! Not here: those that a machine's profile names (`ncc_machines`).
 
-use std::fmt;
-
 use ncc_dialects::{Dialect, Meaning, Settings};
 use ncc_driver::problem::Problem;
 use ncc_driver::render::advice::may_be_stated;
 use ncc_machines::reading::Side;
 
 use crate::known::Known;
-
-/// An M code of the source and what becomes of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MCode {
-    /// Its number.
-    pub number: u16,
-    /// What is written for it; `None` leaves it out.
-    pub written: Option<u16>,
-}
-
-impl MCode {
-    /// What the command line says: `M31=drop`, `M50=carry`, `M50=M88`.
-    ///
-    /// # Errors
-    /// It is none of these forms.
-    pub fn read(text: &str) -> Result<MCode, String> {
-        let number = |code: &str| {
-            let digits = code.strip_prefix(['M', 'm'])?;
-            (digits.len() <= 4).then(|| digits.parse::<u16>().ok()).flatten()
-        };
-        let (code, fate) = text.split_once('=').unwrap_or((text, ""));
-        let own = number(code);
-        let written = match fate {
-            "drop" => Some(None),
-            "carry" => own.map(Some),
-            other => number(other).map(Some),
-        };
-        let form = || "write it as M31=drop, M31=carry or M31=M88".to_owned();
-        Ok(MCode { number: own.ok_or_else(form)?, written: written.ok_or_else(form)? })
-    }
-}
-
-impl fmt::Display for MCode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.written {
-            None => write!(f, "--m-code M{}=drop", self.number),
-            Some(written) if written == self.number => write!(f, "--m-code M{}=carry", self.number),
-            Some(written) => write!(f, "--m-code M{}=M{written}", self.number),
-        }
-    }
-}
+use crate::typed::MCode;
 
 /// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`; or a
 /// code that calls one, `M165=drop`.
@@ -98,7 +56,7 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
     for (code, number) in &numbers {
         at_odds(code, *number, side, source)?;
     }
-    settings.dialect = known.derived(source, side, |dialect| {
+    let put = |dialect: &mut Dialect| {
         dialect.program.calls_left_out = calls.to_vec();
         // The command line goes before the machine's profile.
         dialect.program.variables_elsewhere.splice(0..0, variables.iter().cloned());
@@ -116,7 +74,8 @@ pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Resul
                 row.read_as = read_as.map(|written| format!("M{written:02}"));
             }
         }
-    });
+    };
+    settings.change(|plain| known.derived(plain, side, put));
     Ok(())
 }
 

@@ -6,7 +6,6 @@
 use std::io;
 use std::path::Path;
 
-use clap::ValueEnum;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::source::Source;
@@ -14,13 +13,6 @@ use ncc_driver::source::not_milling::{self, Refusal, note};
 
 use crate::files;
 use crate::known::Known;
-
-/// Assumptions that `--assume` states.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Assumed {
-    /// Every program is for a mill, whatever it looks like
-    Milling,
-}
 
 /// The form in which a refusal is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,6 +12,7 @@ use ncc_dialects::{Dialect, Settings};
 use ncc_driver::job::Job;
 use ncc_driver::job::given::{self, Given};
 use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::start;
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::Problem;
 use ncc_driver::provenance::annotate;
@@ -19,11 +20,12 @@ use ncc_driver::questions::Policy;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
-use crate::args::{Eol, Translate};
+use crate::args::Translate;
 use crate::known::Known;
 use crate::machines::agreed;
 use crate::project::{InForce, Settled, Sides, Stated, settle};
-use crate::run::INTO_WHAT;
+use crate::recognised::INTO_WHAT;
+use crate::typed::Eol;
 use crate::{files, m_codes};
 
 /// What all programs of a command have in common.
@@ -160,8 +162,9 @@ impl Order {
             source_name: source_name.to_owned(),
             called: None,
             project: self.settled.as_ref().map(|settled| Arc::clone(&settled.used)),
-            assumed: Vec::new(),
+            assumed: start::assumed(&args.standing.start.unwrap_or_default()),
             numbered_tools: Vec::new(),
+            further_edges: Vec::new(),
             rivals: Vec::new(),
             questions: if self.known.assumes() { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),

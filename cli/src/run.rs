@@ -16,25 +16,25 @@ use ncc_driver::provenance::trace::Asked;
 use ncc_driver::questions::of_translation;
 use ncc_driver::render::human::Loudness;
 use ncc_driver::render::terminal::Shown;
-use ncc_driver::render::{About, dialects, explain, json, questions, report};
+use ncc_driver::render::{About, dialects, explain, json, line, questions, report};
 use ncc_driver::source::not_milling::Refusal;
 use ncc_driver::source::{Source, called};
 use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
 
-use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
+use crate::args::{Cli, DialectsWhat, Translate, Verb};
 use crate::files::{self, Destination, arrow};
 use crate::known::{self, Known};
-use crate::milling::{self, Assumed, Voice};
+use crate::milling::{self, Voice};
 use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
+use crate::recognised::recognise_all;
 use crate::sugar::{Said, rewrite};
+use crate::time::running::Running;
+use crate::typed::{Assumed, Color, Eol, Format, Style};
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
-
-/// What to say to who names no target.
-pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --machine-to MACHINE";
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -240,7 +240,7 @@ fn translated(
     job.rivals = rivals;
     called::gather(&mut source, &job.from, known.folders(), &files::Disk)?;
     job.called.clone_from(&source.called);
-    job.assumed.clone_from(&source.assumed);
+    job.assumed.extend_from_slice(&source.assumed);
     tools_by_name::number(&mut job, &mut source.file)
         .map_err(|e| Problem::file("read", &source.shown, &e))?;
     source.rewind()?;
@@ -250,14 +250,14 @@ fn translated(
     }
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let asked = Asked { map: args.map.is_some(), annotate: args.annotate };
-    let watch = args.print_after.clone().map(print_after);
+    let watch = (args.print_after.clone().map(print_after), Running::shown(&source.name, say));
     let (mut outcome, record) = translate::translate_recording(&job, asked, &mut source.file)
         .map_err(|e| cannot_read(&e, &source))?;
     drop(watch);
     if let Destination::File(folder) = &destination
         && folder.is_dir()
     {
-        let name = job.machines.output_name(job.to.dialect, &source.name, &outcome);
+        let name = outcome.file_name(&job.machines, job.to.dialect, &source.name);
         let name = folder.join(name);
         source.guard(Some(&name))?;
         destination = Destination::File(name);
@@ -290,7 +290,7 @@ fn translated(
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.telling.quiet) {
         let _ = say_where(to, &job, &source.shown, args.format, err);
     }
-    Ok(Exit::of(outcome.release))
+    Ok(outcome.exit())
 }
 
 /// Where the output goes: the file of `-o`, or standard output, which the shell may send to a file.
@@ -319,7 +319,7 @@ fn not_milling(
         files::to_file(name, &mut |out| report::refused(out, (named, &order.to), source, refusal))?;
     }
     if voice == Voice::Json {
-        json::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
+        line::line(&mut ncc_driver::problem::as_write(err), &refusal.asked())
             .map_err(|e| Problem::file("write", "messages", &e))?;
         refusal.line(err)?;
     }
@@ -364,11 +364,11 @@ pub(crate) fn tell(
         Format::Json => {
             let mut out = ncc_driver::problem::as_write(err);
             for asked in questions::ask(about, &of_translation(about.job, outcome))? {
-                json::line(&mut out, &asked)?;
+                line::line(&mut out, &asked)?;
             }
             json::print(&mut out, about, &outcome.diagnostics, loudness)?;
             if loudness != Loudness::Quiet {
-                json::line(&mut out, &report::Summary::of(about.job, outcome))?;
+                line::line(&mut out, &report::Summary::of(about.job, outcome))?;
             }
         }
         Format::Human => ncc_driver::render::tell(err, about, outcome, loudness)?,
@@ -406,37 +406,6 @@ fn say_where(to: &Dialect, job: &Job, shown: &str, format: Format, err: &mut dyn
         "The program is in the file `{to}` of this folder: the shell took `> {to}` for a redirection.\n\
          To choose a name: ncc {from} to {to} {shown} -o NAME, or now: mv {to} NAME"
     )
-}
-
-/// The dialect of a source, recognised; with `say`, tells by what.
-///
-/// # Errors
-/// It cannot be told for certain, or the source cannot be read.
-pub(crate) fn recognise(
-    source: &mut Source,
-    say: bool,
-    known: &Known,
-    err: &mut dyn WriteColor,
-) -> Result<&'static Dialect, Problem> {
-    recognise_all(source, say, known, err).map(|(dialect, _)| dialect)
-}
-
-/// The same, and the dialects that explain the source as well.
-///
-/// # Errors
-/// As of [`recognise`].
-pub(crate) fn recognise_all(
-    source: &mut Source,
-    say: bool,
-    known: &Known,
-    err: &mut dyn WriteColor,
-) -> Result<(&'static Dialect, Vec<&'static Dialect>), Problem> {
-    let found = ncc_driver::guess::recognise(source, &known.all())?;
-    if say {
-        let reasons = found.reasons.join(", ");
-        let _ = writeln!(err, "{}: read as {}: {reasons}", source.shown, found.dialect.id);
-    }
-    Ok((found.dialect, found.rivals))
 }
 
 fn passes() -> String {

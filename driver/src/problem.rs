@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use serde::Serialize;
 
-use crate::job::Failure;
-use crate::source::halted::Interrupted;
+use crate::render::line;
+use crate::source::interrupted::Interrupted;
 use crate::source::spool::Lacking;
 
 /// Exit codes, as the help names them.
@@ -29,15 +29,6 @@ pub enum Exit {
 }
 
 impl Exit {
-    /// That of a translation, by whether its output may be used.
-    pub fn of(release: Result<(), Failure>) -> Exit {
-        match release {
-            Ok(()) => Exit::Done,
-            Err(Failure::Refused) => Exit::Refused,
-            Err(Failure::VerificationFailed) => Exit::VerificationFailed,
-        }
-    }
-
     /// That of two files of one command: the higher one.
     pub fn and(self, other: Exit) -> Exit {
         if other as u8 > self as u8 { other } else { self }
@@ -100,7 +91,7 @@ impl Problem {
         }
         if json {
             let line = Line { severity: "error", message: &self.message, advice: &self.help };
-            return crate::render::json::line(&mut as_write(out), &line);
+            return line::line(&mut as_write(out), &line);
         }
         out.set_color(ColorSpec::new().set_fg(Some(Color::Red)).set_bold(true).set_intense(true))?;
         write!(out, "error")?;

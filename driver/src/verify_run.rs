@@ -1,5 +1,12 @@
 //! Verification of a translation as it streams by: source and emitted text are executed in the same
 //! worlds and under the same block-skip settings, and their events compared.
+//!
+//! ```text
+//! source: G0 X10 | output: G0 X10    the same event in each world
+//! source: G55    | output: G54       an event elsewhere: nothing is released
+//! ```
+//!
+//! Not here: what an event is, and when two are the same (`ncc_exec::verify`).
 
 pub mod controls;
 pub mod facts;
@@ -14,10 +21,10 @@ use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Quantity};
 use ncc_exec::verify::{self, Comparison, Difference, Pair};
 use ncc_exec::{Event, Exec};
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::expr::Function;
-use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
@@ -27,9 +34,9 @@ use self::facts::{Other, closed_by_rounding, done_by_target, looked_at};
 use self::twice::Outliving;
 use self::with_facts::MOST_WITH_FACT;
 use crate::job::given::Given;
-use crate::job::{Job, Verified};
+use crate::job::parameters::{bore_shift, orientation, parameter};
+use crate::job::{self, Job, Verified};
 use crate::translate::difference;
-use crate::translate::{bore_shift, orientation, parameter};
 
 pub use self::facts::stops_differ;
 pub use self::worlds::worlds_of;
@@ -102,7 +109,7 @@ pub struct Verifier {
     watched: bool,
     /// The target knows one level only: the source's are on or off together.
     one_level: bool,
-    start: [Option<Nanos>; AXES],
+    start: job::start::Start,
     stood: bool,
     /// What the target's control always begins with, and the source's does not.
     own_facts: Modes,
@@ -227,10 +234,10 @@ impl Verifier {
             renamed: !renaming.is_empty(),
             watched: false,
             one_level: job.to.dialect.caps.flow.skip_levels <= 1,
-            start: job.start,
+            start: job::start::Start::of(job),
             stood: false,
             own_facts: own_facts(job),
-            given: job.given.clone(),
+            given: job.given_to_runs(),
             fineness: fineness(job),
             near: job.to.caps().flow.computes.is_some_and(|computes| computes.near),
             functions: job
@@ -491,7 +498,7 @@ impl Verifier {
         for run in self.runs.iter_mut().chain(&mut self.others) {
             run.source.assume(assumed);
             if !self.stood {
-                run.source.stand_at(&self.start);
+                self.start.put([&mut run.source, &mut run.target]);
                 run.target.be_at(run.source.machine());
                 run.comparison.start_at(run.source.machine());
             }

@@ -250,7 +250,7 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     if outcome.release.is_ok() {
         outputs.insert(0, ("output", outcome.output.to_vec().map_err(cannot)?));
     }
-    Ok((Exit::of(outcome.release), outputs))
+    Ok((outcome.exit(), outputs))
 }
 
 /// A program that is executed.

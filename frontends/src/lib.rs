@@ -3,6 +3,10 @@
 //! Reading never fails: it gives statements and diagnostics, and goes on at the next block. Text
 //! comes in pieces of whole lines, so that memory does not grow with the program.
 //!
+//! ```text
+//! `G1 X10.5 F100.`    STRAIGHT_FEED(X 10.5mm) & SET_FEED_RATE(100mm), and where they stand in the text
+//! ```
+//!
 //! Not here: file access, formatting, printing, anything of back-ends.
 
 mod begins;

@@ -385,6 +385,9 @@ faults! {
     MessageDropped = 411, verdict(Verdict::Dropped);
     /// A tool that the source calls by name, and the number that it got, in the order of use.
     ToolNumbered { name: Box<str>, number: u32 } = 342, verdict(Verdict::Assumed);
+    /// An edge of a tool other than the first, by the target's number of the tool, and the entry of the length table that
+    /// it got.
+    EdgeNumbered { tool: u32, edge: u32, entry: u32 } = 346, verdict(Verdict::Assumed);
     /// A code of the machine that has no effect on the cut, as its user has stated.
     CodeLeftOut { code: Box<str> } = 444, verdict(Verdict::Reformatted);
     /// A message that is shown while the program goes on, which the target cannot do: it is a comment there.

@@ -34,20 +34,33 @@ impl Rank {
     }
 }
 
+/// The rank of a mode that is taken for granted at the start.
+const fn of_mode(mode: ModeName) -> Rank {
+    match mode {
+        ModeName::Units => Rank::Dangerous,
+        ModeName::Motion
+        | ModeName::Distance
+        | ModeName::Plane
+        | ModeName::FeedMode
+        | ModeName::ReturnLevel
+        | ModeName::WorkOffset
+        | ModeName::LengthOffset
+        | ModeName::OriginShift => Rank::Usual,
+    }
+}
+
 impl Fault {
     /// Its rank; `None` of an error, which refuses the program.
     pub const fn rank(&self) -> Option<Rank> {
         Some(match self {
             // What two readings may cut in two ways: `questions` decides.
-            Fault::AssumedMode { fact: ModeName::Units, .. }
-            | Fault::AssumedBareNumber { .. }
+            Fault::AssumedBareNumber { .. }
             | Fault::AssumedControl { .. }
             | Fault::AssumedToolChange { .. }
             | Fault::AssumedReturn { .. }
             | Fault::AssumedCycle { .. } => Rank::Dangerous,
 
-            // Facts of the machine, of its tables or of its builder. A fact that a run with another value has shown to
-            // matter (a fork of the verification) belongs here.
+            // Facts of the machine, its tables or its builder, and those that a fork of the verification shows to matter.
             Fault::AssumedEdge { .. }
             | Fault::AssumedRadius { .. }
             | Fault::AssumedOffsetWithZ
@@ -93,21 +106,11 @@ impl Fault {
             | Fault::ArgumentNeeded { .. }
             | Fault::CodeLeftOut { .. }
             | Fault::ToolNumbered { .. }
+            | Fault::EdgeNumbered { .. }
             | Fault::CutStanding => Rank::Check,
 
-            Fault::AssumedMode {
-                fact:
-                    ModeName::Motion
-                    | ModeName::Distance
-                    | ModeName::Plane
-                    | ModeName::FeedMode
-                    | ModeName::ReturnLevel
-                    | ModeName::WorkOffset
-                    | ModeName::LengthOffset
-                    | ModeName::OriginShift,
-                ..
-            }
-            | Fault::AssumedOption { .. }
+            Fault::AssumedMode { fact, .. } => of_mode(*fact),
+            Fault::AssumedOption { .. }
             | Fault::AssumedParameter { .. }
             | Fault::AssumedHoleOrder { .. } => Rank::Usual,
 

@@ -27,6 +27,7 @@ pub(crate) fn check(schema: &Schema, dialect: &'static Dialect) -> Vec<ProfileEr
     numbers(schema, &mut found);
     axes(schema, &mut found);
     tables(schema, dialect, &mut found);
+    edges(schema, dialect, &mut found);
     programs(schema, dialect, &mut found);
     codes(schema, dialect, &mut found);
     emit(&schema.emit, dialect, &mut found);
@@ -237,6 +238,47 @@ fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             None => found.add(Wrong::Missing { key: "number", why: "which work offset is it?" }, row.span()),
             Some(0) => found.takes::<WorkOffsetRow>("number", span),
             Some(n) => found.once(&mut offsets, n.to_string(), format!("work offset {n}"), span),
+        }
+    }
+}
+
+/// Edges of tools other than the first: each has an entry that is nobody else's.
+fn edges(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
+    use crate::schema::EdgeRow;
+    let mut seen = BTreeMap::new();
+    let tools = schema.tool.iter().map(toml::Spanned::get_ref);
+    let entries: Vec<u32> = tools.filter_map(|tool| tool.length_entry.value.or(tool.number.value)).collect();
+    for row in &schema.edge {
+        let edge = row.get_ref();
+        if dialect.letter_for(Role::ToolEdge).is_some() {
+            let lacks = "length table: its tools have edges";
+            found.add(Wrong::NoForm { key: "length_entry", lacks }, row.span());
+            continue;
+        }
+        let (Some(tool), Some(number), Some(entry)) =
+            (edge.tool.value, edge.edge.value, edge.length_entry.value)
+        else {
+            if ![&edge.tool, &edge.edge, &edge.length_entry].into_iter().any(asked) {
+                let why = "an edge has `tool`, `edge` and `length_entry`";
+                found.add(Wrong::Missing { key: "length_entry", why }, row.span());
+            }
+            continue;
+        };
+        if tool == 0 {
+            found.takes::<EdgeRow>("tool", edge.tool.span.clone());
+        }
+        if !(2..=9).contains(&number) {
+            found.takes::<EdgeRow>("edge", edge.edge.span.clone());
+        }
+        if entry == 0 {
+            found.takes::<EdgeRow>("length_entry", edge.length_entry.span.clone());
+        }
+        let what = format!("edge {number} of tool {tool}");
+        found.once(&mut seen, format!("{tool}.{number}"), what, edge.edge.span.clone());
+        let what = format!("length entry {entry}");
+        match entries.contains(&entry) {
+            true => found.add(Wrong::Twice { what }, edge.length_entry.span.clone()),
+            false => found.once(&mut seen, entry.to_string(), what, edge.length_entry.span.clone()),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The schema in words, from the types.
 
 use crate::schema::{
-    AxisRow, Emit, MCodeRow, PowerOn, ProgramRow, Rates, Spindle, Times, ToolRow, ValueRow, WorkOffsetRow,
+    AxisRow, EdgeRow, Emit, MCodeRow, PowerOn, ProgramRow, Rates, Spindle, Times, ToolRow, ValueRow,
+    WorkOffsetRow,
 };
 use crate::table::Table;
 
@@ -14,6 +15,7 @@ pub fn tables() -> String {
         table::<Spindle>(),
         table::<AxisRow>(),
         table::<ToolRow>(),
+        table::<EdgeRow>(),
         table::<WorkOffsetRow>(),
         table::<ProgramRow>(),
         table::<MCodeRow>(),

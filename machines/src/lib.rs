@@ -5,6 +5,13 @@
 //! not stated is asked for or told as assumed, never filled in. A profile is checked as a whole, and
 //! what is wrong with it is told with its place.
 //!
+//! ```text
+//! [power_on]            what is in force when the control starts
+//! units = "mm"
+//! [[tool]]              a row of its tool table
+//! number = 3
+//! ```
+//!
 //! Not here: reading files, printing, and what a translation or a timeline does with the facts.
 
 mod check;

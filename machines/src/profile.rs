@@ -91,6 +91,7 @@ impl Profile {
             spindle: Default::default(),
             axis: Vec::new(),
             tool: Vec::new(),
+            edge: Vec::new(),
             work_offset: Vec::new(),
             program: Vec::new(),
             m_code: Vec::new(),
@@ -116,6 +117,14 @@ impl Profile {
         self.schema.value.iter().filter_map(|row| {
             let row = row.get_ref();
             Some((row.name.value.as_deref()?, row.holds.get()?))
+        })
+    }
+
+    /// Edges of tools other than the first: tool, edge, and entry of the length table.
+    pub fn edges(&self) -> impl Iterator<Item = (u32, u32, u32)> {
+        self.schema.edge.iter().filter_map(|row| {
+            let row = row.get_ref();
+            Some((row.tool.get()?, row.edge.get()?, row.length_entry.get()?))
         })
     }
 
@@ -200,6 +209,7 @@ impl Profile {
         let mut rows = vec![row(&s.power_on), row(&s.rates), row(&s.times), row(&s.spindle)];
         rows.extend(s.axis.iter().map(|a| row(a.get_ref())));
         rows.extend(s.tool.iter().map(|t| row(t.get_ref())));
+        rows.extend(s.edge.iter().map(|e| row(e.get_ref())));
         rows.extend(s.work_offset.iter().map(|w| row(w.get_ref())));
         rows.extend(s.program.iter().map(|p| row(p.get_ref())));
         rows.extend(s.m_code.iter().map(|m| row(m.get_ref())));

@@ -59,6 +59,9 @@ pub struct Schema {
     /// Tools.
     #[serde(default)]
     pub tool: Vec<Spanned<ToolRow>>,
+    /// Edges of tools other than the first.
+    #[serde(default)]
+    pub edge: Vec<Spanned<EdgeRow>>,
     /// Work offsets.
     #[serde(default)]
     pub work_offset: Vec<Spanned<WorkOffsetRow>>,
@@ -298,6 +301,19 @@ table! {
         diameter: f64 = "a number from 0";
         /// Its place in the magazine.
         pocket: u32 = "a whole number";
+    }
+}
+
+table! {
+    /// An edge of a tool other than the first, of a program for a control whose tools have edges: which entry of this
+    /// machine's length table has its length and its radius. Without a row it gets a free one, which is told.
+    EdgeRow "[[edge]]" {
+        /// The tool's number on this machine.
+        tool: u32 = "a whole number above 0";
+        /// Its edge on the other machine.
+        edge: u32 = "a whole number from 2 to 9";
+        /// The entry.
+        length_entry: u32 = "a whole number above 0";
     }
 }
 

@@ -47,6 +47,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         rigid: false,
         polar: None,
         radius: None,
+        entry: setup.codes_at_start[1],
         lead: None,
         variables: Variables::found(haas, &setup.left),
         m: Machine::new(setup),
@@ -59,6 +60,8 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         placed: true,
     };
     let rotary = if haas { Rotary::Diameter } else { Rotary::Degrees };
+    let [tool, _] = control.m.setup.codes_at_start;
+    (control.m.tool, control.m.selected) = (tool, tool);
     control.m.feeds = Feeds { rotary, arcs_by_radius: !haas, ..Feeds::default() };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
     if !control.program(main, &programs)? {
@@ -98,6 +101,8 @@ struct Control {
     polar: Option<Option<(f64, f64)>>,
     /// The D that was said last.
     radius: Option<u32>,
+    /// The H that was said last, whether its length counts or not (custom macro: #4111 is modal).
+    entry: Option<u32>,
     /// Of G33.
     lead: Option<f64>,
     /// Of the macro language.
@@ -352,12 +357,7 @@ impl Control {
             self.m.use_tip(code == 434)?;
         }
         let old = self.standing_length();
-        match (length, number(&words, 'H')) {
-            (Some(43 | 434), Some((entry, _))) => self.m.use_length(entry as u32),
-            (Some(49), None) => self.m.use_length(0),
-            (None, None) => {}
-            _ => return self.m.halt("G43 and H"),
-        }
+        self.length_code(length, number(&words, 'H').map(|(entry, _)| entry as u32))?;
         self.bare_length(length, machine, &words, old)?;
         if let Some((entry, _)) = number(&words, 'D') {
             if self.m.beside.is_some() && self.radius != Some(entry as u32) {

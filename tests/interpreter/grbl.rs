@@ -1,6 +1,7 @@
 //! Programs of Grbl 1.1, from the reference notes on its source: which code is in which group, the order of a block, and
 //! what it refuses. A change of tools by hand is a block of its own, as the notes have it for a writer.
 
+use super::grblhal::{self, Series};
 use super::{Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 
 /// Runs a text.
@@ -8,7 +9,19 @@ use super::{Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 /// # Errors
 /// The program is wrong, out of scope, or says something that the notes leave open.
 pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
-    let mut control = Control { m: Machine::new(setup), motion: Some(0) };
+    run_as(text, setup, None)
+}
+
+/// Runs a text as a grblHAL does, one with M6 and a table of tools.
+///
+/// # Errors
+/// As of [`run`].
+pub fn run_hal(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    run_as(text, setup, Some(Series::default()))
+}
+
+fn run_as(text: &[u8], setup: Setup, hal: Option<Series>) -> Result<Machine, Halt> {
+    let mut control = Control { m: Machine::new(setup), motion: Some(0), hal };
     let mut ended = false;
     for (index, line) in characters(text).lines().enumerate() {
         control.m.line = index + 1;
@@ -22,14 +35,16 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     Ok(control.m)
 }
 
-struct Control {
-    m: Machine,
+pub(super) struct Control {
+    pub(super) m: Machine,
     /// Motion in force, in tenths; none after G80.
-    motion: Option<u32>,
+    pub(super) motion: Option<u32>,
+    /// Of a grblHAL, what its cycles keep.
+    pub(super) hal: Option<Series>,
 }
 
 /// Modal groups (table 1.1 of the notes); a block has one code of each.
-const GROUPS: [&[u32]; 11] = [
+const GROUPS: [&[u32]; 12] = [
     &[40, 100, 280, 281, 300, 301, 530, 920, 921],
     &[0, 10, 20, 30, 382, 383, 384, 385, 800],
     &[170, 180, 190],
@@ -41,14 +56,15 @@ const GROUPS: [&[u32]; 11] = [
     &[431, 490],
     &[540, 550, 560, 570, 580, 590],
     &[610],
+    &[],
 ];
 const M_GROUPS: [&[u32]; 3] = [&[0, 10, 20, 300], &[30, 40, 50], &[70, 80, 90]];
 
 /// Letters and numbers of a line, without remarks and blanks.
-struct Words(Vec<(char, f64)>);
+pub(super) struct Words(Vec<(char, f64)>);
 
 impl Words {
-    fn get(&self, letter: char) -> Option<f64> {
+    pub(super) fn get(&self, letter: char) -> Option<f64> {
         self.0.iter().find(|word| word.0 == letter).map(|word| word.1)
     }
 
@@ -61,6 +77,8 @@ impl Control {
     fn words(&self, line: &str) -> Result<Words, Halt> {
         let mut bare = String::new();
         let mut remark = false;
+        // A grblHAL drops the mark where the switch is off.
+        let line = if self.hal.is_some() { line.trim_start().trim_start_matches('/') } else { line };
         for c in line.chars() {
             match c {
                 ';' if !remark => break,
@@ -70,13 +88,13 @@ impl Control {
                 _ => bare.push(c.to_ascii_uppercase()),
             }
         }
-        if bare.len() > 79 {
-            return self.m.halt("error 11: a line of more than 79 characters");
+        if self.hal.is_none() && bare.len() > 79 || line.len() > 256 {
+            return self.m.halt("error 11: a line of more than 79 characters, of a grblHAL 256");
         }
         let mut words: Vec<(char, f64)> = Vec::new();
         let mut rest = &bare[..];
         while let Some(letter) = rest.chars().next() {
-            if !"FGIJKLMNPRSTXYZ".contains(letter) {
+            if !"FGIJKLMNPRSTXYZ".contains(letter) && (self.hal.is_none() || !"HQ".contains(letter)) {
                 return self.m.halt(format!("{letter} is no word"));
             }
             rest = &rest[1..];
@@ -92,14 +110,19 @@ impl Control {
     }
 
     fn block(&mut self, line: &str) -> Result<bool, Halt> {
+        if self.hal.is_some() && line.trim_start().starts_with('/') && self.m.setup.skip[1] {
+            return Ok(false);
+        }
         let words = self.words(line)?;
         if words.0.is_empty() {
             return Ok(false);
         }
         self.m.begin_block();
         let (g, m) = (words.codes('G'), words.codes('M'));
-        let of = |group: usize| g.iter().copied().find(|code| GROUPS[group].contains(code));
-        for (codes, groups) in [(&g, &GROUPS[..]), (&m, &M_GROUPS[..])] {
+        let own = if self.hal.is_some() { grblhal::GROUPS } else { GROUPS };
+        let of = |group: usize| g.iter().copied().find(|code| own[group].contains(code));
+        let own_m = if self.hal.is_some() { grblhal::M_GROUPS } else { &M_GROUPS };
+        for (codes, groups) in [(&g, &own[..]), (&m, own_m)] {
             if groups.iter().any(|group| codes.iter().filter(|code| group.contains(code)).count() > 1) {
                 return self.m.halt("error 21: two codes of a modal group");
             }
@@ -125,6 +148,7 @@ impl Control {
         if let Some(tool) = words.get('T') {
             self.m.selected = Some(tool as u32);
         }
+        self.hal_tools(&words, &m)?;
         for code in &m {
             match code {
                 30 => self.m.turn(Spindle::Clockwise),
@@ -150,25 +174,36 @@ impl Control {
         let length = of(8);
         match (length, words.get('Z')) {
             (Some(490), _) => self.m.use_length(0),
+            (Some(430), _) => self.hal_length(&words)?,
             (Some(431), Some(z)) => self.m.use_stated_length(z * unit, false),
             (Some(_), _) => return self.m.halt("error 37: G43.1 without Z"),
             (None, _) => {}
         }
-        if let Some(code) = of(9) {
-            self.m.use_offset(code / 10 - 53);
+        match of(9) {
+            Some(code @ 591..) => self.m.use_offset(code - 584),
+            Some(code) => self.m.use_offset(code / 10 - 53),
+            None => {}
         }
         self.m.absolute = of(3).map_or(self.m.absolute, |code| code == 900);
         let axes = ['X', 'Y', 'Z'].map(|letter| words.get(letter).map(|value| value * unit));
         let axes = [axes[0], axes[1], axes[2], None, None, None];
         let own = usize::from(length == Some(431));
         let others = axes.iter().flatten().count() > own || of(1).is_some_and(|code| code != 800);
-        if length.is_some() && (others || matches!(once, Some(100 | 280 | 300 | 920))) {
+        if matches!(length, Some(431 | 490)) && (others || matches!(once, Some(100 | 280 | 300 | 920))) {
             return self.m.halt("error 24: two commands of axes");
         }
-        let axes = if length.is_some() { [None; 6] } else { axes };
+        let axes = if matches!(length, Some(431 | 490)) { [None; 6] } else { axes };
+        if let Some(series) = &mut self.hal {
+            series.to_r = of(11).map_or(series.to_r, |code| code == 990);
+        }
         self.act(&words, axes, of(1), once, unit)?;
-        match m.iter().find(|code| M_GROUPS[0].contains(code)) {
-            Some(0) => self.m.record(What::Stop),
+        self.level_lost(
+            of(1).is_some()
+                || axes.iter().any(Option::is_some) && !matches!(once, Some(100 | 280 | 300 | 920)),
+        );
+        match m.iter().find(|code| own_m[0].contains(code)) {
+            Some(0 | 600) => self.m.record(What::Stop),
+            Some(10) if self.hal.is_some() => self.m.record(What::OptionalStop),
             Some(20 | 300) => {
                 self.m.switch_off();
                 self.m.record(What::End);
@@ -198,7 +233,7 @@ impl Control {
         Ok(true)
     }
 
-    fn target(&self, axes: [Option<f64>; 6]) -> Place {
+    pub(super) fn target(&self, axes: [Option<f64>; 6]) -> Place {
         std::array::from_fn(|axis| match axes[axis] {
             None => self.m.at[axis],
             Some(value) if self.m.absolute => value + self.m.shift(axis),
@@ -259,7 +294,14 @@ impl Control {
             self.motion = None;
             return if any { self.m.halt("error 31: axis words with G80") } else { Ok(()) };
         }
+        let before = self.motion;
         self.motion = code.or(self.motion);
+        if let Some(code @ (730 | 810..=830)) = self.motion {
+            if machine {
+                return self.m.halt("error 30: G53 without G0 or G1");
+            }
+            return self.hal_cycle(code, before != self.motion, words, axes, unit);
+        }
         if !any {
             let arc =
                 matches!(code, Some(20 | 30)) || "IJKR".chars().any(|letter| words.get(letter).is_some());
@@ -313,7 +355,8 @@ impl Control {
             return self.m.halt("error 28: G10 without L or P");
         };
         let entry = if entry == 0.0 { self.m.offset } else { entry as u32 };
-        if !(1..=6).contains(&entry) || words.get('R').is_some() || !matches!(table as u32, 2 | 20) {
+        let last = if self.hal.is_some() { 9 } else { 6 };
+        if !(1..=last).contains(&entry) || words.get('R').is_some() || !matches!(table as u32, 2 | 20) {
             return self.m.halt("G10 of another kind");
         }
         let own = self.m.zero_of(self.m.offset);

@@ -12,6 +12,7 @@ mod change;
 mod corner;
 pub mod fanuc;
 pub mod grbl;
+mod grblhal;
 mod hole;
 pub mod ir;
 pub mod linuxcnc;

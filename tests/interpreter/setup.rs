@@ -40,12 +40,16 @@ pub struct Setup {
     pub bore_shift: (usize, f64),
     /// The radius of the rotary axes that is set on a Haas (settings 34 and 79), millimetres.
     pub rotary_radius: Option<f64>,
+    /// The T and the H code in force when a program of a Fanuc begins; the tool of that T is in the spindle.
+    pub codes_at_start: [Option<u32>; 2],
     /// Whether M06 with a T in its block puts in the tool that waits, on a Fanuc (the builder's choice).
     pub waiting_tool: bool,
     /// A Fanuc's parameter 3403#5 (CIR) at 0: an arc without centre and radius is a straight line.
     pub line_without_centre: bool,
     /// A Fanuc's parameter 5006#6 (TOS) at 0: a length without an axis word moves Z.
     pub length_moves: bool,
+    /// A Sinumerik's machine datum 10760 at 1: G53, G153 and SUPA leave the tool's length out.
+    pub length_suppressed: bool,
     /// Where M19 stops the spindle, degrees.
     pub orientation: f64,
     /// How the machine is built, as far as it shows.
@@ -138,9 +142,11 @@ impl Setup {
             touched: 1.0,
             bore_shift: (0, 1.0),
             rotary_radius: None,
+            codes_at_start: [None; 2],
             waiting_tool: false,
             line_without_centre: false,
             length_moves: false,
+            length_suppressed: false,
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),

@@ -407,7 +407,9 @@ impl Control<'_> {
     /// What lies between program and machine beside the frame.
     fn shift(&self) -> Place {
         let mut shift = if self.suppressed { [0.0; 6] } else { self.m.zero_of(self.m.offset) };
-        shift[2] += self.m.length_of_edge(self.m.tool, self.edge);
+        if !(self.suppressed && self.m.setup.length_suppressed) {
+            shift[2] += self.m.length_of_edge(self.m.tool, self.edge);
+        }
         if !self.suppressed {
             (0..3).for_each(|axis| shift[axis] += self.m.apart(axis));
         }

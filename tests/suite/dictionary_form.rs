@@ -41,6 +41,9 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[[option]]`", "OptionRow", "[[option]]\nname = \"zz\"\n@"),
     ("`[[behaviour]]`", "BehaviourRow", "[[behaviour]]\nname = \"zz\"\n@"),
     ("`[can]`", "Can", "[can]\n@"),
+    ("`[[variant]]`", "VariantRow", "[[variant]]\nwhen = { a = \"b\" }\n@"),
+    ("`[variant.block]`", "VariantBlock", "[[variant]]\nwhen = { a = \"b\" }\n[variant.block]\n@"),
+    ("`[variant.can]`", "VariantCan", "[[variant]]\nwhen = { a = \"b\" }\n[variant.can]\n@"),
 ];
 
 /// Lists of values, and a text in which they can be asked for.
@@ -119,6 +122,8 @@ fn sources() -> String {
         "power_on.rs",
         "stored.rs",
         "words.rs",
+        "behaviours.rs",
+        "variants.rs",
     ]
     .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
     .join("\n")

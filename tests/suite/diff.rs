@@ -1,7 +1,8 @@
 //! Laws of `ncc diff`: a program is the same as itself and as its translation, an edit is told as what
 //! it is, and what the first has more than the second, the second has less than the first.
 
-use ncc::review::diff::{self, Ignore};
+use ncc::review::diff;
+use ncc::review::diff::args::Ignore;
 use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;

@@ -54,4 +54,5 @@ mod tidy;
 mod time;
 mod time_modes;
 mod twice;
+mod variants;
 mod verify;

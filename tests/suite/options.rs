@@ -45,6 +45,29 @@ fn p_of_pecks_dwells_or_not() {
     }
 }
 
+/// P of a G81 and a G85 is a dwell at the bottom, or nothing; it is the later G82's all the same. What a G82 has left is
+/// nobody's question.
+#[test]
+fn p_of_drilling_dwells_or_not() {
+    let text = |code: &str, first: &str| {
+        format!(
+            "%\nO0001\nG21 G17 G90 G98 G54\nS900 M3\nG0 X0. Y0. Z20.\n\
+             {first}{code} X5. Z-9. R2. P500 F80.\nX10. Z-11.\nG82 X15. Z-3.\nG80\nM5\nM30\n%\n"
+        )
+    };
+    let (half, spot) = (ONE / 2, (-3 * ONE, ONE / 2));
+    for code in ["G81", "G85"] {
+        let holes = |value| made("drill_dwell", value, &text(code, "")).map(|events| dwells(&events));
+        assert_eq!(holes("dwell"), Ok(vec![(-9 * ONE, half), (-11 * ONE, half), spot]), "{code}");
+        assert_eq!(holes("ignored"), Ok(vec![spot]), "{code}");
+        let refused = holes("refused").expect_err("a refusal");
+        assert!(refused.contains("P as a dwell (option drill_dwell)"), "{code}: {refused}");
+        let left = text(code, "G82 X1. Z-1. R2. P500 F80.\n").replacen(" P500 F80.\nX10.", " F80.\nX10.", 1);
+        let holes = made("drill_dwell", "refused", &left).map(|events| dwells(&events));
+        assert_eq!(holes, Ok(vec![(-ONE, half), spot]), "{code}");
+    }
+}
+
 /// The letter that the option names is the angle, and no other one; S is a speed on a machine where it is none.
 #[test]
 fn the_letter_of_the_spindles_angle() {

@@ -19,7 +19,7 @@ use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::page::{self, Page};
 use ncc_tests::plain::{self, Corners, Tolerance};
-use ncc_tests::translate::{job, rendered, stopping, translate};
+use ncc_tests::translate::{GRBLHAL, job, rendered, settings, stopping, translate};
 
 #[test]
 fn one_fact_in_every_dialect() {
@@ -35,8 +35,11 @@ fn one_fact_in_every_dialect() {
         }
         let page = page::read(&text);
         let mut exact = Vec::new();
-        for from in DIALECTS {
-            for to in DIALECTS {
+        // A page may have a block of a Grbl with other options too.
+        let own = page.block(GRBLHAL).map(|_| GRBLHAL);
+        let languages: Vec<&str> = DIALECTS.into_iter().chain(own).collect();
+        for from in &languages {
+            for to in &languages {
                 let what = format!("{name}: {from} to {to}");
                 if let Some(is_exact) = failures.check(&what, pair(&page, from, to)) {
                     pairs += 1;
@@ -157,7 +160,7 @@ fn blocks_agree_by_the_second_interpreter() {
 
 /// Whether tools are changed by hand on the control of a dialect.
 fn by_hand(dialect: &str) -> bool {
-    ncc_dialects::builtin(dialect).is_some_and(|dialect| dialect.can.change_by_hand)
+    settings(dialect).dialect.can.change_by_hand
 }
 
 /// The page with its empty blocks translated from the first one that has a text.
@@ -174,7 +177,7 @@ fn filled(text: &str) -> String {
         }
         out.push_str(line);
         out.push('\n');
-        let language = line.strip_prefix("```").filter(|l| DIALECTS.contains(l));
+        let language = line.strip_prefix("```").filter(|l| DIALECTS.contains(l) || *l == GRBLHAL);
         if let (Some(to), Some(source), Some(&"```")) = (language, source, lines.peek()) {
             let mut job = job(&source.language, to, "page");
             job.head = false;

@@ -6,6 +6,10 @@
 //! patterns, control, calls) has been expanded by passes before; what still arrives is refused.
 //!
 //! The calls are listed at the reader (`ncc_frontends::canon`).
+//!
+//! ```text
+//! a straight move to X 10    `STRAIGHT_FEED(10.0000, 0.0000, 5.0000)`
+//! ```
 
 mod arguments;
 mod modes;

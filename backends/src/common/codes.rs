@@ -4,8 +4,10 @@
 //! its meaning and checked by its number. Not here: when a word is written.
 
 mod call;
+mod cycle;
 
 pub(crate) use call::CallCode;
+pub(crate) use cycle::{CircleCode, CycleCode, GridCode};
 use ncc_dialects::{Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
@@ -61,47 +63,6 @@ pub(crate) struct Letter {
 pub(crate) struct Dwell {
     pub word: Letter,
     pub milliseconds: bool,
-}
-
-/// A canned cycle's words.
-#[derive(Clone, Debug)]
-pub(crate) struct CycleCode {
-    pub kind: String,
-    pub code: Code,
-    pub depth: Letter,
-    pub retract: Letter,
-    pub dwell: Option<Dwell>,
-    /// The option that says whether there is that word.
-    pub asked: Option<&'static str>,
-    pub peck: Option<Letter>,
-    /// Of pecks that decrease: of the first, of how much less each further one is, of the least.
-    pub shrinking: Option<[Letter; 3]>,
-    pub hand: Option<Turn>,
-    /// What the control does of itself in it.
-    pub form: CycleForm,
-    /// Whether its feed out goes on to where the tool is left.
-    pub to_level: bool,
-    /// Whether its dwell must be said.
-    pub dwell_needed: bool,
-}
-
-/// A bolt circle's words.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CircleCode {
-    pub code: Code,
-    pub first: [Letter; 2],
-    pub centre: [Letter; 2],
-    pub step: Letter,
-    pub count: Letter,
-}
-
-/// A grid's words.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GridCode {
-    pub code: Code,
-    pub pitch: [Letter; 2],
-    pub counts: [Letter; 2],
-    pub serpentine: bool,
 }
 
 /// The code of advice.
@@ -361,6 +322,8 @@ impl Finder {
                 form: CycleForm::Control(row.own()),
                 to_level: row.feed_to_level,
                 dwell_needed: row.dwell_needed,
+                own_pause: row.pause.is_some(),
+                from_return: row.from_return,
                 peck: match row.peck.or(row.shift) {
                     Some(letter) => Some(self.letter(letter, Quantity::Length)?),
                     None => None,

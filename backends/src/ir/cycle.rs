@@ -53,6 +53,7 @@ fn clearance(c: &Clearance, out: &mut Vec<u8>) {
     match c {
         Clearance::Stated(e) => expr(e, out),
         Clearance::Parameter => put("parameter", out),
+        Clearance::FromReturn => put("return", out),
     }
 }
 

@@ -2,6 +2,10 @@
 //!
 //! The form is described at the reader (`ncc_frontends::ir`). Statements of one block stand on one
 //! line. Not here: anything that is not in the program.
+//!
+//! ```text
+//! a straight move by 10 mm    `STRAIGHT_FEED(X 10mm)`
+//! ```
 
 mod cycle;
 mod expr;

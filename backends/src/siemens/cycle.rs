@@ -492,6 +492,7 @@ impl Writer {
             Clearance::Stated(Expr::Node(_)) => Err(cannot("a clearance of pecks that is computed")),
             Clearance::Stated(Expr::Num(_)) => Err(cannot("a peck without clearance")),
             Clearance::Parameter => Err(cannot("the clearance of a peck as a parameter of the machine")),
+            Clearance::FromReturn => Err(cannot("pecks that go down at feed all the way")),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The chain of frames, and moves in machine coordinates.
 
-use ncc_dialects::{FrameWord, Meaning, NameMeaning, NameRole, Quantity};
+use ncc_dialects::{Dialect, FrameWord, Meaning, NameMeaning, NameRole, NameRow, Quantity};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Frame, FrameStep};
@@ -80,10 +80,26 @@ impl Writer {
         }
     }
 
-    /// The word of a move in machine coordinates.
-    pub(super) fn machine_word(&self) -> Result<&'static str, Fault> {
-        let meaning = NameMeaning::Code(Meaning::UseMachineCoordinates { length: true, rapid: false });
-        let row = self.dialect.name_for(meaning).ok_or_else(|| cannot("machine coordinates"))?;
-        Ok(&row.name)
+    /// The next move is one in machine coordinates, with the tool's length counted or without it.
+    pub(super) fn in_machine(&mut self, length: bool) -> Result<(), Fault> {
+        if machine_row(self.dialect, length).is_none() {
+            return Err(cannot(match length {
+                true => "a move in machine coordinates that is measured with the tool's length",
+                false => "machine coordinates without the tool's length",
+            }));
+        }
+        self.raw = true;
+        Ok(())
     }
+
+    /// The word of a move in machine coordinates: a control has one setting for the tool's length.
+    pub(super) fn machine_word(&self) -> Result<&'static str, Fault> {
+        let row = [true, false].into_iter().find_map(|length| machine_row(self.dialect, length));
+        Ok(&row.ok_or_else(|| cannot("machine coordinates"))?.name)
+    }
+}
+
+/// The word of machine coordinates in which the tool's length counts, or does not.
+fn machine_row(dialect: &'static Dialect, length: bool) -> Option<&'static NameRow> {
+    dialect.name_for(NameMeaning::Code(Meaning::UseMachineCoordinates { length, rapid: false }))
 }

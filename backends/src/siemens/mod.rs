@@ -5,6 +5,10 @@
 //! name, edges of tools, messages, labels and units. Codes, names and the order of arguments come
 //! from the dictionary. What it has no word for is a fault at the statement, never silent.
 //!
+//! ```text
+//! a cycle of drilling    `MCALL CYCLE81(3,3,0,-6)`
+//! ```
+//!
 //! Not here: expanding what the control cannot say (passes), and judging the result (verification).
 
 mod computing;
@@ -179,6 +183,11 @@ impl Writer {
     /// has said it.
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         self.words.stand_at(start);
+    }
+
+    /// The tool that is in the spindle before the program begins.
+    pub fn hold_tool(&mut self, tool: u32) {
+        self.words.hold_tool(tool);
     }
 
     /// Begins to record where lines come from.

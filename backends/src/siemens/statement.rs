@@ -164,16 +164,10 @@ impl Writer {
                 self.words.statement(stmt, sink)
             }
             Op::SetFrame(frame) => self.frame(frame, span, sink),
-            Op::UseMachineCoordinates { length: true } => {
-                self.raw = true;
-                Ok(())
-            }
+            Op::UseMachineCoordinates { length } => self.in_machine(*length),
             Op::SetSpindleSpeed(speed) => {
                 self.standing.speed = speed.literal();
                 self.words.statement(stmt, sink)
-            }
-            Op::UseMachineCoordinates { length: false } => {
-                Err(cannot("machine coordinates without the tool's length"))
             }
             Op::Probe(_) => Err(cannot("a probing move")),
             Op::Detour(_) => Err(cannot("a rapid move by a detour")),

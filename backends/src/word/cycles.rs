@@ -4,12 +4,14 @@
 //! kind a call is held back until its first position; a cycle that ends before leaves nothing but
 //! its feed.
 
+mod rows;
+
 use ncc_ir::canon::{Axis, Fact, FeedMode, Motion, Plane, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Target};
 use ncc_ir::program::arguments::reads;
-use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
+use ncc_ir::program::cycle::{Along, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
@@ -184,63 +186,6 @@ impl Writer {
         self.block.code(Part::Mode, &code);
         self.now_in_force(Setting::NoCycle);
         Ok(())
-    }
-
-    /// The row of a cycle.
-    fn cycle_code(&self, cycle: &Cycle) -> Result<&CycleCode, Fault> {
-        let dwell = match &cycle.kind {
-            CycleKind::Drill => None,
-            CycleKind::DrillDwell { dwell } => Some(dwell),
-            CycleKind::DrillPeck { dwell, clearance, .. }
-            | CycleKind::DrillBreak { dwell, lift: clearance, .. } => {
-                if *clearance != Clearance::Parameter {
-                    return Err(cannot("the clearance of a peck, which is a parameter of the machine"));
-                }
-                dwell.as_ref()
-            }
-            CycleKind::Bore { dwell, .. } => dwell.as_ref(),
-            CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {
-                return self.driven_code(cycle);
-            }
-        };
-        let row = |dwell| self.codes.cycle(cycle.kind.name(), dwell).filter(|row| ends(row, cycle));
-        // One that can have a dwell need have none, or has one of no seconds.
-        let code = row(dwell.is_some()).or_else(|| row(true).filter(|_| dwell.is_none()));
-        code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
-    }
-
-    /// The row of a cycle that drives the spindle.
-    fn driven_code(&self, cycle: &Cycle) -> Result<&CycleCode, Fault> {
-        let kind = &cycle.kind;
-        let cannot = || cannot(format!("the cycle {} in this form", kind.name()));
-        let dwells = match kind {
-            CycleKind::Tap(tap) => tap.dwell.is_some() || tap.back.is_some(),
-            CycleKind::FineBore(bore) => bore.dwell.is_some(),
-            CycleKind::BoreStop(bore) => bore.dwell.is_some(),
-            CycleKind::Drill
-            | CycleKind::DrillDwell { .. }
-            | CycleKind::DrillPeck { .. }
-            | CycleKind::DrillBreak { .. }
-            | CycleKind::Bore { .. } => return Err(cannot()),
-        };
-        let name = |row: &CycleCode| match kind {
-            CycleKind::Tap(tap) if !tap.chuck && row.kind == "tap" => self.codes.rigid_tapping.is_some(),
-            CycleKind::Tap(tap) if tap.chuck && row.kind == "tap" => !self.options.rigid_taps,
-            _ => row.kind == kind.name(),
-        };
-        let hand = |row: &CycleCode| match kind {
-            CycleKind::Tap(tap) => row.hand == Some(tap.turn),
-            _ => true,
-        };
-        let mut rows = self.codes.cycles.iter();
-        let row = rows.find(|row| {
-            name(row)
-                && hand(row)
-                && (row.dwell.is_some() || !dwells)
-                && row.form.says(kind)
-                && ends(row, cycle)
-        });
-        row.ok_or_else(cannot)
     }
 
     /// The code that makes a tap rigid, in a block of its own before its call.
@@ -528,7 +473,12 @@ impl Writer {
                 Err(cannot("a cycle whose return level is not known"))
             }
             (Fact::Entry, None) => Ok(None),
-            (Fact::Known(level), None) if self.force.level == Some(level) && !self.force.our_level => {
+            (Fact::Known(level), None)
+                if self.force.level == Some(level)
+                    && !self.force.our_level
+                    // Else the last move has ended it.
+                    && !self.dialect.cycles.level_lost =>
+            {
                 Ok(None)
             }
             (Fact::Known(level), None) => {
@@ -681,12 +631,4 @@ impl Writer {
         }
         Ok(())
     }
-}
-
-/// Whether a row's feed out of the hole, if it has one, ends where the cycle's does.
-fn ends(row: &CycleCode, cycle: &Cycle) -> bool {
-    let feeds_out = matches!(cycle.kind, CycleKind::Bore { .. } | CycleKind::Tap(_));
-    !feeds_out
-        || row.to_level == cycle.kind.feeds_to_level()
-        || cycle.return_level == Fact::Known(ReturnLevel::Retract) && cycle.return_plane.is_none()
 }

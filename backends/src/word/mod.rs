@@ -4,6 +4,10 @@
 //! block are written as one block where the control can read it so, in the order in which posts
 //! write words. What the dictionary has no word for is a fault at the statement, never silent.
 //!
+//! ```text
+//! a cycle of drilling    `G99 G81 X10. Z-6. R3. F100.`
+//! ```
+//!
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
 mod by_hand;

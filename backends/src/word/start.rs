@@ -52,6 +52,12 @@ impl Writer {
         }
     }
 
+    /// The tool that is in the spindle before the program begins.
+    pub fn hold_tool(&mut self, tool: u32) {
+        let tool = Some(i64::from(tool));
+        (self.tracker.tool, self.tracker.selected) = (tool, tool);
+    }
+
     /// Takes a statement before the first event; `Ok(false)` if it must be written.
     pub(crate) fn absorb(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<bool, Fault> {
         let Some(held) = self.preamble.as_ref().map(|p| p.held.len()) else { return Ok(false) };

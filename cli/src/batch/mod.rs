@@ -7,6 +7,10 @@
 //!
 //! Refused here: programs of several files, which are not put together; one report, map or program on
 //! stdin for several.
+//!
+//! ```text
+//! ncc translate old/ --from fanuc --to siemens -o new/    new/a.mpf, new/b.mpf, and a line on each
+//! ```
 
 mod gather;
 mod names;
@@ -35,10 +39,11 @@ use self::orders::{Orders, where_to};
 use self::progress::Progress;
 use self::summary::{Result as Came, Row, Summary};
 use self::work::{Bench, Done, Held, Store, make_folder};
-use crate::args::{Format, Translate};
+use crate::args::Translate;
 use crate::files;
 use crate::known::Known;
 use crate::order::Order;
+use crate::typed::Format;
 use ncc_driver::problem::Exit;
 use ncc_driver::problem::Problem;
 use ncc_driver::problem::as_write;

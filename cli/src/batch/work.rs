@@ -25,9 +25,10 @@ use sha2::{Digest, Sha256};
 use super::gather::Item;
 use super::orders::Orders;
 use super::summary::{Missing, Result as Came, Row};
-use crate::args::{Eol, Format, Translate};
+use crate::args::Translate;
 use crate::known::Known;
-use crate::{files, run};
+use crate::typed::{Eol, Format};
+use crate::{files, recognised, run};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -150,7 +151,7 @@ impl Bench<'_> {
         }
         let (from, rivals) = match order.named {
             Some(dialect) => (dialect, Vec::new()),
-            None => run::recognise_all(&mut source, say, self.known, &mut done.told)?,
+            None => recognised::recognise_all(&mut source, say, self.known, &mut done.told)?,
         };
         done.row.from = Some(from.id.clone());
         done.row.project = source.project.as_deref().cloned();
@@ -164,7 +165,7 @@ impl Bench<'_> {
         job.rivals = rivals;
         called::gather(&mut source, &job.from, self.known.folders(), &files::Disk)?;
         job.called.clone_from(&source.called);
-        job.assumed.clone_from(&source.assumed);
+        job.assumed.extend_from_slice(&source.assumed);
         tools_by_name::number(&mut job, &mut source.file)
             .map_err(|e| Problem::file("read", &source.shown, &e))?;
         source.rewind()?;
@@ -206,7 +207,7 @@ impl Bench<'_> {
             (Err(Failure::Refused), _) => Came::Refused,
             (Err(Failure::VerificationFailed), _) => Came::VerificationFailed,
         };
-        row.exit = Exit::of(outcome.release);
+        row.exit = outcome.exit();
         row.events = outcome.verified.filter(|_| outcome.release.is_ok()).map(|v| v.events);
         row.program_number = outcome.program_number.filter(|_| outcome.release.is_ok());
         let shown = source.shown.clone();
@@ -256,7 +257,7 @@ impl Bench<'_> {
         let to = job.to.dialect;
         let below = folder.join(&item.below);
         let plain = below.join(job.machines.file_name(to, &source.name, outcome.program_number));
-        let main = below.join(job.machines.output_name(to, &source.name, outcome));
+        let main = below.join(outcome.file_name(&job.machines, to, &source.name));
         let otherwise = (plain != main).then_some(plain);
         let cannot = |path: &Path, e: &io::Error| Problem::file("write", &path.display().to_string(), e);
         let Some(store) = self.store else {

@@ -2,6 +2,10 @@
 //!
 //! `drive` goes from the text to findings, `told` brings them into words, and `text`, `json` and
 //! `sarif` write them. Not here: the rules (ncc-check), profiles (ncc-machines).
+//!
+//! ```text
+//! ncc check --from fanuc part.nc    warning[NC…] at the place, exit code 1
+//! ```
 
 pub mod args;
 
@@ -17,10 +21,11 @@ use ncc_machines::Profile;
 pub use ncc_driver::check::json::SCHEMA;
 
 use self::args::{Check, Form};
-use crate::args::Color;
 use crate::files::{self, Destination};
 use crate::known::Known;
 use crate::review::side::{Asked, open_one};
+use crate::time::running::Running;
+use crate::typed::Color;
 use ncc_driver::check::told::Graded;
 use ncc_driver::check::told::Program;
 use ncc_driver::guess::better;
@@ -100,7 +105,9 @@ fn one(
     let shown = source.shown.clone();
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
     let limits = limits(profile.or(job.machines.from.as_deref()), args.rapid_plane);
+    let running = Running::shown(&source.name, say);
     let course = drive::drive(&job, limits, args.switches.on(), &mut source).map_err(wrong)?;
+    drop(running);
     if let Some(problem) = halted::problem(&course.diagnostics, &mut source).map_err(wrong)? {
         return Err(problem);
     }

@@ -4,7 +4,12 @@
 //! question about one of the two machines. The answers have a place in a profile; a profile with
 //! exactly these questions can be written. Not here: which fact an assumption rests on
 //! (`ncc_machines::reading`).
+//!
+//! ```text
+//! ncc doctor --from fanuc --to haas part.nc    questions, each with the line of the profile that answers it
+//! ```
 
+pub mod args;
 mod init;
 mod question;
 mod stub;
@@ -12,9 +17,8 @@ mod stub;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
 use ncc_driver::job::options::{choose, state_units};
@@ -31,63 +35,16 @@ use ncc_machines::Profile;
 use ncc_machines::reading::{Place, Side, UNNAMED};
 use question::{Question, questions};
 
-use crate::args::{Start, pair};
+use self::args::Doctor;
 use crate::known::Known;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
-use crate::project::init::Init;
+use crate::project::args::Init;
 use crate::project::{self, Sides, Stated};
-use crate::run::{INTO_WHAT, recognise};
-use crate::setting::{Standing, Telling};
+use crate::recognised::{INTO_WHAT, recognise};
+use crate::setting::Telling;
+use crate::typed::Start;
 use crate::{files, m_codes};
-
-const EXAMPLES: &str = "\
-Examples:
-  ncc doctor part.cn --from mach9 --to fanuc                      what the translation depends on
-  ncc doctor part.cn --to fanuc --write-from a.toml --write-to b.toml
-                                                                  the same, as profiles to be filled in
-  ncc translate part.cn --machine-from a.toml --machine-to b.toml
-                                                                  what is filled in is no assumption any more";
-
-/// `ncc doctor`.
-#[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Doctor {
-    /// The program; `-` for stdin
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
-    /// Dialect of the source, or `auto` to recognise it [default: the machine's, else auto]
-    #[arg(long, value_name = "DIALECT")]
-    pub from: Option<String>,
-    /// Dialect to translate into
-    #[arg(long, value_name = "DIALECT")]
-    pub to: Option<String>,
-    /// What is known of the machine that the program was written for: a profile's name or file
-    #[arg(long, value_name = "MACHINE")]
-    pub machine_from: Option<String>,
-    /// What is known of the machine to translate for
-    #[arg(long, value_name = "MACHINE")]
-    pub machine_to: Option<String>,
-    /// Decide a question that the source's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
-    pub from_option: Vec<(String, String)>,
-    /// Decide a question that the target's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
-    pub to_option: Vec<(String, String)>,
-    /// Where it begins.
-    #[command(flatten)]
-    pub standing: Standing,
-    /// Write a profile of the source's machine with the questions, to be filled in; a new file
-    #[arg(long, value_name = "FILE")]
-    pub write_from: Option<PathBuf>,
-    /// Write a profile of the target's machine with the questions; a new file
-    #[arg(long, value_name = "FILE")]
-    pub write_to: Option<PathBuf>,
-
-    /// How much is told.
-    #[command(flatten)]
-    pub telling: Telling,
-}
 
 /// Runs it. Exit code 0 if the program can be translated, whatever is asked; else that of the translation.
 ///
@@ -236,7 +193,7 @@ fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Exam
     source.rewind()?;
     let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
     let mut outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
-    let exit = Exit::of(outcome.release);
+    let exit = outcome.exit();
     let codes = outcome.rests.iter().filter_map(|rest| match &rest.place {
         Place::Code(code) => Some(code.clone()),
         _ => None,

@@ -1,5 +1,11 @@
 //! Reading the source and writing what comes out, so that no input is ever written over and no
 //! half-written file is ever seen.
+//!
+//! ```text
+//! -o part.mpf    a scratch file beside it, which takes its name when all of it is verified
+//! ```
+//!
+//! Not here: what is written.
 
 pub mod arrow;
 pub mod scratch;

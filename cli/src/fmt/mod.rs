@@ -3,6 +3,10 @@
 //! `text` takes a program apart line by line and writes it anew (`layout`), and has each line judged
 //! (`same`); `number` gives blocks new numbers and whatever names them; `events` executes the text before
 //! and after; `calls` is for texts that are lists of calls. Not here: what words mean.
+//!
+//! ```text
+//! ncc fmt part.nc    `g1x10y5` becomes `G1 X10 Y5`
+//! ```
 
 pub mod args;
 
@@ -26,10 +30,10 @@ use ncc_driver::source::{Readable, Source};
 use ncc_machines::schema::BlockNumbers;
 
 use self::args::Fmt;
-use crate::args::Eol;
 use crate::files;
 use crate::known::Known;
 use crate::review::side::{Asked, open_one, operand};
+use crate::typed::Eol;
 
 /// Runs the verb.
 ///

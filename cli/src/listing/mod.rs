@@ -5,6 +5,12 @@
 //! asked for, which is told: there is no place for a mark in the interpreter's form. Another judge is the
 //! interpreter itself, whose own test programs are printed as it prints them. Compensated contours are listed
 //! by the path of the tool's centre.
+//!
+//! ```text
+//! ncc linuxcnc to canon --style rs274 part.ngc    `N..... STRAIGHT_FEED(10.0000, 5.0000, 0.0000, …)`
+//! ```
+//!
+//! Not here: how a listing is written (`ncc_backends::canon::rs274`).
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -19,8 +25,9 @@ use ncc_frontends::Batch;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
 
-use crate::args::{Format, Style, Translate};
+use crate::args::Translate;
 use crate::files::{self, Destination};
+use crate::typed::{Format, Style};
 
 /// What the command line asks for beside a listing that has no meaning there.
 ///

@@ -1,9 +1,14 @@
 //! Machine profiles on the command line: finding one, and telling what is wrong with it.
+//!
+//! ```text
+//! --to-machine mikron.toml    the profile, checked as a whole
+//! ```
+//!
+//! Not here: the form of a profile (`ncc_machines`).
 
-mod args;
+pub mod args;
 
 pub use args::Machines;
-
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,8 +24,8 @@ use ncc_machines::schema::LineEnds;
 use ncc_machines::{Profile, ProfileError, shipped};
 
 use self::args::What;
-use crate::args::Eol;
 use crate::known::Known;
+use crate::typed::Eol;
 use crate::{files, machines};
 
 /// The schema of profiles, as it is documented.

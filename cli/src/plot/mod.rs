@@ -2,6 +2,10 @@
 //!
 //! A program goes through the pipeline of `ncc time` into a record, which keeps what can be seen of
 //! it; from that a picture is drawn. Not here: drawing (ncc-plot), timing (`time`).
+//!
+//! ```text
+//! ncc plot --from mach9 part.cn -o part.svg    the way of the tool, seen from above
+//! ```
 
 pub mod args;
 

@@ -2,9 +2,8 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use codespan_reporting::diagnostic::Severity;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
@@ -12,6 +11,7 @@ use ncc_driver::render::report;
 use ncc_machines::project::NAME;
 use ncc_machines::{ProfileError, Wrong};
 
+use super::args::Config;
 use super::load::{InForce, Loaded, Row, SCHEMAS};
 use super::settle::facts;
 use super::{Look, Projects};
@@ -20,24 +20,6 @@ use crate::{files, machines};
 
 /// Files and folders that are looked at for a pattern's sake.
 const MOST: usize = 100_000;
-
-const EXAMPLES: &str = "\
-Examples:
-  ncc config                   the rows of the `ncc.toml` that counts here
-  ncc config old/part.nc       what it states of a program, each with its line
-  ncc config --schema          the form of the file: every key and what it takes";
-
-/// `ncc config`.
-#[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Config {
-    /// The program; without, all rows of the file that counts in this folder
-    #[arg(value_name = "PROGRAM")]
-    pub program: Option<PathBuf>,
-    /// Print the form of the file: every key and what it takes
-    #[arg(long, conflicts_with = "program")]
-    pub schema: bool,
-}
 
 /// The form of the file, as it is documented.
 pub const SCHEMA: &str = include_str!("../../../docs/project-file.md");

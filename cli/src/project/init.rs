@@ -4,44 +4,13 @@ use std::fs::File;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_machines::project::NAME;
 
-use crate::args::pair;
+use super::args::Init;
 use crate::doctor;
 use crate::known::Known;
-
-const EXAMPLES: &str = "\
-Examples:
-  ncc init part.nc --to siemens               writes `ncc.toml` beside the program
-  ncc init part.nc --from haas --to siemens   the same, where the dialect cannot be recognised
-  ncc to siemens part.nc                      what is in the file needs no option any more";
-
-/// `ncc init`.
-#[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Init {
-    /// A program of the folder
-    #[arg(value_name = "PROGRAM")]
-    pub program: PathBuf,
-    /// Dialect to translate into
-    #[arg(long, value_name = "DIALECT")]
-    pub to: Option<String>,
-    /// Dialect of the program, or `auto` to recognise it [default: the machine's, else auto]
-    #[arg(long, value_name = "DIALECT")]
-    pub from: Option<String>,
-    /// The machine that the program was written for: a profile's name or file
-    #[arg(long, value_name = "MACHINE")]
-    pub machine_from: Option<String>,
-    /// The machine to translate for
-    #[arg(long, value_name = "MACHINE")]
-    pub machine_to: Option<String>,
-    /// Decide a question that the program's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
-    pub from_option: Vec<(String, String)>,
-}
 
 /// Writes the file.
 ///

@@ -4,7 +4,14 @@
 //! relative to its folder. A row of it is settled with the options of the call (`settle`): an option goes before the
 //! file, and a contradiction is reported. Not here: the form of the file (`ncc_machines::project`), and what a profile
 //! does to a program (`machines::pair`).
+//!
+//! ```text
+//! [[programs]]
+//! files = "old/*.nc"
+//! machine = "haas-vf2.toml"
+//! ```
 
+pub mod args;
 pub mod config;
 pub mod init;
 mod load;
@@ -12,7 +19,6 @@ mod settle;
 
 pub(crate) use load::{InForce, Projects};
 pub(crate) use settle::{Settled, Sides, Stated, settle};
-
 use std::path::Path;
 use std::sync::Arc;
 

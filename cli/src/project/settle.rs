@@ -15,7 +15,7 @@ use ncc_machines::table::{Stated as Fact, Tell};
 
 use super::load::{InForce, Row};
 use crate::known::Known;
-use crate::m_codes::MCode;
+use crate::typed::MCode;
 
 /// What a call states itself.
 #[derive(Clone, Copy, Debug, Default)]

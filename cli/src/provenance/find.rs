@@ -28,7 +28,7 @@ use super::why::own_settings;
 use crate::files;
 use crate::known::Known;
 use crate::milling::{self, Voice};
-use crate::run::recognise;
+use crate::recognised::recognise;
 
 /// A map with the source that it was made of.
 pub(crate) struct Found {

@@ -2,6 +2,10 @@
 //!
 //! `read` reads one line of a map, or `find` makes the map anew, and `why` tells about the line. Not here: how a map is
 //! made (`ncc_driver::provenance`).
+//!
+//! ```text
+//! ncc why part.mpf:12    line 12 comes from line 7 of part.nc: `G81 …`
+//! ```
 
 pub mod args;
 mod find;

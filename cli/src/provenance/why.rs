@@ -9,15 +9,15 @@ use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::state::{Around, State, WHAT, around};
 use ncc_driver::provenance::text::Text;
 use ncc_driver::source::Source;
-use ncc_driver::source::called::Called;
+use ncc_driver::source::called_files::Called;
 use serde::Serialize;
 
 use super::args::Why;
 use super::find::{Found, find};
 use super::read::{Events, Place, Row, Side};
-use crate::args::Format;
 use crate::files;
 use crate::known::Known;
+use crate::typed::Format;
 
 /// The version of the answer's form.
 const VERSION: u32 = 1;

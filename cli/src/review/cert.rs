@@ -13,12 +13,13 @@ use ncc_ir::canon::AXES;
 use ncc_ir::expr::num::Nanos;
 use serde_json::Value;
 
+use super::args::Verify;
 use super::side::{Asked, open};
-use super::verify::{Verify, call, cannot_compare, compare, exit, is_stdin};
-use crate::args::Format;
+use super::verify::{call, cannot_compare, compare, exit, is_stdin};
 use crate::files;
 use crate::known::Known;
 use crate::project::Look;
+use crate::typed::Format;
 
 /// Longest value that is told whole, in characters.
 const LONGEST: usize = 80;

@@ -20,15 +20,15 @@ use ncc_driver::source::{Source, called};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
-use crate::args::Start;
 use crate::files::{self, AS_STORED};
 use crate::known::Known;
 use crate::m_codes;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::{self, InForce, Look, Sides, Stated, settle};
-use crate::run::recognise;
+use crate::recognised::recognise;
 use crate::sugar::is_name;
+use crate::typed::Start;
 
 /// What a command says of one side.
 #[derive(Clone, Debug, Default)]
@@ -265,6 +265,10 @@ impl Opened {
             state_units(&mut from, known.units())?;
         }
         m_codes::state(&mut from, Whose::From, known)?;
+        for name in asked.given.names() {
+            let whole = asked.given.only(name).filter(|value| value.fract() == 0.0);
+            whole.into_iter().for_each(|value| from.state_value(name, value as i64));
+        }
         called::gather(&mut self.source, &from, known.folders(), &files::Disk)?;
         self.source.rewind()?;
         let mut side = Side::of(self.source, from, machines, asked.start);

@@ -8,7 +8,6 @@ use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_diff::record::{Batch, Style};
 use ncc_driver::job::Output;
@@ -21,25 +20,11 @@ use ncc_driver::source::not_milling;
 use ncc_ir::canon::Spindle;
 use ncc_ir::program::Text;
 
+use super::args::Textconv;
 use super::side::{Asked, open_one};
-use crate::args::pair;
 use crate::files;
 use crate::known::Known;
 use crate::project::Look;
-
-/// `ncc git-textconv`.
-#[derive(Debug, Args)]
-pub struct Textconv {
-    /// The program, as `PATH` or `DIALECT:PATH`
-    #[arg(value_name = "FILE")]
-    pub file: String,
-    /// Its dialect, where it is not named with the file [default: recognised]
-    #[arg(long, value_name = "DIALECT")]
-    pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
-    pub from_option: Vec<(String, String)>,
-}
 
 /// Runs the verb.
 ///

@@ -5,9 +5,8 @@
 //! again by `cert`. Not here: how two programs differ in all their parts (`diff`).
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::guess::better;
 use ncc_driver::job::Job;
@@ -20,103 +19,18 @@ use ncc_driver::review::verify::hashes;
 use ncc_driver::review::verify::text;
 use ncc_ir::expr::num::Nanos;
 
+use super::args::Verify;
 use super::cert;
 use super::side::{Asked, open, operand};
-use crate::args::{Format, pair};
 use crate::files;
 use crate::known::Known;
-use crate::setting::{Holding, Nearness, Standing, Telling};
+use crate::time::running::Running;
+use crate::typed::Format;
 pub use ncc_driver::review::verify::document::SCHEMA;
 use ncc_driver::review::verify::document::Word;
 use ncc_driver::side::Side;
 use ncc_driver::source::Source;
 use ncc_driver::source::spool::Spool;
-
-const EXAMPLES: &str = "\
-Examples:
-  ncc verify part.cn part.nc                          the same cut?
-  ncc verify mach9:part.cn fanuc:part.nc --tolerance 0.01
-  ncc verify part.cn part.nc --cert part.json         and a certificate of it
-  ncc verify --cert part.json                         does the certificate hold?
-  ncc verify --cert part.json --recheck a.cn b.nc     the same, of files that have other names now
-
-Both programs are executed in generated worlds, of which each has other offsets, lengths and modes at
-power-on, under every setting of the block-skip switches. What SRC relies on and never says is taken
-for granted, as its dialect or the profile of its machine has it, and told. What OUT relies on and
-never says is not: unless its dialect or the profile of its machine settles it, the worlds disagree
-about it, and OUT is not equal. Only what a translation into its dialect would not say either, and what
-neither of two programs for one control says, holds of OUT as of SRC; that is told too.
-
-Exit code: 0 equal, or equal within the tolerance, and if a certificate is checked, all of it holds;
-1 different, or the certificate does not hold; 2 wrong usage; 4 a file could not be read or written;
-5 could not be compared, because a program has errors.";
-
-/// `ncc verify`.
-#[derive(Debug, Args)]
-#[command(
-    after_help = EXAMPLES,
-    override_usage = "ncc verify [OPTIONS] SRC OUT\n       ncc verify --cert FILE [--recheck SRC OUT]",
-    mut_arg("start", |start| start.help(
-        "Where the tool stands before the first block, in the coordinates of SRC, mm and degrees"
-    ))
-)]
-pub struct Verify {
-    /// What was meant, and what shall do the same: `PATH` or `DIALECT:PATH`; `-` for stdin
-    #[arg(value_name = "SRC OUT", num_args = 0..=2, required_unless_present_any = ["schema", "cert"])]
-    pub files: Vec<String>,
-    /// Dialect of SRC, where it is not named with the file [default: recognised]
-    #[arg(long, value_name = "DIALECT", help_heading = "What is compared")]
-    pub from: Option<String>,
-    /// Dialect of OUT, likewise
-    #[arg(long, value_name = "DIALECT", help_heading = "What is compared")]
-    pub to: Option<String>,
-    /// The machine of SRC: a profile by its name or file, which names the dialect too
-    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
-    pub machine_from: Option<String>,
-    /// The machine of OUT; with both, tools, offsets and lengths are the same by their names
-    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
-    pub machine_to: Option<String>,
-    /// Decide a question that the dictionary of SRC leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
-    pub from_option: Vec<(String, String)>,
-    /// Decide a question that the dictionary of OUT leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
-    pub to_option: Vec<(String, String)>,
-    /// Where SRC begins.
-    #[command(flatten, next_help_heading = "What is compared")]
-    pub standing: Standing,
-    /// What the variables of both hold.
-    #[command(flatten, next_help_heading = "What is compared")]
-    pub holding: Holding,
-    /// What counts as the same.
-    #[command(flatten, next_help_heading = "What is compared")]
-    pub nearness: Nearness,
-
-    /// With SRC and OUT, write a certificate to this file; without, check the certificate in it again
-    #[arg(long, value_name = "FILE", help_heading = "Certificates")]
-    pub cert: Option<PathBuf>,
-    /// Check the certificate for SRC and OUT, which have other names or places than it says
-    #[arg(long, requires = "cert", help_heading = "Certificates")]
-    pub recheck: bool,
-
-    /// For people, or as JSON, the same document as the certificate [default: human]
-    #[arg(
-        long,
-        value_name = "human|json",
-        value_enum,
-        default_value_t = Format::Human,
-        hide_possible_values = true,
-        hide_default_value = true,
-        help_heading = "What is reported"
-    )]
-    pub format: Format,
-    /// Print the JSON Schema of the certificate, and nothing else
-    #[arg(long, help_heading = "What is reported")]
-    pub schema: bool,
-    /// How much is told.
-    #[command(flatten)]
-    pub telling: Telling,
-}
 
 /// Runs the verb.
 ///
@@ -236,8 +150,10 @@ pub(crate) fn compare(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Document, Problem> {
+    let running = Running::shown(&sides[0].source.name, args.format == Format::Human && !args.telling.quiet);
     let found = ncc_driver::review::verify::pair::compare(sides, call.tolerance.unwrap_or_default())
         .map_err(cannot_compare)?;
+    drop(running);
     if args.format == Format::Human {
         for (side, course) in sides.iter_mut().zip(&found.courses) {
             if !args.telling.quiet {

@@ -4,9 +4,14 @@
 //! one by one (`csv`, `payload`, `canon`, `tally` for the summaries). What is written goes to an
 //! anonymous file first, as a translation does, and is released when the whole program could be
 //! executed. Not here: models (ncc-time), machines (ncc-machines), pictures.
+//!
+//! ```text
+//! ncc time --from fanuc part.nc    4 min 12 s, by tool and kind of move
+//! ```
 
 pub mod args;
 mod progress;
+pub(crate) mod running;
 
 use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -39,7 +44,7 @@ use crate::known::Known;
 use crate::m_codes;
 use crate::milling::{self, Voice};
 use crate::project::{self, Sides, Stated};
-use crate::run::recognise_all;
+use crate::recognised::recognise_all;
 pub use ncc_driver::time::payload::SCHEMA;
 use ncc_driver::time::summary::Report;
 use ncc_driver::time::summary::Timing;
@@ -495,7 +500,7 @@ fn stream(
         }
         Form::Canon => match canonical(args, shop, &plan, source, &mut out, err)? {
             Ok(course) => course,
-            Err(failure) => return Ok(Exit::of(Err(failure))),
+            Err(failure) => return Ok(failure.exit()),
         },
         Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
             let header =

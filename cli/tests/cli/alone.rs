@@ -34,6 +34,36 @@ fn a_sinumerik_knows_a_subprogram_by_its_extension() {
     assert!(other.ends_with("\nM17\n") && !other.contains("\nG54"), "{other}");
 }
 
+/// One that is longer than what is read at once states no modes either: they are its caller's.
+#[test]
+fn a_long_subprogram_states_no_modes() {
+    let folder = folder();
+    let folder = folder.path();
+    let moves: String = (0..2000).map(|at| format!("X{at}. Y{}.\n", at % 7)).collect();
+    let text = format!("%\nO9001\nG90 G01 X5. Y5. F100.\n{moves}M99\n%\n");
+    fs::write(folder.join("long.nc"), text).unwrap();
+    for to in ["haas", "siemens"] {
+        let sub = ncc(folder, &["fanuc", "to", to, "long.nc", "--units", "mm", "--no-head"]).exits(0).out;
+        assert!(!sub.contains("G54") && !sub.contains("M30"), "{sub}");
+    }
+}
+
+/// A program that begins with a tool in the spindle, and its output, hold by themselves with what was stated.
+#[test]
+fn a_stated_tool_is_in_the_spindle_of_both() {
+    let folder = folder();
+    let folder = folder.path();
+    let text = "%\nO0001\nG21 G17 G90 G94 G54 G40 G80\nG00 X0. Y0.\nG43 Z50.\nG01 Z40. F500.\nM30\n%\n";
+    fs::write(folder.join("a.nc"), text).unwrap();
+    let stated = ["--value", "#4120=2", "--value", "#4111=2"];
+    let call = [&["fanuc", "to", "siemens", "a.nc", "-o", "a.mpf"][..], &stated].concat();
+    ncc(folder, &call).exits(0);
+    fs::write(folder.join("a.toml"), "[variables]\n\"#4120\" = 2\n\"#4111\" = 2\n").unwrap();
+    ncc(folder, &["verify", "fanuc:a.nc", "siemens:a.mpf", "--args", "a.toml"]).exits(0);
+    fs::write(folder.join("a.toml"), "[variables]\n\"#4120\" = 2\n\"#4111\" = 3\n").unwrap();
+    ncc(folder, &["verify", "fanuc:a.nc", "siemens:a.mpf", "--args", "a.toml"]).exits(1);
+}
+
 /// A macro with all that a call of it may leave out.
 const MACRO: &str = "%\nO9180 (SLOT)\nG21\nIF [#24 EQ #0] THEN #3000=1(NO X)\nIF [#7 EQ #0] THEN #7=2.5\n\
     G90 G0 X#24 Y#25\nZ#18\nG1 Z#26 F#9\nX[#24+#4]\nG0 Z[#18+#7]\nM99\n%\n";

@@ -1,5 +1,9 @@
 //! What is wrong with a program before it meets a machine: [`drive`] goes from the text to findings, [`told`] has them in
 //! words, [`text`], [`json`] and [`sarif`] lay them out. Not here: the rules (`ncc_check`).
+//!
+//! ```text
+//! a program, a profile    drive    findings: rule, place, data
+//! ```
 
 pub mod drive;
 pub mod json;

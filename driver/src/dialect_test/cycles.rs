@@ -6,6 +6,7 @@ use ncc_ir::program::cycle::Approach;
 
 use super::Row;
 use super::proof::{Bench, Said, Tried, in_place, must_show};
+use super::words::pecks_text;
 
 /// Values of a cycle's words, in mm and seconds.
 #[derive(Clone, Debug)]
@@ -13,7 +14,7 @@ pub(super) struct Values {
     retract: &'static str,
     depth: &'static str,
     dwell: &'static str,
-    peck: &'static str,
+    pub(super) peck: &'static str,
 }
 
 impl Default for Values {
@@ -33,8 +34,8 @@ pub(super) fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String
         "bore-fine" => vec![format!("shift parameter {}mm, after clockwise", values.peck)],
         "bore-stop" if row.turns_on => vec!["after as-before".to_owned()],
         "bore-stop" => vec!["after clockwise".to_owned()],
-        "drill-peck" => vec![format!("peck {}mm, clearance parameter", values.peck)],
-        "drill-break" => vec![format!("peck {}mm, lift parameter", values.peck)],
+        "drill-peck" => vec![pecks_text(row, "clearance", values)],
+        "drill-break" => vec![pecks_text(row, "lift", values)],
         _ => Vec::new(),
     };
     let last = if row.kind == "bore" { 0 } else { own.len() };

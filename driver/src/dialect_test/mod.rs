@@ -6,6 +6,10 @@
 //! of the one that is; a refused row is read, and must be refused by its name. A dictionary can say
 //! only what both sides can do, so a row that nothing reads or writes fails too.
 //!
+//! ```text
+//! row G83    START_CYCLE(drill-peck …)    `G99 G83 X1. Z-5. R2. Q1.`    START_CYCLE(drill-peck …): passed
+//! ```
+//!
 //! Not here: whether a row is true of the control. That is for its source, and for the machine.
 
 pub mod calls;
@@ -38,8 +42,31 @@ pub struct Row {
     pub sure: bool,
 }
 
-/// Tests every row of a dictionary.
+/// Tests every row of a dictionary, and every row of its variants under the options of these.
 pub fn test(dialect: &'static Dialect) -> Vec<Row> {
+    let mut rows = rows(dialect);
+    for (variant, with) in dialect.variants() {
+        let own = |row: &Row| {
+            let code = row.row.split(' ').next().unwrap_or_default();
+            match row.table {
+                "address" => variant.address.iter().any(|own| code == own.letter.to_string()),
+                "code" => variant.code.iter().any(|own| own.code == code),
+                "cycle" => variant.cycle.iter().any(|own| own.code == code),
+                "name" => variant.name.iter().any(|own| own.name == code),
+                "data" => variant.data.iter().any(|own| row.row.starts_with(&own.name)),
+                _ => false,
+            }
+        };
+        let when: Vec<String> =
+            variant.when.iter().map(|(option, value)| format!("{option}={value}")).collect();
+        let named = |row: Row| Row { row: format!("{} ({})", row.row, when.join(", ")), ..row };
+        rows.extend(self::rows(with).into_iter().filter(own).map(named));
+    }
+    rows
+}
+
+/// The rows of one dictionary as it stands.
+fn rows(dialect: &'static Dialect) -> Vec<Row> {
     if matches!(dialect.family, Family::Canon | Family::Ir) {
         return Vec::new();
     }

@@ -1,10 +1,11 @@
 //! Address letters: a statement for what each is, and its refusal where it is nothing by itself.
 
-use ncc_dialects::{Address, Dialect, Family, PatternRow, Quantity, Role};
+use ncc_dialects::{Address, CycleRow, Dialect, Family, PatternRow, Quantity, Role};
 use ncc_ir::canon::CornerShape;
 
 use super::Row;
 use super::codes::arc;
+use super::cycles::Values;
 use super::proof::{Bench, Said, Tried, refusal};
 
 /// The rows of the address letters.
@@ -161,4 +162,13 @@ fn users(d: &Dialect, letter: char) -> Vec<String> {
         users.push("cycles (repetition)".to_owned());
     }
     users
+}
+
+/// The pecks of a cycle in the text form; `by` is what the control has a parameter for.
+pub(super) fn pecks_text(row: &CycleRow, by: &str, values: &Values) -> String {
+    let by = if row.from_return { format!("{by} return") } else { format!("{by} parameter") };
+    let pause =
+        row.own_pause().map(|pause| f64::from(pause.mantissa as i32) / 10f64.powi(pause.scale.into()));
+    let dwells = pause.map_or_else(String::new, |pause| format!(", pause {pause}s, dwell {pause}s"));
+    format!("peck {}mm, {by}{dwells}", values.peck)
 }

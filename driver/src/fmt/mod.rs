@@ -3,6 +3,10 @@
 //! [`text`] takes a program apart line by line and writes it anew ([`layout`]), and has each line judged ([`same`]);
 //! [`number`] gives blocks new numbers and whatever names them ([`references`]); [`events`] executes the text before and
 //! after; [`calls`] is for texts that are lists of calls. Not here: what words mean.
+//!
+//! ```text
+//! `g1x10y5`    `G1 X10 Y5`, executed before and after: the same events
+//! ```
 
 pub mod calls;
 pub mod events;

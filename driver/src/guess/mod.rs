@@ -4,6 +4,12 @@
 //! explain speaks for it, what it cannot explain speaks against it. One dialect must fit clearly
 //! better than all others, else nothing is chosen: a program read in the wrong dialect would cut
 //! another part.
+//!
+//! ```text
+//! `MCALL CYCLE81(…)`    siemens, as no other dialect has the word
+//! ```
+//!
+//! Not here: whether the text is a milling program at all (`ncc_frontends::recognise`).
 
 pub mod better;
 pub mod names;
@@ -273,7 +279,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         if !letter.is_ascii_uppercase() {
             if !b" \t/+-.0123456789%:".contains(&letter) && dialect.block.end.as_bytes() != [letter] {
                 let c = char::from(letter);
-                evidence.con(number, format!("`{}` is no sign of it", crate::render::source::visible(c)));
+                evidence.con(number, format!("`{}` is no sign of it", crate::render::text::visible(c)));
             }
             continue;
         }

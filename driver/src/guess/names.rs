@@ -65,7 +65,7 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
             continue;
         }
         if !b" \t/+-.0123456789:=,()[]*<>$'&".contains(&c) {
-            let sign = crate::render::source::visible(char::from(c));
+            let sign = crate::render::text::visible(char::from(c));
             evidence.con(number, format!("`{sign}` is no sign of it"));
         }
         at += 1;

@@ -183,6 +183,12 @@ impl Given {
         rows.collect::<Result<_, String>>().map(Given)
     }
 
+    /// All but one of them.
+    pub(crate) fn without(mut self, name: &str) -> Given {
+        self.0.remove(&plain(name));
+        self
+    }
+
     /// Whether anything is said of a variable.
     pub fn says(&self, name: &str) -> bool {
         self.0.contains_key(&plain(name))

@@ -1,11 +1,18 @@
 //! What a translation is asked for and what it gives back: the face of the pipeline towards the
 //! command line, and towards tests that call it without a process.
 //!
+//! ```text
+//! Job::new(from, to, "part.nc")    what is asked for
+//! Outcome { output, diagnostics, … }    what came of it
+//! ```
+//!
 //! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
 
 pub mod given;
 pub mod options;
+pub mod parameters;
 pub mod project_answers;
+pub mod start;
 
 use std::collections::BTreeSet;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -14,6 +21,7 @@ use std::sync::Arc;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_exec::maps::{Maps, Renaming};
+use ncc_exec::named_tool;
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::{AXES, AdviceKind};
@@ -30,8 +38,10 @@ use ncc_passes::{Compensating, Pass};
 use crate::job::given::Given;
 use crate::job::project_answers::Used;
 use crate::machines::pair::Machines;
-use crate::questions::{Policy, Question};
-use crate::source::called::Called;
+use crate::problem::Exit;
+use crate::questions::question::{Policy, Question};
+use crate::source::called;
+use crate::source::called_files::Called;
 use crate::source::spool::Spool;
 
 /// The pass that writes the path of the tool's centre.
@@ -76,6 +86,8 @@ pub struct Job {
     pub assumed: Vec<Diagnostic>,
     /// Numbers of tools that the source calls by name and no profile numbers, for a target without names.
     pub numbered_tools: Vec<(Text, u32)>,
+    /// Entries of the target's length table for edges of the source's tools other than the first.
+    pub further_edges: Vec<FurtherEdge>,
     /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
     pub rivals: Vec<&'static Dialect>,
     /// The handling of questions: facts that change the cut and that the program does not state.
@@ -84,6 +96,28 @@ pub struct Job {
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
     pub deny: Vec<Verdict>,
+}
+
+/// An edge of a tool other than the first, and the entry of the target's length table that has its length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FurtherEdge {
+    /// The tool's name on the source's control, where it is called so.
+    pub name: Option<Text>,
+    /// Its number there.
+    pub own: u32,
+    /// Its number on the target's control.
+    pub number: u32,
+    /// The edge, from 2 to 9.
+    pub edge: u32,
+    /// The entry.
+    pub entry: u32,
+}
+
+impl FurtherEdge {
+    /// The tool as execution of the source knows it.
+    pub fn in_source(&self) -> i64 {
+        self.name.as_deref().map_or(i64::from(self.own), named_tool)
+    }
 }
 
 impl Job {
@@ -108,6 +142,7 @@ impl Job {
             project: None,
             assumed: Vec::new(),
             numbered_tools: Vec::new(),
+            further_edges: Vec::new(),
             rivals: Vec::new(),
             questions: Policy::default(),
             allow: Vec::new(),
@@ -126,6 +161,8 @@ impl Job {
     pub fn maps(&self) -> Maps {
         let mut maps = self.machines.maps(self.to.dialect);
         maps.tool_names.extend(self.numbered_tools.iter().cloned());
+        maps.further_edges =
+            self.further_edges.iter().map(|own| ((own.number, own.edge), own.entry)).collect();
         maps
     }
 
@@ -263,12 +300,34 @@ pub struct Outcome {
     pub blocks: u64,
 }
 
+impl Failure {
+    /// Its exit code.
+    pub fn exit(self) -> Exit {
+        match self {
+            Failure::Refused => Exit::Refused,
+            Failure::VerificationFailed => Exit::VerificationFailed,
+        }
+    }
+}
+
 impl Outcome {
     /// Whether open questions alone stop the translation.
     pub fn is_asked(&self, job: &Job) -> bool {
         self.release == Err(Failure::Refused)
             && !self.questions.is_empty()
             && !self.diagnostics.iter().any(|diagnostic| job.refuses(diagnostic))
+    }
+
+    /// The exit code, by whether the output may be used.
+    pub fn exit(&self) -> Exit {
+        self.release.map_or_else(Failure::exit, |()| Exit::Done)
+    }
+
+    /// The name of the output's file; that of a subprogram that stands alone, for a control that finds them by their
+    /// files, is the one by which its callers look for it.
+    pub fn file_name(&self, machines: &Machines, to: &Dialect, source: &str) -> String {
+        let called = self.output.called().and_then(|name| called::file_of(to, name));
+        called.unwrap_or_else(|| machines.file_name(to, source, self.program_number))
     }
 
     /// How many constructs came through with a verdict.

@@ -23,7 +23,8 @@ use ncc_ir::source::Span;
 
 use super::by_time;
 use crate::job::Job;
-use crate::translate::{difference, parameter};
+use crate::job::parameters::parameter;
+use crate::translate::difference;
 
 /// The table of tools of the source's machine: lengths and radii that its profile states, and no offsets beside them.
 pub fn tables(job: &Job) -> Tables {

@@ -2,6 +2,10 @@
 //!
 //! [`pair`] holds the profiles of both sides, [`show`] lists facts with their sources, [`test`](mod@test) translates a
 //! sample for a machine and back, [`words`] has the messages. Not here: the form of a profile (`ncc_machines`).
+//!
+//! ```text
+//! profiles of both sides, a fault    pair    whether a profile answers it
+//! ```
 
 pub mod pair;
 pub mod show;

@@ -13,9 +13,6 @@ use ncc_machines::reading::{Place, Side, Told, rests_on};
 use ncc_machines::schema::{BlockNumbers, Characters as Set, FileName, ToolChangeForm};
 use ncc_machines::{Layout, Profile};
 
-use crate::job::Outcome;
-use crate::source::called;
-
 /// The profiles of both machines, where they were given.
 #[derive(Clone, Debug, Default)]
 pub struct Machines {
@@ -146,13 +143,6 @@ impl Machines {
             }
             None => self.with_extension(to, stem(source)),
         }
-    }
-
-    /// The same; a subprogram that stands alone, for a control that finds them by their files, has the name by which
-    /// its callers look for it.
-    pub fn output_name(&self, to: &Dialect, source: &str, outcome: &Outcome) -> String {
-        let called = outcome.output.called().and_then(|name| called::file_of(to, name));
-        called.unwrap_or_else(|| self.file_name(to, source, outcome.program_number))
     }
 
     /// The name of a file with the extension that the shop or the dialect has.

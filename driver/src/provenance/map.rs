@@ -20,7 +20,7 @@ use super::trace::{KINDS, Recorded};
 use crate::job::Outcome;
 use crate::render::About;
 use crate::render::report::hex;
-use crate::source::called::CalledFile;
+use crate::source::called_files::CalledFile;
 
 /// The version of the form.
 pub const VERSION: u64 = 1;

@@ -7,6 +7,10 @@
 //!
 //! Nothing here changes what a program does, and nothing is guessed: a line of which the source does not say anything
 //! has no place in it.
+//!
+//! ```text
+//! line 12 of the output    trace    bytes 87 to 103 of the source, events 40 to 42
+//! ```
 
 pub mod annotate;
 pub mod map;

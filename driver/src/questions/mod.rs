@@ -10,7 +10,7 @@
 //! A program that touches no such fact is not read again. Not here: the words (`render::questions`), and what a
 //! verb does with a question.
 
-mod question;
+pub mod question;
 pub mod race;
 
 use std::io::{self, SeekFrom};
@@ -34,8 +34,7 @@ use crate::render::questions as words;
 use crate::source::chunks::{Chunk, Chunks};
 use crate::source::{Readable, Source};
 
-pub use self::question::{Answer, Fact, Policy, Question, Reading, Shown};
-pub use self::race::Made;
+pub use self::question::{Answer, Fact, Made, Policy, Question, Reading, Shown};
 
 /// Option of the behaviour [`Behaviour::ToolWithChange`].
 const TOOL_WITH_CHANGE: &str = "tool_with_change";

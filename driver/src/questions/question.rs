@@ -1,10 +1,8 @@
 //! A question: the fact that is open, its two readings, and what a user writes to choose one.
 
-use ncc_ir::canon::{Axis, Units};
+use ncc_ir::canon::{Axis, FeedMode, Units};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::source::Span;
-
-use super::race::Made;
 
 /// What a translation does about questions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -153,4 +151,25 @@ impl Question {
         let [first, second] = &self.readings;
         if second.taken { second } else { first }
     }
+}
+
+/// What one reading makes at the first place where both differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Made {
+    /// An axis ends there, nanos of a millimetre or degree in program coordinates.
+    End(Axis, Nanos),
+    /// The centre of an arc is there along an axis of its plane, in nanos of a millimetre.
+    Centre(Axis, Nanos),
+    /// A feed, in nanos of its mode's unit: millimetres a minute, millimetres a turn, one a minute.
+    Feed(Nanos, FeedMode),
+    /// A dwell, in nanos of a second.
+    Dwell(Nanos),
+    /// The spindle turns, or not.
+    Spindle(bool),
+    /// A tool is in the spindle.
+    Tool(i64),
+    /// The reading is refused there, by this code.
+    Refused(u16),
+    /// Something else.
+    Otherwise,
 }

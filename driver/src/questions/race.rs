@@ -22,6 +22,7 @@ use ncc_ir::program::{Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 
+use super::question::Made;
 use crate::job::Job;
 use crate::machines::pair::Answer;
 use crate::review::stream::{clearances, worlds};
@@ -54,27 +55,6 @@ pub const TENTH: Nanos = ONE / 10;
 
 /// A micrometre.
 pub const MICROMETRE: Nanos = ONE / 1000;
-
-/// What one reading makes at the first place where both differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Made {
-    /// An axis ends there, nanos of a millimetre or degree in program coordinates.
-    End(Axis, Nanos),
-    /// The centre of an arc is there along an axis of its plane, in nanos of a millimetre.
-    Centre(Axis, Nanos),
-    /// A feed, in nanos of its mode's unit: millimetres a minute, millimetres a turn, one a minute.
-    Feed(Nanos, FeedMode),
-    /// A dwell, in nanos of a second.
-    Dwell(Nanos),
-    /// The spindle turns, or not.
-    Spindle(bool),
-    /// A tool is in the spindle.
-    Tool(i64),
-    /// The reading is refused there, by this code.
-    Refused(u16),
-    /// Something else.
-    Otherwise,
-}
 
 /// Two readings are not the same.
 #[derive(Clone, Debug)]

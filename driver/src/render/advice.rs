@@ -9,10 +9,11 @@ use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
 
+use super::cannot;
 use super::numbers::{millimetres, signed};
 use super::spelled::mode;
 use super::text::{plain, plain_upto};
-use super::unsupported::{self, without_radius};
+use super::unsupported::{self, m_code, without_radius};
 use super::unwritable;
 use super::words::Context;
 use crate::review::words::decimal;
@@ -74,7 +75,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::NotSupported { code, .. } if is_open(code, at.from) => vec![m_code(code)],
+        Fault::NotSupported { code, .. } if is_open(code, at.from) => unsupported::open(code, at.from),
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
@@ -95,7 +96,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             }
             all
         }
-        Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", plain(word))],
+        Fault::WordMissing { code, word } => {
+            let mut all = unsupported::missing(code, word, at.from);
+            all.extend(cannot::length_in_force(code, word, at.from));
+            all
+        }
         Fault::WordTwice { .. } => own("keep one of the two"),
         Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
         Fault::PointNotAllowed { .. } => own("write it without a point"),
@@ -350,13 +355,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::MessageAsComment
         | Fault::CodeLeftOut { .. }
         | Fault::ToolNumbered { .. }
+        | Fault::EdgeNumbered { .. }
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
-        Fault::CannotSay { what } => unwritable::help(what, at.from, at.to),
+        Fault::CannotSay { what } => {
+            cannot::help(what, at).unwrap_or_else(|| unwritable::help(what, at.from, at.to))
+        }
         Fault::RotaryTurnOpen { by, or, .. } => rotary_turn([*by, *or], at),
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
         Fault::FactUnsaid { .. } => own("say it at the head of the program"),
@@ -502,14 +510,6 @@ fn mend(at: Context) -> String {
 fn is_open(code: &str, dialect: &Dialect) -> bool {
     let number = code.strip_prefix('M').and_then(|number| number.parse::<u32>().ok());
     number.is_some_and(|number| may_be_stated(dialect.code_row(b'M', number.saturating_mul(10))))
-}
-
-/// What can be said of a code that is the machine's own.
-fn m_code(code: &str) -> String {
-    format!(
-        "`--m-code {code}=drop` if it has no effect on the cut, `--m-code {code}=carry` if the target's machine has \
-         it too, `--m-code {code}=M…` if that has another code for it; or `[[m_code]]` in the profiles"
-    )
 }
 
 /// Whether what a code does may be stated by the user: the dialect does not have it, or refuses it, and it does not name

@@ -51,6 +51,7 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     names(out, d)?;
     calls(out, d)?;
     addresses(out, d)?;
+    variants(out, d)?;
     power_on(out, &d.power_on)?;
     if !d.sources.is_empty() {
         heading(out, "Sources")?;
@@ -161,6 +162,35 @@ fn codes(out: &mut String, d: &Dialect) -> fmt::Result {
     for row in &d.code {
         let Some(name) = &row.refuse else { continue };
         writeln!(out, "{} {:<6}  {name:<38}  {}", mark(row.sure), row.code, row.source)?;
+    }
+    Ok(())
+}
+
+/// What a dictionary has under options.
+fn variants(out: &mut String, d: &Dialect) -> fmt::Result {
+    let mark = |sure: bool| if sure { ' ' } else { '?' };
+    for variant in &d.variant {
+        let when: Vec<String> =
+            variant.when.iter().map(|(option, value)| format!("{option}={value}")).collect();
+        heading(out, &format!("With {} (word, meaning or refusal, source)", when.join(", ")))?;
+        for row in &variant.code {
+            let cycle = variant.cycle.iter().find(|cycle| cycle.code == row.code);
+            let means = row.means.map(|m| m.to_string()).or_else(|| row.refuse.clone());
+            let kind = cycle.map_or_else(String::new, |cycle| format!(" {}", cycle.kind));
+            let means = means.unwrap_or_default() + &kind;
+            writeln!(out, "{} {:<6}  {means:<38}  {}", mark(row.sure), row.code, row.source)?;
+        }
+        for row in &variant.name {
+            let means = row.means.map(|m| m.to_string()).or_else(|| row.refuse.clone()).unwrap_or_default();
+            writeln!(out, "{} {:<6}  {means:<38}  {}", mark(row.sure), row.name, row.source)?;
+        }
+        for row in &variant.address {
+            let role = spaced(&format!("{:?}", row.role));
+            writeln!(out, "{} {:<6}  {role:<38}  {}", mark(row.sure), row.letter, row.source)?;
+        }
+        for row in &variant.behaviour {
+            writeln!(out, "  {:<6}  {} {}: {}", row.codes.join(" "), row.name, row.value, row.source)?;
+        }
     }
     Ok(())
 }

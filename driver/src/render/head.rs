@@ -10,6 +10,7 @@ use ncc_ir::program::numbered::Numbered;
 
 use crate::job::Job;
 use crate::questions::Question;
+use crate::render::numbers::given_number;
 use crate::render::{numbers, questions, spelled};
 
 /// The lines of the comment.
@@ -145,6 +146,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),
+        Fault::EdgeNumbered { .. } => given_number(fault),
         Fault::AssumedEdge { .. } => "edge 1 of a tool = the length entry of its number".to_owned(),
         _ => return None,
     })

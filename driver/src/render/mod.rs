@@ -2,13 +2,19 @@
 //!
 //! `words` and `advice` have the wording, `source` fetches the lines, `human` and `json` are the
 //! two forms on stderr, `summary` is the account at the end. Nothing here decides anything.
+//!
+//! ```text
+//! Fault::UnknownCode { code: "G83.5" } at 3:7    error[NC0201], the line, a mark under it, a help
+//! ```
 
 pub mod advice;
+mod cannot;
 pub mod dialects;
 pub mod explain;
 pub mod head;
 pub mod human;
 pub mod json;
+pub mod line;
 pub mod numbers;
 pub mod questions;
 pub mod report;

@@ -19,7 +19,7 @@ use crate::questions::of_translation;
 use crate::render::json::Entry;
 use crate::render::words::Context;
 use crate::render::{About, questions, summary};
-use crate::source::called;
+use crate::source::called_files;
 use crate::source::chunks::{Chunk, Chunks};
 use crate::source::not_milling::Refusal;
 
@@ -259,7 +259,7 @@ pub fn refused(
     out.flush()
 }
 
-fn called_file(file: &called::CalledFile) -> CalledFile<'_> {
+fn called_file(file: &called_files::CalledFile) -> CalledFile<'_> {
     CalledFile { file: &file.name, bytes: file.bytes, sha256: hex(&file.sha256) }
 }
 

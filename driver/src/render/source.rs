@@ -10,8 +10,9 @@ use std::ops::Range;
 use codespan_reporting::files::{Error, Files, Location};
 use ncc_ir::source::Span;
 
+use super::text::visible;
 use crate::source::Readable;
-use crate::source::called::Called;
+use crate::source::called_files::Called;
 
 /// Longest line that is shown whole, in bytes.
 const LONGEST: u64 = 160;
@@ -316,19 +317,6 @@ fn characters(source: &mut dyn Readable, from: u64, to: u64, latin1: bool) -> io
             0 => return Ok(count),
             n => count += piece[..n].iter().filter(|b| !(0x80..0xc0).contains(*b)).count(),
         }
-    }
-}
-
-/// A character that can be shown: pictures for control characters, so that none reaches a terminal.
-pub fn visible(c: char) -> char {
-    match c {
-        '\t' => '\t',
-        '\0'..='\x1f' => char::from_u32(0x2400 + c as u32).unwrap_or('\u{fffd}'),
-        '\x7f' => '\u{2421}',
-        '\u{80}'..='\u{9f}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
-            '\u{fffd}'
-        }
-        _ => c,
     }
 }
 

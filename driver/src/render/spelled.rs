@@ -19,7 +19,7 @@ pub fn found_words(found: &str) -> String {
 
 pub(crate) fn character(c: char) -> String {
     if c.is_control() || c as u32 > 0x7e {
-        format!("`{}` (U+{:04X})", super::source::visible(c), c as u32)
+        format!("`{}` (U+{:04X})", super::text::visible(c), c as u32)
     } else {
         format!("`{c}`")
     }

@@ -10,8 +10,7 @@ use ncc_ir::rank::Rank;
 
 use super::About;
 use super::human::{Loudness, told};
-use super::numbers::millimetres;
-use super::numbers::plural;
+use super::numbers::{given_number, millimetres, plural};
 use super::questions::taken;
 use super::source::Lines;
 use super::spelled::work_offset;
@@ -20,7 +19,7 @@ use super::words::{Context, words};
 use crate::job::{Failure, Outcome};
 use crate::questions::Question;
 use crate::render::head::{assumption, by_name};
-use crate::source::called::Called;
+use crate::source::called_files::Called;
 
 /// Of one phrase, so many line numbers are named.
 const MOST_LINES: usize = 6;
@@ -392,9 +391,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
             format!("{count} block {} left out", plural(u64::from(*count), "number"))
         }
         Fault::NameChanged { from, to } => format!("the name {}, as {}", plain(from), plain(to)),
-        Fault::ToolNumbered { name, number } => {
-            format!("T{number} is {}, numbered in the order of use", plain(name))
-        }
+        Fault::ToolNumbered { .. } => format!("{}, numbered in the order of use", given_number(fault)),
+        Fault::EdgeNumbered { .. } => given_number(fault),
         Fault::CodeLeftOut { code } => format!("{} left out, as stated", plain(code)),
         Fault::MessageAsComment => "messages, as comments".to_owned(),
         Fault::NameAsComment => "the program's name, as a comment".to_owned(),

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use codespan_reporting::term::termcolor::{ColorSpec, WriteColor};
 
-use super::source::visible;
+use super::text::visible;
 
 /// Longest character in UTF-8, in bytes.
 const LONGEST: usize = 4;

@@ -1,10 +1,15 @@
 //! What to type where a code is not supported.
 
-use ncc_dialects::{Dialect, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID};
+use ncc_dialects::{
+    CodeRow, DWELL_REFUSED, Dialect, MACHINE_LENGTH, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
+};
 
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
 pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
     let own = |text: &str| vec![text.to_owned()];
+    if let Some(typed) = variant(code, from).or_else(|| by_option(name, from)) {
+        return typed;
+    }
     match name {
         _ if name.starts_with("return in the main program") => vec![
             "to run it once: delete this block, and end the program with M30".into(),
@@ -40,6 +45,19 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
             let goes_without = from.option.iter().any(|row| row.name == RADIUS_UNSAID);
             std::iter::once(write).chain(goes_without.then(without_radius)).collect()
         }
+        "data input for the entry of a code in force that the program has not said" => {
+            let variable = code.rsplit_once('#').map_or("", |(_, number)| number);
+            vec![
+                format!("state the code that is in force at the start: `--value '#{variable}=NUMBER'`"),
+                "or write the number of the entry in its place: for example `P1`".into(),
+            ]
+        }
+        _ if name.ends_with("of a block before, of which entry is not known here") => {
+            let letter = name.chars().next().unwrap_or('H');
+            own(&format!(
+                "write the {letter} number in this block: for example `{code} {letter}1` for entry 1"
+            ))
+        }
         "data input for an entry whose number only the running program knows" => {
             own("write the number of the entry in its place: for example `P1`")
         }
@@ -60,6 +78,66 @@ pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
         _ if name.starts_with("circular pocket") => own(POCKET),
         _ => own("write this place another way, or see to it by hand"),
     }
+}
+
+/// The ways out of a move in machine coordinates in which the tool's length counts.
+pub(super) fn machine_length(from: &Dialect) -> Vec<String> {
+    let own = from.option.iter().find(|row| row.name == MACHINE_LENGTH);
+    let suppressed = format!(
+        "if the control leaves the length out of such blocks (MD 10760 = 1): `--from-option {MACHINE_LENGTH}=suppressed`"
+    );
+    let cancel = "else cancel the length in this block, and activate it with the next absolute Z: for example `SUPA Z0 D0`";
+    match own {
+        Some(_) => vec![suppressed, cancel.to_owned()],
+        None => vec!["cancel the length in this block, and activate it with the next absolute Z".to_owned()],
+    }
+}
+
+/// What to write where a code lacks a word.
+pub(super) fn missing(code: &str, word: &str, from: &Dialect) -> Vec<String> {
+    let add = format!("add `{}` to this block", super::text::plain(word));
+    let retract = from.cycle_row(code).is_some_and(|row| row.retract.to_string() == word)
+        && from.cycles.retained_by_all();
+    let why = format!(
+        "without {word} a control stops with an alarm, goes on with the {word} of an earlier cycle, or drills from where \
+         the tool stands: its manual does not say which"
+    );
+    std::iter::once(add).chain(retract.then_some(why)).collect()
+}
+
+/// What to type where an option decides what a word is: its name in brackets ends the fault's.
+fn by_option(name: &str, from: &Dialect) -> Option<Vec<String>> {
+    let option = name.split_once("(option ")?.1.strip_suffix(')')?;
+    let row = from.option.iter().find(|row| row.name == option)?;
+    let values = row.values.iter().filter(|value| *value != DWELL_REFUSED);
+    let typed: Vec<String> = values.map(|value| format!("`--from-option {option}={value}`")).collect();
+    Some(vec![format!("state what the control does with it: {}; else delete it", typed.join(" or "))])
+}
+
+/// The options under which the source's control has a code that it refuses else.
+pub(super) fn variant(code: &str, from: &Dialect) -> Option<Vec<String>> {
+    let same = |row: &CodeRow| row.code == code && row.means.is_some();
+    let variant = from.variant.iter().find(|variant| variant.code.iter().any(same))?;
+    let holds =
+        |option: &str, value: &str| from.option.iter().any(|row| row.name == option && row.default == value);
+    let left = variant.when.iter().filter(|(option, value)| !holds(option, value));
+    let options: Vec<String> =
+        left.map(|(option, value)| format!("--from-option {option}={value}")).collect();
+    let options = options.join(" ");
+    (!options.is_empty()).then(|| vec![format!("if the control of this program has {code}: `{options}`")])
+}
+
+/// What can be said of an M code that the dialect refuses.
+pub(super) fn open(code: &str, from: &Dialect) -> Vec<String> {
+    variant(code, from).into_iter().flatten().chain([m_code(code)]).collect()
+}
+
+/// What can be said of a code that is the machine's own.
+pub(super) fn m_code(code: &str) -> String {
+    format!(
+        "`--m-code {code}=drop` if it has no effect on the cut, `--m-code {code}=carry` if the target's machine has \
+         it too, `--m-code {code}=M…` if that has another code for it; or `[[m_code]]` in the profiles"
+    )
 }
 
 /// The option for a control that goes without compensation where no radius is named.

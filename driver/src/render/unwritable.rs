@@ -6,14 +6,14 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
+use super::unsupported;
+
 /// The ways out of what cannot be written: `what` names it.
 pub(super) fn help(what: &str, from: &Dialect, to: &Dialect) -> Vec<String> {
     let own = |text: &str| vec![text.to_owned()];
     let id = to.id.as_str();
     match what {
-        _ if what.ends_with("that is measured with the tool's length") => {
-            own("cancel the length in this block, and activate it with the next absolute Z")
-        }
+        _ if what.ends_with("that is measured with the tool's length") => unsupported::machine_length(from),
         _ if what.starts_with("a tool called ") => {
             vec![
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"

@@ -11,7 +11,7 @@ use ncc_dialects::Dialect;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::Fault;
 
-use super::numbers::{calls, millimetres, numbered, plural, rotary_turn, thousands};
+use super::numbers::{calls, given_number, millimetres, numbered, plural, rotary_turn, thousands};
 use super::spelled::{
     Counted, character, found_words, kept, mode, radii_of, radius_unknown, return_path, variables,
     work_offset,
@@ -507,10 +507,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CodeLeftOut { code } => {
             (format!("{} left out", quoted(code)), "stated to have no effect on the cut".into())
         }
-        Fault::ToolNumbered { name, number } => (
-            format!("T{number} is {}", plain(name)),
-            "numbered in the order of use: put it into this place".into(),
-        ),
+        Fault::ToolNumbered { .. } | Fault::EdgeNumbered { .. } => {
+            (given_number(fault), "numbered in the order of use: put it into this place".into())
+        }
         Fault::MessageAsComment => {
             ("message kept as a comment".into(), format!("{to} shows none while the program runs"))
         }

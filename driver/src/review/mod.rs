@@ -2,6 +2,10 @@
 //!
 //! [`stream`] executes a program whole in given worlds, [`feed`] makes records of what it does; [`diff`] and [`verify`]
 //! compare two of them. Not here: what a difference is (`ncc_diff`).
+//!
+//! ```text
+//! two programs, worlds    stream    two streams of events    diff    what differs
+//! ```
 
 pub mod diff;
 pub mod feed;

@@ -31,10 +31,10 @@ use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 
 use crate::job::Job;
+use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
 use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks};
-use crate::translate::parameter;
 use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
 
@@ -343,6 +343,7 @@ impl Run<'_> {
             }
             if !stood {
                 control.exec.stand_at(&self.job.start);
+                self.job.tool_at_start().into_iter().for_each(|tool| control.exec.hold_tool(tool));
             }
         }
         if !stood {

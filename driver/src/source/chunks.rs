@@ -1,11 +1,11 @@
 //! The source in pieces of whole lines, of bounded size whatever the file is.
 
-use std::io::{self, Read};
+use std::io::{self, Read, SeekFrom};
 use std::ops::Range;
 
 use sha2::{Digest, Sha256};
 
-use crate::source::halted;
+use crate::source::{Readable, halted};
 
 /// Bytes of a piece. Small enough that its statements stay in the second-level cache.
 const PIECE: usize = 16 * 1024;
@@ -37,6 +37,23 @@ pub enum Chunk {
     TooLong(u32, u32),
     /// The end.
     End,
+}
+
+/// Whether the last block of a text that is longer than one piece says M99.
+///
+/// # Errors
+/// Reading failed.
+pub(crate) fn ends_by_return(source: &mut dyn Readable) -> io::Result<bool> {
+    let length = source.seek(SeekFrom::End(0))?;
+    let mut last = Vec::new();
+    if length > PIECE as u64 {
+        source.seek(SeekFrom::Start(length - PIECE as u64))?;
+        source.read_to_end(&mut last)?;
+    }
+    source.rewind()?;
+    let mut blocks = last.rsplit(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    let block = blocks.find(|block| !block.is_empty() && !block.starts_with(b"%"));
+    Ok(block.is_some_and(|block| block.windows(3).any(|word| word.eq_ignore_ascii_case(b"M99"))))
 }
 
 impl<'r> Chunks<'r> {

@@ -3,7 +3,6 @@
 //! Who asks, and how long it may take, is the host's matter; runs of a program look at it by themselves
 //! ([`ncc_exec::halt`]).
 
-use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use ncc_exec::halt;
@@ -11,24 +10,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 
 use crate::problem::Problem;
 use crate::source::Source;
-
-/// The work on a source was interrupted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Interrupted {
-    /// The line that was next, from 1; `None` where no source is read.
-    pub line: Option<u64>,
-}
-
-impl fmt::Display for Interrupted {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(out, "interrupted at line {line}"),
-            None => write!(out, "interrupted"),
-        }
-    }
-}
-
-impl std::error::Error for Interrupted {}
+use crate::source::interrupted::Interrupted;
 
 /// The problem that names the line of its source at which a run was interrupted.
 ///

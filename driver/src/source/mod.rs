@@ -1,8 +1,17 @@
 //! A program's text with what is known of it before it is read: its names, called programs, the project file.
+//!
+//! ```text
+//! Source { name: "part.nc", bytes }    chunks    pieces of whole lines
+//! `M98 P2000`                          called    the text of O2000, asked of the host
+//! ```
+//!
+//! Not here: what a text means (front-ends).
 
 pub mod called;
+pub mod called_files;
 pub mod chunks;
 pub mod halted;
+pub mod interrupted;
 pub mod not_milling;
 pub mod spool;
 
@@ -15,7 +24,7 @@ use ncc_ir::diag::Diagnostic;
 
 use crate::job::project_answers::Used;
 use crate::problem::Problem;
-use crate::source::called::Called;
+use crate::source::called_files::Called;
 
 /// Bytes that can be read again, from wherever the host keeps them.
 pub trait Readable: Read + Seek {}

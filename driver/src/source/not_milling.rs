@@ -17,7 +17,8 @@ use ncc_ir::source::Span;
 
 use crate::problem::{Problem, as_write};
 use crate::render::human::boxed;
-use crate::render::json::{self, Entry};
+use crate::render::json::Entry;
+use crate::render::line;
 use crate::render::questions::{Asked, AskedAnswer};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
@@ -137,7 +138,7 @@ impl Refusal {
 
     /// The same as a line.
     pub fn line(&self, err: &mut dyn WriteColor) -> Result<(), Problem> {
-        json::line(&mut as_write(err), &self.entry()).map_err(|e| Problem::file("write", "messages", &e))
+        line::line(&mut as_write(err), &self.entry()).map_err(|e| Problem::file("write", "messages", &e))
     }
 
     /// The question that it leaves to the user: what it looks like, or a milling program.

@@ -28,10 +28,10 @@ use ncc_time::{Act, Clock, Machine, Model, Place, Timed};
 use super::blocks::Blocks;
 use super::reach::{Reach, reach, turned};
 use crate::job::Job;
+use crate::job::parameters::parameter;
 use crate::review::stream::as_stated;
 use crate::source::Source;
 use crate::source::chunks::{Chunk, Chunks};
-use crate::translate::parameter;
 use crate::verify_run::controls::fixed;
 
 /// After so many errors, reading more of the program would help nobody.

@@ -3,6 +3,10 @@
 //! [`csv`], [`payload`] and [`canon`] have every function with its time; [`tally`] sums them up for [`summary`];
 //! [`parameters`] counts what programs are judged by; [`assumed`] lists what the times rest on. Not here: the clock
 //! (`ncc_time`).
+//!
+//! ```text
+//! a program, the model of a machine    drive    every function with its start and end    csv, payload, canon
+//! ```
 
 pub mod assumed;
 pub mod blocks;

@@ -1,7 +1,7 @@
 //! What stands above an output: its name, and the lines for the operator, with what was not answered.
 
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::program::{Op, ProgramName, Stmt};
+use ncc_ir::program::ProgramName;
 use ncc_machines::reading::Told;
 
 use super::translation::Translation;
@@ -44,13 +44,4 @@ impl Translation<'_> {
         lines.extend(self.job.machines.layout().header);
         lines
     }
-}
-
-/// Whether a body says how corners are taken, at any depth.
-pub fn sets_path(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| match &stmt.op {
-        Op::SetMotionControlMode(_) => true,
-        Op::Control(control) => control.bodies().any(|body| sets_path(body)),
-        _ => false,
-    })
 }

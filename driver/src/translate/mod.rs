@@ -3,6 +3,15 @@
 //! A program streams through in pieces of whole lines until its first call, label or loop, and is
 //! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
 //! difference; the caller decides where a released output goes.
+//!
+//! ```text
+//! `translation`   what is between source and output
+//! `pipeline`      the steps, from what was read to what is released
+//! `writing`       the text, and passing it on
+//! `outcome`       what comes of it at the end
+//! ```
+//!
+//! Not here: how a difference or a refusal is told (`render`).
 
 pub mod difference;
 pub mod heading;
@@ -17,8 +26,6 @@ pub mod tools_by_name;
 mod translation;
 mod writing;
 
-pub use parametric::{bore_shift, orientation, parameter};
-
 use std::io;
 
 use ncc_ir::canon::Modes;
@@ -29,7 +36,7 @@ use crate::job::{Job, Outcome};
 use crate::provenance::trace::{Asked, Recorded, Trace};
 use crate::questions::{self, Policy};
 use crate::source::Readable;
-use crate::source::chunks::{Chunk, Chunks};
+use crate::source::chunks::{Chunk, Chunks, ends_by_return};
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -64,8 +71,11 @@ pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Ou
 }
 
 fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
+    // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
+    let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
     let mut chunks = Chunks::new(source);
     let mut translation = Translation::new(job);
+    translation.batch.whole |= returns;
     translation.record(asked);
     loop {
         match chunks.take()? {

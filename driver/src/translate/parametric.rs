@@ -4,15 +4,13 @@
 use std::collections::HashMap;
 
 use ncc_dialects::{
-    BORE_SHIFT, BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity,
-    SPINDLE_ANGLE, SystemRow,
+    BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity, SystemRow,
 };
-use ncc_exec::world::Sideways;
 use ncc_ir::canon::Modes;
 use ncc_ir::computed::computes::{Computes, Said};
 use ncc_ir::computed::open::open_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{self, Expr};
 use ncc_ir::program::valid::{deeper_calls, labels_twice};
 use ncc_ir::program::{Call, Op, Program, Stmt};
@@ -22,11 +20,12 @@ use ncc_passes::modes::own_distance;
 use ncc_passes::parametric::Parametric;
 use ncc_passes::support::known_facts::{self, Known};
 use ncc_passes::values::alarm_numbers;
-use ncc_passes::values::variables::{Digits, Renamed};
+use ncc_passes::values::variables::renamed::{Digits, Renamed};
 use ncc_passes::watch::ran_whole;
 use ncc_passes::{Target, leave_out_output, output_elsewhere};
 
 use crate::job::Job;
+use crate::job::parameters::{bore_shift, orientation, parameter};
 
 /// A number as it is typed.
 fn decimal(num: Num) -> String {
@@ -214,21 +213,11 @@ pub fn path_at_start(job: &Job) -> Option<Diagnostic> {
     (job.between_controls() && from != to && !stated).then(|| Diagnostic::new(fault, Span::default()))
 }
 
-/// Which way the source's control takes a tool off the wall of a bore, as far as it is stated.
-pub fn bore_shift(job: &Job) -> Option<Sideways> {
-    let stated = job.from.get(BORE_SHIFT);
-    Sideways::ALL.iter().find(|(name, _)| *name == stated).map(|(_, direction)| *direction)
-}
-
-/// The angle at which the source's control stops the spindle, as far as it is stated.
-pub fn orientation(job: &Job) -> Option<Num> {
-    job.from
-        .length(SPINDLE_ANGLE)
-        .filter(|_| job.from.is_chosen(SPINDLE_ANGLE))
-        .map(|angle| Num { unit: Unit::Degree, ..angle })
-}
-
-/// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
-pub fn parameter(job: &Job, option: &str) -> Option<Num> {
-    job.from.length(option)
+/// Whether a body says how corners are taken, at any depth.
+pub fn sets_path(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::SetMotionControlMode(_) => true,
+        Op::Control(control) => control.bodies().any(|body| sets_path(body)),
+        _ => false,
+    })
 }

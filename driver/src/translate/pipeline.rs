@@ -19,7 +19,7 @@ use ncc_passes::frames::machine_cuts;
 use ncc_passes::leave_out_values;
 use ncc_passes::modes::own_distance;
 use ncc_passes::support::known_facts::Known;
-use ncc_passes::values::variables::Renamed;
+use ncc_passes::values::variables::renamed::Renamed;
 use ncc_passes::watch::{ran, ran_whole};
 
 use super::parametric::{self, target};

@@ -1,5 +1,11 @@
 //! Tools that a source calls by name, for a target that calls them by number: those that no profile numbers get the next
-//! free numbers, in the order in which the program names them.
+//! free numbers, in the order in which the program names them. Edges of tools other than the first, for a target with a
+//! table of lengths: each gets an entry of its own.
+//!
+//! ```text
+//! T="MILL_10" M6      T1 M06
+//! D3                  G43 H31
+//! ```
 //!
 //! The text is looked through once before, and only where it may name tools.
 
@@ -9,30 +15,61 @@ use std::io::{self, Read, Seek};
 use memchr::memmem;
 use ncc_dialects::Role;
 use ncc_frontends::Batch;
+use ncc_ir::caps::LengthsOf;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::job::Job;
+use crate::job::{FurtherEdge, Job};
 use crate::source::chunks::{Chunk, Chunks};
+
+/// A tool as the source calls it.
+#[derive(Clone, Debug, PartialEq)]
+enum Called {
+    Name(Text),
+    Number(u32),
+}
 
 /// What the text says of tools.
 #[derive(Debug, Default)]
 struct Tools {
     named: Vec<(Text, Span)>,
     numbers: BTreeSet<u32>,
+    /// Edges other than the first.
+    edges: Vec<(Called, u32, Span)>,
+    /// Whether a tool has a computed number.
+    computed: bool,
+    selected: Option<Called>,
+    in_spindle: Option<Called>,
 }
 
 impl Tools {
     fn see(&mut self, stmts: &[Stmt]) {
         for stmt in stmts {
             match &stmt.op {
-                Op::SelectToolByName(name) if !self.named.iter().any(|(known, _)| known == name) => {
-                    self.named.push((name.clone(), stmt.span));
+                Op::SelectToolByName(name) => {
+                    if !self.named.iter().any(|(known, _)| known == name) {
+                        self.named.push((name.clone(), stmt.span));
+                    }
+                    self.selected = Some(Called::Name(name.clone()));
                 }
                 Op::SelectTool(tool) => {
                     let number = tool.literal().and_then(|number| number.whole());
-                    self.numbers.extend(number.and_then(|number| u32::try_from(number).ok()));
+                    let number = number.and_then(|number| u32::try_from(number).ok());
+                    self.numbers.extend(number);
+                    self.computed |= number.is_none();
+                    self.selected = number.map(Called::Number);
+                }
+                Op::ChangeTool => self.in_spindle = self.selected.clone(),
+                Op::UseToolEdge { edge, .. } => {
+                    let edge = edge.literal().and_then(|edge| edge.whole());
+                    let edge =
+                        edge.and_then(|edge| u32::try_from(edge).ok()).filter(|edge| (2..=9).contains(edge));
+                    if let (Some(edge), Some(tool)) = (edge, &self.in_spindle)
+                        && !self.edges.iter().any(|(own, n, _)| own == tool && *n == edge)
+                    {
+                        self.edges.push((tool.clone(), edge, stmt.span));
+                    }
                 }
                 Op::Control(control) => control.bodies().for_each(|body| self.see(body)),
                 _ => {}
@@ -41,40 +78,43 @@ impl Tools {
     }
 }
 
-/// Gives numbers to the tools of a source that need them, and says so among the job's assumptions.
+/// Gives numbers to the tools of a source that need them, and entries of the length table to their edges, and says so
+/// among the job's assumptions.
 ///
 /// # Errors
 /// The source cannot be read.
 pub fn number<F: Read + Seek>(job: &mut Job, source: &mut F) -> io::Result<()> {
-    let by_name = job.from.dialect.address.iter().any(|row| row.role == Role::Tool && row.named);
-    let to = &job.to.dialect;
-    if !by_name || job.to.caps().tools.names || to.can.flat || to.can.everything {
+    let (from, to) = (job.from.dialect, job.to.dialect);
+    let there = job.to.caps().tools;
+    let by_name = from.address.iter().any(|row| row.role == Role::Tool && row.named) && !there.names;
+    let by_edge = from.letter_for(Role::ToolEdge).is_some() && there.lengths_of == LengthsOf::Entries;
+    if !by_name && !by_edge || to.can.flat || to.can.everything {
         return Ok(());
     }
     source.rewind()?;
     let mut whole = Vec::new();
     let mut reader = job.reader(false);
-    let (mut batch, mut tools, mut names) = (Batch::default(), Tools::default(), false);
+    let (mut batch, mut tools, mut met) = (Batch::default(), Tools::default(), false);
     {
         let mut chunks = Chunks::new(source);
         loop {
             match chunks.take()? {
                 Chunk::Lines(_, range) => {
                     let text = chunks.text(range);
-                    names |= memmem::find(text, b"=\"").is_some();
+                    met |= by_name && memmem::find(text, b"=\"").is_some() || by_edge && names_edge(text);
                     whole.extend_from_slice(text);
                 }
                 Chunk::TooLong(..) => {}
                 Chunk::End => break,
             }
-            // A long text without a name at its beginning has none.
-            if !names && whole.len() > WITHOUT {
+            // A long text without a name or an edge at its beginning has none.
+            if !met && whole.len() > WITHOUT {
                 break;
             }
         }
     }
     source.rewind()?;
-    if !names {
+    if !met {
         return Ok(());
     }
     reader.read(&whole, 0, &mut batch);
@@ -82,22 +122,78 @@ pub fn number<F: Read + Seek>(job: &mut Job, source: &mut F) -> io::Result<()> {
     tools.see(&batch.stmts);
     batch.procedures.iter().for_each(|procedure| tools.see(&procedure.body));
     let maps = job.machines.maps(to);
-    let taken =
-        maps.tool_names.values().copied().chain(maps.tools.iter().flat_map(|map| map.values().copied()));
-    let mut taken: BTreeSet<u32> = taken.chain(tools.numbers).collect();
+    let of_maps = maps.tool_names.values().chain(maps.tools.iter().flat_map(|map| map.values()));
+    let mut taken: BTreeSet<u32> = of_maps.copied().chain(tools.numbers.iter().copied()).collect();
+    if by_name {
+        number_tools(job, &tools, &mut taken);
+    }
+    if by_edge {
+        taken.extend(maps.edge_entries.values());
+        number_edges(job, &tools, taken);
+    }
+    Ok(())
+}
+
+/// Gives tools the next free numbers.
+fn number_tools(job: &mut Job, tools: &Tools, taken: &mut BTreeSet<u32>) {
+    let known = job.maps().tool_names;
     let mut next = 1;
-    for (name, span) in tools.named {
-        if maps.tool_names.contains_key(&name) {
+    for (name, span) in &tools.named {
+        if known.contains_key(name) {
             continue;
         }
         while taken.contains(&next) {
             next += 1;
         }
         taken.insert(next);
-        job.assumed.push(Diagnostic::new(Fault::ToolNumbered { name: (*name).into(), number: next }, span));
-        job.numbered_tools.push((name, next));
+        job.assumed.push(Diagnostic::new(Fault::ToolNumbered { name: (**name).into(), number: next }, *span));
+        job.numbered_tools.push((name.clone(), next));
     }
-    Ok(())
+}
+
+/// Gives edges other than the first the entries that the profile of the target's machine has for them, or free ones.
+fn number_edges(job: &mut Job, tools: &Tools, mut taken: BTreeSet<u32>) {
+    let maps = job.maps();
+    let tools_of_program = taken.clone();
+    let stated: Vec<(u32, u32, u32)> = job.machines.to.iter().flat_map(|machine| machine.edges()).collect();
+    taken.extend(stated.iter().map(|(.., entry)| *entry));
+    for (tool, edge, span) in &tools.edges {
+        let number = match tool {
+            Called::Name(name) => maps.tool_names.get(name).copied(),
+            Called::Number(number) => maps.tool(*number),
+        };
+        let Some(number) = number else { continue };
+        let known = stated.iter().find(|(own, n, _)| *own == number && n == edge).map(|(.., entry)| *entry);
+        // Of a tool with a computed number, nobody knows which entries are its.
+        if known.is_none() && tools.computed || known.is_some_and(|known| tools_of_program.contains(&known)) {
+            continue;
+        }
+        let entry = known.unwrap_or_else(|| {
+            let mut free = number + 10 * edge;
+            while taken.contains(&free) {
+                free += 1;
+            }
+            job.assumed
+                .push(Diagnostic::new(Fault::EdgeNumbered { tool: number, edge: *edge, entry: free }, *span));
+            free
+        });
+        taken.insert(entry);
+        let name = match tool {
+            Called::Name(name) => Some(name.clone()),
+            Called::Number(_) => None,
+        };
+        let own = match tool {
+            Called::Number(own) => *own,
+            Called::Name(_) => number,
+        };
+        job.further_edges.push(FurtherEdge { name, own, number, edge: *edge, entry });
+    }
+}
+
+/// Whether a text may call up another edge than the first.
+fn names_edge(text: &[u8]) -> bool {
+    let edge = |behind: &[u8]| matches!(behind, [b'2'..=b'9', ..] | [b'=', b'2'..=b'9', ..]);
+    memchr::memchr2_iter(b'D', b'd', text).any(|at| edge(&text[at + 1..]))
 }
 
 /// Bytes of a text after which it is taken to name no tools if it has named none.

@@ -1,8 +1,7 @@
 //! One translation on its way: what is between source and output, piece by piece.
 
-use super::heading;
 use super::parametric::{self, target};
-use super::parametric::{bore_shift, orientation, parameter};
+use crate::job::parameters::{bore_shift, orientation, parameter};
 
 use std::collections::BTreeSet;
 
@@ -85,14 +84,13 @@ impl<'j> Translation<'j> {
             legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }
         legaliser.set_source_behaviours(job.source_behaviours(), job.from.dialect.can.change_by_hand);
-        legaliser.stand_at(&job.start);
         let maps = job.maps();
-        legaliser.set_edge_entries(maps.edge_entries.clone());
+        legaliser.set_edge_entries(maps.edge_entries.clone(), maps.further_edges.clone());
         legaliser.set_program_numbers(maps.program_numbers.clone());
         let start = Tracker { position: job.start, ..Tracker::default() };
         let folder = job.folds().then(|| Folder::new(target(job), start, job.from.dialect.caps.flat));
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
-        writer.stand_at(&job.start);
+        job.stand(&mut legaliser, &mut writer);
         writer.set_form(job.machines.form());
         if job.between_controls() {
             writer.changes_apart();
@@ -190,8 +188,8 @@ impl<'j> Translation<'j> {
 
     pub(super) fn count(&mut self) {
         let procedures = &self.batch.procedures;
-        self.sets_path |=
-            heading::sets_path(&self.batch.stmts) || procedures.iter().any(|p| heading::sets_path(&p.body));
+        self.sets_path |= parametric::sets_path(&self.batch.stmts)
+            || procedures.iter().any(|p| parametric::sets_path(&p.body));
         let blocks = self.batch.stmts.iter().filter(|s| !s.joined).count();
         self.blocks += blocks as u64;
         let told = |s: &&Stmt| !matches!(s.op, Op::Blank | Op::Comment(_));

@@ -9,7 +9,7 @@ use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
-use ncc_passes::values::variables::Renamed;
+use ncc_passes::values::variables::renamed::Renamed;
 
 use super::translation::Translation;
 use crate::verify_run::Verifier;

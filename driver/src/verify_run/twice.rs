@@ -11,7 +11,7 @@ use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Var;
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
-use ncc_passes::values::variables::Renamed;
+use ncc_passes::values::variables::renamed::Renamed;
 
 use super::facts::Other;
 use super::{Run, Verifier};

@@ -14,7 +14,7 @@ use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
 use ncc_passes::values::otherwise::{There, compares_nearly, computes_numbers, otherwise, places};
-use ncc_passes::values::variables::Renamed;
+use ncc_passes::values::variables::renamed::Renamed;
 
 use self::values::READINGS;
 use super::facts::{Other, tries_facts};

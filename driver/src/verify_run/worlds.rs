@@ -40,12 +40,12 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     source.zeroed_by_tool = job.from.dialect.can.change_by_hand || job.to.dialect.can.change_by_hand;
     target.zeroed_by_tool = source.zeroed_by_tool;
     let named = &target.renaming.tool_names;
-    source.tables.named_lengths =
-        named.iter().map(|(n, name)| (named_tool(name), target.edge_length(i64::from(*n), 1))).collect();
-    source.tables.named_entries = named
-        .iter()
-        .map(|(n, name)| (named_tool(name), target.entry_number(target.edge_entry(*n))))
-        .collect();
+    let first = named.iter().map(|(n, name)| ((named_tool(name), 1), target.edge_entry(*n)));
+    let further = job.further_edges.iter().map(|edge| ((edge.in_source(), edge.edge), edge.entry));
+    let entries: Vec<((i64, u32), u32)> = first.chain(further).collect();
+    let tables = &mut source.tables;
+    tables.named_lengths = entries.iter().map(|(edge, entry)| (*edge, target.tool_length(*entry))).collect();
+    tables.named_entries = entries.iter().map(|(edge, entry)| (*edge, target.entry_number(*entry))).collect();
     // A control without a word for it takes corners in its one way.
     let caps = &job.to.dialect.caps;
     let path = caps.modes.only_path.filter(|mode| !caps.says_path(*mode));

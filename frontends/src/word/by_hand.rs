@@ -43,8 +43,16 @@ impl Lower {
         true
     }
 
-    /// Refuses a length, or its end, beside another command of axes, where the control does.
-    pub(super) fn length_alone(&mut self, codes: &[Code], words: &Words, out: &mut Batch) {
+    /// Refuses a length, or its end, beside another command of axes, where the control does, and entry 0 of a table where
+    /// the control takes another one.
+    pub(super) fn length_alone(&mut self, codes: &[Code], words: &Words, src: Source, out: &mut Batch) {
+        let entry = words.get(self.roles.length_entry);
+        let zero = entry.filter(|word| matches!(word.value, Value::Number(digits) if digits.mantissa == 0));
+        if let Some(span) = zero.map(|word| word.span)
+            && codes.iter().any(|code| code.row.no_entry_zero)
+        {
+            self.fault(Fault::OutOfRange { word: src.text(span) }, span, out);
+        }
         if !self.settings.dialect.can.length_alone {
             return;
         }

@@ -92,7 +92,7 @@ impl Lower {
                 let number = self.entry_number(words.exprs[usize::from(place)].clone(), &entry, out);
                 let Some(known) = self.known_number(&number) else {
                     let code = format!("{} {}", row.name, src.text(entry.span)).into();
-                    let name = "data input for an entry whose number only the running program knows".into();
+                    let name = self.unknown_entry(&number).into();
                     return self.fault(Fault::NotSupported { code, name }, entry.span, out);
                 };
                 Some(known)
@@ -186,6 +186,22 @@ impl Lower {
                 (Node::Var(Var::System(System::SelectedTool)), Know::Said(tool)) => tool,
                 _ => None,
             },
+        }
+    }
+
+    /// Why the number of an entry is refused: it is the T or H code in force before the program has said one, or only
+    /// known when it runs.
+    fn unknown_entry(&self, number: &Expr) -> &'static str {
+        let asked = |node: &Node| match node {
+            Node::Var(Var::System(System::SelectedTool)) => self.state.tool == Know::Unsaid,
+            Node::Var(Var::System(System::LengthEntry)) => self.state.length_entry == Know::Unsaid,
+            _ => false,
+        };
+        match number {
+            Expr::Node(node) if asked(node) => {
+                "data input for the entry of a code in force that the program has not said"
+            }
+            _ => "data input for an entry whose number only the running program knows",
         }
     }
 

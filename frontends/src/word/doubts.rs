@@ -15,6 +15,7 @@ use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
 
+use super::in_force::AtStart;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use super::text::block::Block;
@@ -31,10 +32,12 @@ pub(super) struct ToolsNamed {
     now: Option<(Option<u32>, u32, Span)>,
     /// The last change: the tool that its block names, and the other one that waited.
     doubt: Option<(u32, u32, Span)>,
+    /// What the user has stated of the start, and what the text says itself.
+    pub(super) at_start: AtStart,
 }
 
 /// The number of a word that has one.
-fn number(word: &Word) -> Option<u32> {
+pub(super) fn number(word: &Word) -> Option<u32> {
     match word.value {
         Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
         Value::Number(_) | Value::Computed(_) | Value::None => None,

@@ -77,6 +77,9 @@ pub(super) struct Active {
     pub(super) shrinking: Option<[Num; 3]>,
     /// Feed of the cycle's own block.
     pub(super) feed: Option<Num>,
+    /// Level of return and retract plane with which it was called up last, on a control whose initial level is where the
+    /// tool stands before each block.
+    pub(super) called: Option<(Fact<ReturnLevel>, Coord)>,
 }
 
 /// Whether a cycle is in force.
@@ -102,6 +105,8 @@ pub(super) struct State {
     pub(super) work_offset: Know<u16>,
     /// Whether any length offset was said.
     pub(super) length_offset: Know<()>,
+    /// The entry of the table of lengths that was named last.
+    pub(super) length_entry: Know<u32>,
     pub(super) no_shift: Know<bool>,
     pub(super) shift_kept: Kept,
     /// What bare axis words do outside cycles.
@@ -162,6 +167,7 @@ impl State {
             return_level: Know::Lost,
             work_offset: Know::Lost,
             length_offset: Know::Lost,
+            length_entry: Know::Lost,
             no_shift: Know::Lost,
             shift_kept: Kept::Unknown,
             motion: Know::Lost,
@@ -228,9 +234,15 @@ impl State {
             return_level: self.return_level.lost(),
             work_offset: self.work_offset.lost(),
             length_offset: self.length_offset.lost(),
+            length_entry: self.length_entry.lost(),
             radius_entry: self.radius_entry.clone().lost(),
             ..State::lost()
         }
+    }
+
+    /// A length is taken up with the next Z.
+    pub(super) fn length_open(&mut self) {
+        (self.length_offset, self.level_open) = (Know::Said(()), true);
     }
 
     /// What is known after a block that may have been skipped.
@@ -242,6 +254,7 @@ impl State {
         self.return_level.join(before.return_level);
         self.work_offset.join(before.work_offset);
         self.length_offset.join(before.length_offset);
+        self.length_entry.join(before.length_entry);
         self.no_shift.join(before.no_shift);
         self.shift_kept.join(before.shift_kept);
         self.motion.join(before.motion);

@@ -2,7 +2,7 @@
 //! they depend on is settled.
 
 use ncc_dialects::Quantity;
-use ncc_ir::canon::{Axis, FeedMode, Motion};
+use ncc_ir::canon::{Axis, FeedMode, Motion, ReturnLevel};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, Op, Stmt};
 
@@ -52,6 +52,8 @@ impl Lower {
             || state.no_motion
             || state.rigid.is_some()
             || state.cycle != InForce::None
+            || self.settings.dialect.cycles.level_lost
+                && state.return_level.value() == Some(ReturnLevel::Retract)
             || state.unplaced != 0
             || state.words != Words::Cartesian
             || state.follows_polar

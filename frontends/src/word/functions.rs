@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 use super::facts::{InForce, Kept};
 use super::frames::is_frame;
 use super::lower::Lower;
-use super::sort::{Code, Words};
+use super::sort::{Code, Words, motion_of};
 use super::text::block::Block;
 use crate::Batch;
 use crate::common::Source;
@@ -21,6 +21,18 @@ use crate::common::known::Know;
 use crate::common::setting::setting;
 use crate::common::sort::{RANK_AFTER, RANK_MOTION, RANK_WORDS};
 use crate::common::words::{Value, Word};
+
+/// Whether a code takes the axis words of its block, so that they are no move.
+fn takes_axes(meaning: Meaning) -> bool {
+    is_frame(meaning)
+        || matches!(
+            meaning,
+            Meaning::GoToReference { .. }
+                | Meaning::SetData
+                | Meaning::StorePosition(_)
+                | Meaning::UseToolLength { .. }
+        )
+}
 
 impl Lower {
     /// The block's functions, in the order in which they happen.
@@ -34,9 +46,10 @@ impl Lower {
         out: &mut Batch,
     ) {
         if self.change_by_hand(codes, words, block.span, src, out) {
+            self.lose_level(true);
             return;
         }
-        self.length_alone(codes, words, out);
+        self.length_alone(codes, words, src, out);
         let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
         if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
             self.option(CHANGE_IN_BLOCK, change.span, out);
@@ -125,7 +138,12 @@ impl Lower {
         self.corrector(words, src, out);
         // The length is in force by now whose radius may be meant.
         self.compensation(codes, words, src, out);
+        let others = codes.iter().any(|code| takes_axes(code.meaning));
+        let moves = motion.iter().any(|code| {
+            motion_of(code.meaning).is_some() || matches!(code.meaning, Meaning::StraightProbe(_))
+        }) || !others && self.has_axis_word(words);
         self.motion_codes(motion, dwell, block.span, words, src, out);
+        self.lose_level(moves);
         for code in after {
             self.skip_in_tail(block, code, level);
             self.function(code, words, src, out);
@@ -321,11 +339,7 @@ impl Lower {
             self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
-            let number = match word.value {
-                Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
-                Value::Number(_) | Value::Computed(_) | Value::None => None,
-            };
-            self.state.tool = Know::Said(number);
+            self.tool_in_force(&word);
             self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);
@@ -417,11 +431,7 @@ impl Lower {
                     let edge = Expr::int(1);
                     return self.push(code.span, Op::UseToolEdge { edge, said: true }, out);
                 }
-                let Some(word) = word else {
-                    let word = char::from(self.roles.length_entry).to_string().into();
-                    let code_text = code.row.code.as_str().into();
-                    return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
-                };
+                let Some(word) = word else { return self.length_as_before(code, words, out) };
                 return self.length_offset(&word, code.span.to(word.span), words, src, out);
             }
             Meaning::UseToolLength { added } => return self.stated_length(code, added, words, src, out),
@@ -493,12 +503,17 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        self.state.length_offset = Know::Said(());
-        self.state.level_open = true;
+        self.entry_in_force(word);
         self.length_named(word, out);
-        let Some(entry) = self.entry(word, words, src, out) else {
-            return;
-        };
+        match self.entry(word, words, src, out) {
+            Some(entry) => self.use_entry(entry, span, words, out),
+            None => self.state.length_open(),
+        }
+    }
+
+    /// Takes up a length by its entry, with the next Z.
+    pub(super) fn use_entry(&mut self, entry: Expr, span: Span, words: &Words, out: &mut Batch) {
+        self.state.length_open();
         let with_z = words.get(b'Z').is_some();
         if self.assume && !with_z && !std::mem::replace(&mut self.reported.offset_with_z, true) {
             out.report(Fault::AssumedOffsetWithZ, span);

@@ -20,6 +20,7 @@ mod facts;
 mod fast;
 mod frames;
 mod functions;
+mod in_force;
 mod lower;
 mod macros;
 mod moves;

@@ -166,7 +166,14 @@ fn dwell_in_seconds_or_milliseconds() {
 #[test]
 fn length_offsets() {
     assert_eq!(after_head("fanuc", "G43 H2 Z5.\nG49\n"), ["LENGTH 2", "& TRAVERSE Z5.", "LENGTH 0"]);
-    assert_eq!(faults("fanuc", "G43 Z5.\n"), ["WordMissing { code: 'G43', word: 'H' } at 'G43'"]);
+    // H stays in force, also behind G49; where it was never said, or may be another one, it is asked for.
+    assert_eq!(after_head("fanuc", "G43 H2 Z5.\nG49\nG43 Z6.\n")[3..], ["LENGTH 2", "& TRAVERSE Z6."]);
+    let text = "G21 G90\nG43 Z5.\nM30\n";
+    let missing = "WordMissing { code: 'G43', word: 'H' } at 'G43'";
+    assert!(diagnostics(&read("fanuc", text), text).contains(&missing.to_owned()));
+    let unknown = "NotSupported { code: 'G43', name: 'H of a block before, of which entry is not known here' } at 'G43'";
+    assert_eq!(faults("fanuc", "/G43 H2 Z5.\nG43 Z6.\n"), [unknown]);
+    assert_eq!(faults("fanuc", "G43 H#1 Z5.\nG43 Z6.\n"), [unknown]);
     let once = |id, text: &str| {
         assumptions(id, text).into_iter().filter(|d| d.starts_with("AssumedOffsetWithZ")).collect::<Vec<_>>()
     };

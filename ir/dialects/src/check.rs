@@ -27,6 +27,7 @@ pub(crate) struct Places {
     pub(crate) option: Vec<Range<usize>>,
     pub(crate) behaviour: Vec<Range<usize>>,
     pub(crate) data: Vec<Range<usize>>,
+    pub(crate) variant: Vec<Range<usize>>,
 }
 
 /// Kinds of cycles, as `ncc_ir::program::cycle::CycleKind::name` has them.
@@ -65,34 +66,72 @@ pub(crate) fn spread(dialect: &mut Dialect, places: &mut Places) -> Result<(), F
     open_behaviours(dialect, places)
 }
 
-/// Checks the rows of behaviours, and makes an option of each open one.
+/// Checks the rows of behaviours, and makes an option of each open one; of those of variants too, so that an option can be
+/// chosen whatever the order.
 fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fault> {
-    for (at, row) in dialect.behaviour.iter().enumerate() {
+    let of_variants = dialect.variant.iter().enumerate().flat_map(|(at, variant)| {
+        let when: Vec<String> =
+            variant.when.iter().map(|(name, value)| format!("`{name}={value}`")).collect();
+        let counts = format!(" It counts with {}.", when.join(", "));
+        variant.behaviour.iter().map(move |row| (row, at, counts.clone(), true))
+    });
+    let own = dialect.behaviour.iter().enumerate().map(|(at, row)| (row, at, String::new(), false));
+    let mut options: Vec<(OptionRow, Range<usize>)> = Vec::new();
+    for (row, at, counts, of_variant) in own.chain(of_variants) {
+        let rows = if of_variant { &places.variant } else { &places.behaviour };
         let Some((behaviour, _)) = row.meaning() else {
-            return Err(fault(&row.name, "is no behaviour, or has no such value", &places.behaviour, at));
+            return Err(fault(&row.name, "is no behaviour, or has no such value", rows, at));
         };
         if !row.others.iter().all(|name| behaviour.value(name).is_some()) {
-            return Err(fault(&row.name, "has no value of these `others`", &places.behaviour, at));
+            return Err(fault(&row.name, "has no value of these `others`", rows, at));
         }
         let name = behaviour.option();
-        if !row.open || dialect.option.iter().any(|option| option.name == name) {
+        let mut known = dialect.option.iter().chain(options.iter().map(|(option, _)| option));
+        if !row.open || known.any(|option| option.name == name) {
             continue;
         }
         let values = behaviour.values().iter().chain([&UNKNOWN]);
         let doc = format!(
             "What becomes of the {}. `{UNKNOWN}`: ncc runs the program with each value, the \
-                           usual one (`{}`) first, and reports where they differ.",
+                           usual one (`{}`) first, and reports where they differ.{counts}",
             behaviour.about(),
             row.value
         );
-        dialect.option.push(OptionRow {
+        let option = OptionRow {
             name,
             values: values.map(|value| (*value).to_owned()).collect(),
             default: UNKNOWN.to_owned(),
             doc,
             source: row.source.clone(),
-        });
-        places.option.push(places.behaviour.get(at).cloned().unwrap_or_default());
+        };
+        options.push((option, rows.get(at).cloned().unwrap_or_default()));
+    }
+    for (option, place) in options {
+        dialect.option.push(option);
+        places.option.push(place);
+    }
+    Ok(())
+}
+
+/// Checks that the options of variants are there, and that their rows fit into the dictionary.
+pub(crate) fn variants(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
+    for (at, variant) in dialect.variant.iter().enumerate() {
+        let wrong = |row: &str, wrong| fault(row, wrong, &places.variant, at);
+        for (option, value) in &variant.when {
+            let row = dialect.option.iter().find(|row| row.name == *option);
+            let row = row.ok_or_else(|| wrong(option, "is no option, so that the variant never holds"))?;
+            if !row.values.contains(value) {
+                return Err(wrong(value, "is no value of this option, so that the variant never holds"));
+            }
+            if variant.when.len() == 1 && row.default == *value {
+                return Err(wrong(value, "is the option's default, so that the variant always holds"));
+            }
+        }
+        let mut with = dialect.clone();
+        variant.put_into(&mut with);
+        let own = |(wrong, _): Fault| (wrong, places.variant.get(at).cloned());
+        spread(&mut with, &mut Places::default()).map_err(own)?;
+        index(&with, &Places::default()).map_err(own)?;
     }
     Ok(())
 }

@@ -67,6 +67,9 @@ pub struct CodeRow {
     /// Whether a length offset, or a radius, without its word is that of the tool in the spindle.
     #[serde(default)]
     pub own_tool: bool,
+    /// Whether entry 0 of a table is refused, because the control takes another one.
+    #[serde(default)]
+    pub no_entry_zero: bool,
     /// Whether its block must say a feed.
     #[serde(default)]
     pub own_feed: bool,
@@ -134,6 +137,7 @@ impl Dialect {
             words: String::new(),
             turns: String::new(),
             blocks: String::new(),
+            no_entry_zero: false,
             own_feed: false,
             feed_stays: false,
             feed_mode: None,

@@ -1,5 +1,6 @@
 //! Rows of canned cycles and of patterns of positions.
 
+use ncc_ir::expr::num::{Num, Unit};
 use serde::Deserialize;
 
 use crate::power_on::{ApproachName, ReturnLevelName};
@@ -22,6 +23,12 @@ pub struct CycleRules {
     /// Whether words that stay in force are measured as the distance mode of each further block has it, not
     /// as they were when they were said.
     pub measured_anew: bool,
+    /// Whether the initial level of a hole is where the tool stands before its block; else where it stood before the
+    /// first hole of the series.
+    pub level_of_block: bool,
+    /// Whether every move that is no cycle's, and the code that ends a cycle, make the initial level the level of return
+    /// again.
+    pub level_lost: bool,
     /// Whether a cycle works along the normal of any plane, with that axis's letter for the depth.
     pub any_plane: bool,
     /// Whether words of rotary axes can stand in a cycle's block.
@@ -83,6 +90,13 @@ pub struct CycleRow {
     /// Whether the dwell must be said.
     #[serde(default)]
     pub dwell_needed: bool,
+    /// Of pecks, milliseconds that the control dwells by itself after each of them, at the bottom too.
+    #[serde(default)]
+    pub pause: Option<u32>,
+    /// Of pecks, whether each goes out to where the tool is left after the hole, and down at feed; else by rapid to the
+    /// retract plane and back to the clearance.
+    #[serde(default)]
+    pub from_return: bool,
     /// Whether it works along its own letter's axis alone, where other cycles work in any plane.
     #[serde(default)]
     pub one_plane: bool,
@@ -110,6 +124,12 @@ pub struct CycleRow {
 }
 
 impl CycleRow {
+    /// Seconds that the control dwells by itself after each peck.
+    pub fn own_pause(&self) -> Option<Num> {
+        let pause = self.pause?;
+        Some(Num { mantissa: i64::from(pause), scale: 3, point: true, unit: Unit::Second }.trimmed())
+    }
+
     /// What the control does of itself in it.
     pub fn own(&self) -> ncc_ir::caps::Own {
         ncc_ir::caps::Own { dwells_turned: self.dwells_turned, turns_on: self.turns_on }

@@ -5,8 +5,16 @@
 //! from word to meaning, the other from meaning to word, so that they cannot drift apart. A word
 //! that a dictionary does not have, or names only to refuse it, is never translated.
 //!
+//! ```text
+//! [[code]]
+//! code = "G83"
+//! cycle = "drill-peck"
+//! source = "the manual and its page"
+//! ```
+//!
 //! Not here: lexing, lowering and layout. A dictionary says what, never how.
 
+mod behaviours;
 mod caps;
 mod check;
 mod codes;
@@ -23,8 +31,10 @@ mod repeats;
 mod schema;
 mod settings;
 mod stored;
+mod variants;
 mod words;
 
+pub use behaviours::{BehaviourRow, Sureness};
 pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
@@ -40,10 +50,11 @@ pub use settings::{
     AFTER_MOTION, ANGLE_RANGE, ARC_CENTRES, ARC_TOLERANCE, ARC_TOLERANCE_INCH, ARC_TOLERANCE_PART,
     ARC_WITHOUT_CENTRE, AT_ZERO, BLOCK_SKIP, BORE_SHIFT, BREAK_LIFT, BY_HAND, CALCULATOR, CALL_DEPTH,
     CHANGE_IN_BLOCK, COMPUTED_DWELL, CYCLE_APPROACH, CYCLE_BESIDE_MOTION, DECIMAL_POINT, DWELL_UNIT,
-    FROM_START, FROM_ZERO, FURTHER_POINT, INTEGER_FEED, MACHINE_UNITS, MACHINE_WITHOUT_AXIS, MACRO_DEPTH,
-    MOTION_CANCELS, MOTION_DRILLED, NO_RADIUS, NOTHING, PATH_TOLERANCE, PECK_CLEARANCE, PROGRAM_NAMES,
-    RADIUS_UNSAID, REPEAT_WORD, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, SPINDLE_ANGLE, STORED_POSITION,
-    STRAIGHT_LINE, SettingError, Settings, TAPPING, TOOL_CHANGE,
+    FROM_START, FROM_ZERO, FURTHER_POINT, INTEGER_FEED, LEFT_OUT, MACHINE_LENGTH, MACHINE_UNITS,
+    MACHINE_WITHOUT_AXIS, MACRO_DEPTH, MOTION_CANCELS, MOTION_DRILLED, NO_RADIUS, NOTHING, PATH_TOLERANCE,
+    PECK_CLEARANCE, PROGRAM_NAMES, RADIUS_UNSAID, REPEAT_WORD, RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST,
+    SPINDLE_ANGLE, STORED_POSITION, STRAIGHT_LINE, SettingError, Settings, TAP_DWELL, TAPPING, TOOL_CHANGE,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};
+pub use variants::{VariantBlock, VariantCan, VariantRow};
 pub use words::{Address, Bare, NumberRules, PointRule, Quantity, Role};

@@ -240,6 +240,7 @@ impl<'t> Texts<'t> {
         let wrong = |(fault, at): check::Fault| told(fault.at(at.and_then(|span| self.place(span))));
         check::spread(&mut dialect, &mut places).map_err(wrong)?;
         dialect.index = check::index(&dialect, &places).map_err(wrong)?;
+        check::variants(&dialect, &places).map_err(wrong)?;
         dialect.caps = caps(&dialect);
         Ok(dialect)
     }
@@ -279,6 +280,7 @@ fn places(tree: &DeTable<'_>) -> Places {
         option: rows("option"),
         behaviour: rows("behaviour"),
         data: rows("data"),
+        variant: rows("variant"),
     }
 }
 

@@ -216,7 +216,7 @@ pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops
 }
 
 /// The key as it is compared: `G1` is `G01`.
-fn same(key: &str) -> String {
+pub(crate) fn same(key: &str) -> String {
     let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
     let (letters, number) = key.split_at(letters);
     match number.trim_start_matches('0') {

@@ -10,6 +10,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::caps::Caps;
 use serde::Deserialize;
 
+use crate::behaviours::BehaviourRow;
 use crate::codes::{CodeIndex, CodeRow};
 use crate::corners::CornerRules;
 use crate::cycles::{CycleRow, CycleRules, PatternRow};
@@ -19,6 +20,7 @@ use crate::names::{CallRow, NameRow, ParameterRole};
 use crate::power_on::{PathName, PowerOn, SafeStart};
 use crate::repeats::{PolarRules, RepeatRules};
 use crate::stored::{DataRow, SystemRow};
+use crate::variants::VariantRow;
 
 /// A dialect's dictionary.
 #[derive(Clone, Debug, Deserialize)]
@@ -109,6 +111,9 @@ pub struct Dialect {
     /// What codes do besides their names.
     #[serde(default)]
     pub behaviour: Vec<BehaviourRow>,
+    /// Rows that hold where options are chosen so.
+    #[serde(default)]
+    pub variant: Vec<VariantRow>,
     /// Capabilities that follow from no other row.
     #[serde(default)]
     pub can: Can,
@@ -348,50 +353,6 @@ pub struct OptionRow {
     pub doc: String,
     /// Who says so.
     pub source: String,
-}
-
-/// What codes of the control do besides their names: a fact that no program states.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BehaviourRow {
-    /// Its name: `spindle-at-stop`.
-    pub name: String,
-    /// The value: `stops`. Of an open one, the usual value, which is executed first.
-    pub value: String,
-    /// A parameter, a machine datum or the builder decides it. Then it is an option too, of the same name with `_`,
-    /// whose value `unknown` leaves it open; and every program that comes to it is executed with the other values.
-    #[serde(default)]
-    pub open: bool,
-    /// Of an open one: the values that this control can have besides the usual one. Without it all values that are not rare.
-    #[serde(default)]
-    pub others: Vec<String>,
-    /// Codes that it belongs to, for readers of the tables.
-    #[serde(default)]
-    pub codes: Vec<String>,
-    /// How sure the source is.
-    pub sure: Sureness,
-    /// Who says so; of an open one, what decides it.
-    pub source: String,
-}
-
-impl BehaviourRow {
-    /// The behaviour and its value; `None` where one of the names is none.
-    pub fn meaning(&self) -> Option<(Behaviour, u8)> {
-        let behaviour = Behaviour::named(&self.name)?;
-        Some((behaviour, behaviour.value(&self.value)?))
-    }
-}
-
-/// How sure the source of a behaviour is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sureness {
-    /// A manual or the control's own code, read; or the control was run.
-    Read,
-    /// A text that names the manual's page.
-    SecondHand,
-    /// Common knowledge of the trade, without a page.
-    Memory,
 }
 
 /// Capabilities that follow from no other row.

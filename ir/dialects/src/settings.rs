@@ -8,6 +8,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::expr::system::System;
 use ncc_ir::geometry::round::{ArcRule, MOST_SHORT};
 use ncc_ir::program::cycle::Approach;
 
@@ -16,6 +17,8 @@ use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
 use crate::schema::Dialect;
+use crate::stored::SystemRow;
+use crate::variants;
 
 /// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
@@ -23,6 +26,12 @@ pub const CYCLE_APPROACH: &str = "cycle_approach";
 
 /// Option of a dictionary: what tapping is without a code that makes it rigid, `chuck` or `rigid`.
 pub const TAPPING: &str = "tapping";
+
+/// Option of a dictionary: what becomes of the dwell of a rigid tapping cycle, during which spindle and drilling axis stand.
+pub const TAP_DWELL: &str = "tap_dwell";
+
+/// Value of [`TAP_DWELL`]: it is left out, and told.
+pub const LEFT_OUT: &str = "left-out";
 
 /// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
 /// degrees) or `half` a turn to each side (the sine's -90 to 90).
@@ -75,7 +84,7 @@ pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 /// Value of that option: the block's axes move first.
 pub const AFTER_MOTION: &str = "after-motion";
 
-/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused.
+/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused; or a code of a variant.
 pub const TOOL_CHANGE: &str = "tool_change";
 
 /// Value of [`TOOL_CHANGE`]: a block of its own that stops the program.
@@ -99,6 +108,9 @@ pub const STORED_POSITION: &str = "stored_position";
 
 /// Option of a dictionary: where the second and further reference points are: `zero`, the machine's zero.
 pub const FURTHER_POINT: &str = "further_point";
+
+/// Option of a dictionary: whether the tool's length counts in a block of machine coordinates.
+pub const MACHINE_LENGTH: &str = "machine_length";
 
 /// Option of a dictionary: what cutter radius compensation does where no entry of a radius has been programmed.
 pub const RADIUS_UNSAID: &str = "radius_without_d";
@@ -158,8 +170,12 @@ pub const SPINDLE_ANGLE: &str = "spindle_angle";
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The dictionary.
+    /// The dictionary, as the options make it.
     pub dialect: &'static Dialect,
+    /// The dictionary as it was before any option was chosen.
+    plain: &'static Dialect,
+    /// The units at power-on, as they are stated for this run.
+    units: Option<Units>,
     chosen: BTreeMap<String, String>,
     /// Whole numbers that variables hold at the start, as the user states them, by their names.
     values: BTreeMap<String, i64>,
@@ -195,7 +211,24 @@ fn is_amount(text: &str) -> bool {
 impl Settings {
     /// The dialect with the working choice for every option.
     pub fn new(dialect: &'static Dialect) -> Settings {
-        Settings { dialect, chosen: BTreeMap::new(), values: BTreeMap::new() }
+        Settings { dialect, plain: dialect, units: None, chosen: BTreeMap::new(), values: BTreeMap::new() }
+    }
+
+    /// Puts another dictionary in the place of this one: the same with rows of the user's.
+    pub fn change(&mut self, with: impl FnOnce(&'static Dialect) -> &'static Dialect) {
+        self.plain = with(self.plain);
+        self.derive();
+    }
+
+    /// Finds the dictionary anew as the options make it.
+    fn derive(&mut self) {
+        self.dialect = variants::chosen(self.plain, |option| self.get(option).to_owned());
+        if self.get(DWELL_UNIT) == "milliseconds" && self.is_chosen(DWELL_UNIT) {
+            self.dialect = in_milliseconds(self.dialect);
+        }
+        if let Some(units) = self.units {
+            self.dialect = with_units(self.dialect, units);
+        }
     }
 
     /// Chooses a value.
@@ -213,9 +246,7 @@ impl Settings {
             return Err(SettingError::NoValue { option: option.to_owned(), values: row.values.clone() });
         }
         self.chosen.insert(option.to_owned(), value.to_owned());
-        if option == DWELL_UNIT && value == "milliseconds" {
-            self.dialect = in_milliseconds(self.dialect);
-        }
+        self.derive();
         Ok(())
     }
 
@@ -227,6 +258,22 @@ impl Settings {
     /// The whole number that a variable is stated to hold at the start.
     pub fn stated_value(&self, name: &str) -> Option<i64> {
         self.values.get(name).copied()
+    }
+
+    /// The same of the variable by which a program asks this of the control, and the variable's name.
+    pub fn stated_of(&self, asked: &System) -> Option<(String, i64)> {
+        if self.values.is_empty() {
+            return None;
+        }
+        let name = self.variable_of(asked)?;
+        let value = self.stated_value(&name)?;
+        Some((name, value))
+    }
+
+    /// The name, without signs, of the variable by which a program asks this of the control.
+    pub fn variable_of(&self, asked: &System) -> Option<String> {
+        let rows = self.dialect.system.iter().filter(|row| row.counts(self));
+        rows.flat_map(SystemRow::says).find(|(says, _)| says == asked).map(|(_, name)| name)
     }
 
     /// Whether such a number is stated of any variable.
@@ -251,7 +298,8 @@ impl Settings {
         if let Some(row) = self.dialect.power_on.units.as_ref().filter(|row| row.always) {
             return Units::from(row.value) == units;
         }
-        self.dialect = with_units(self.dialect, units);
+        self.units = Some(units);
+        self.derive();
         true
     }
 

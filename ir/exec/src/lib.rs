@@ -4,6 +4,12 @@
 //! Everything that a program does not say comes from the [`World`]. Events are in machine
 //! coordinates, so that a lost work offset or a wrong length entry shows. Statements whose meaning
 //! is not executed yet (variables, jumps) are refused by name.
+//!
+//! ```text
+//! HOLE(X 10mm)  in a world with work offset (100, 50, -20)    three moves in machine coordinates, each with its feed
+//! ```
+//!
+//! Not here: who supplies the world, and what is told of a difference (the driver).
 
 mod ask;
 mod at_codes;
@@ -34,10 +40,10 @@ pub use moves::compensation::{Compensation, NOWHERE, STILL};
 pub use moves::fine::Increments;
 pub use moves::pace::{DEGREES, LINEAR};
 pub use moves::rotary::end as rotary_end;
-pub use run::Runner;
 pub use run::again;
 pub use run::go::{Halt, Progress};
 pub use run::left::Again;
+pub use run::{MOST_STEPS, Runner};
 
 use crate::world::World;
 use frames::frame::Length;

@@ -37,6 +37,9 @@ pub struct Maps {
     /// The entry of the target's length table that has a tool's length, by the target's number of the
     /// tool, where it is not that number.
     pub edge_entries: BTreeMap<u32, u32>,
+    /// The entry of the target's length table that another edge than the first of a tool has, by the target's number of
+    /// the tool and the edge.
+    pub further_edges: BTreeMap<(u32, u32), u32>,
 }
 
 impl Maps {

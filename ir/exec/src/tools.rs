@@ -213,11 +213,12 @@ impl Exec {
         })
     }
 
-    /// What is in force of an entry stays as it is.
+    /// What is in force of an entry stays as it is. An entry that another has replaced, or a cancellation, is in force no
+    /// more, whether Z has been commanded since or not.
     fn hold_entry(&mut self, entry: u32, kept: bool, span: Span) -> Result<(), Diagnostic> {
         let counts = |length: Length| length == Length::Entry(entry) || is_edge_of(entry, length);
         let length = Length::Value(self.world.tool_length(entry));
-        if !kept && (counts(self.modes.length) || self.waiting.is_some_and(counts)) {
+        if !kept && counts(self.waiting.unwrap_or(self.modes.length)) {
             return self.not_executed("another length for the tool that is in use", span);
         }
         if counts(self.modes.length) {

@@ -122,11 +122,10 @@ pub struct Tables {
     pub radius_wears: BTreeMap<u32, Nanos>,
     /// Points of the machine, in machine coordinates, axis by axis.
     pub references: BTreeMap<ReferencePoint, [Option<Nanos>; AXES]>,
-    /// Lengths of edge 1 of tools with a name.
-    pub named_lengths: BTreeMap<i64, Nanos>,
-    /// The entry that edge 1 of a tool with a name has, as both worlds of a comparison know it: its radius is that of
-    /// this entry.
-    pub named_entries: BTreeMap<i64, u32>,
+    /// Lengths of edges that are no entry on this control and one on the other, by tool and edge.
+    pub named_lengths: BTreeMap<(i64, u32), Nanos>,
+    /// That entry, as both worlds of a comparison know it: the radius of the edge is that of this entry.
+    pub named_entries: BTreeMap<(i64, u32), u32>,
     /// The entry that edge 1 of a tool has, where it is not the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
 }
@@ -357,7 +356,9 @@ impl World {
         let entry = known.unwrap_or(if tool == -1 { 97 } else { tool as u32 | FOREIGN });
         match edge {
             0 => 0,
-            1 if self.tables.named_lengths.contains_key(&tool) => self.tables.named_lengths[&tool],
+            _ if self.tables.named_lengths.contains_key(&(tool, edge)) => {
+                self.tables.named_lengths[&(tool, edge)]
+            }
             1 if entry != 0 && known.is_ok() => self.tool_length(self.edge_entry(entry)),
             1 if entry != 0 => self.own_length(entry),
             _ if self.seed == 0 => 0,

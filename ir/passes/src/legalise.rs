@@ -3,6 +3,12 @@
 //! It scans each piece once. Where no statement needs work, as in nearly all of a long program, the
 //! piece is left as it is and only the tool's position is followed. Bodies of structured control are
 //! not looked into: a target that has such control can say everything, or it is `computing`.
+//!
+//! ```text
+//! stmts of a piece ── arrival ── needs ── placing ── wording ── departure ──▶ stmts that the target can say
+//! ```
+//!
+//! Not here: what a pass does: each is a `PASS` in its own file.
 
 mod computing;
 pub(crate) mod messages;
@@ -11,19 +17,38 @@ mod settings;
 mod subprograms;
 mod tool_data;
 
-use std::rc::Rc;
+use crate::arcs::arc_form::ArcFormState;
+use crate::arcs::expand_corners::ExpandCornersState;
+use crate::frames::expand_frames::ExpandFramesState;
+use crate::frames::frame_increments::FrameIncrementsState;
+use crate::frames::machine_moves::MachineMovesState;
+use crate::frames::origin_shift::OriginShiftState;
+use crate::frames::work_offset::WorkOffsetState;
+use crate::holes::expand_cycles::ExpandCyclesState;
+use crate::modes::at_once::AtOnceState;
+use crate::modes::feed_time::FeedTimeState;
+use crate::modes::feed_unit::FeedUnitState;
+use crate::modes::one_move::OneMoveState;
+use crate::modes::path_control::PathControlState;
+use crate::pass::{First, Shared};
+use crate::support::states::States;
+use crate::threads::in_step::ThreadsState;
+use crate::threads::taps::TapsState;
+use crate::tools::length_axis::LengthAxisState;
+use crate::tools::length_by_hand::LengthByHandState;
+use crate::tools::offset_with_z::OffsetWithZState;
+use crate::tools::tool_axis::ToolAxisState;
+use crate::tools::tool_change::ToolChangeState;
+use crate::tools::tool_edge::ToolEdgeState;
+use crate::tools::z_after_change::ZAfterChangeState;
 
 use crate::PASSES;
 use crate::Target;
-use crate::arcs::{arc_form, compensated_modes, convert_arcs, cutter_radius, expand_corners, polar_words};
-use crate::flow::{
-    expand_calls, expand_repeats, number_names, repeat_ends, skip_levels, specialise_procedures,
-};
-use crate::frames::{
-    expand_frames, frame_increments, machine_moves, origin_shift, rotary_turns, work_offset,
-};
-use crate::holes::{expand_cycles, return_plane};
-use crate::modes::{at_once, feed_time, feed_unit, one_distance, one_move, path_control};
+use crate::arcs::{arc_form, convert_arcs};
+use crate::flow::{expand_calls, expand_repeats, number_names, repeat_ends, specialise_procedures};
+use crate::frames::expand_frames;
+use crate::holes::return_plane;
+use crate::modes::{feed_unit, one_distance};
 use crate::pass::{Moment, Pass, Piece};
 use crate::support::known_facts;
 use crate::support::needs::{
@@ -31,70 +56,37 @@ use crate::support::needs::{
     PATTERN, POLAR, SHIFT, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use crate::support::walk::Walk;
-use crate::support::write::EXACT;
-use crate::threads::{in_step, taps};
-use crate::tools::{
-    length_axis, length_by_hand, offset_with_z, spindle_angle, tool_axis, tool_change, tool_edge,
-    z_after_change,
-};
+use crate::tools::tool_axis;
 use crate::watch::ran;
 use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Modes};
-use ncc_ir::caps::{Caps, PolarForm};
+use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, Num};
-use ncc_ir::geometry::round::ArcRule;
-use ncc_ir::program::kinds::moves;
 use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// What the tool is followed for.
+const FOLLOWED: u32 = THREAD
+    | PATTERN
+    | CYCLE
+    | ARC
+    | LENGTH
+    | EVERY
+    | CALL
+    | EDGE
+    | TABLE
+    | FRAME
+    | MACHINE
+    | POLAR
+    | TOOL_AXIS
+    | CORNER
+    | AT_ONCE;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
 pub struct Legaliser {
-    pub(crate) target: Target,
-    /// What the target lacks.
-    pub(crate) lacks: u32,
-    /// Whether words of the source may have a measure of their own that the target's cannot have.
-    pub(crate) measures: bool,
-    /// Which arcs the source's control accepts, if the target's has another rule.
-    pub(crate) source_arcs: Option<ArcRule>,
-    /// Whether feeds are said again behind a change of units.
-    pub(crate) feed_again: bool,
-    /// Whether the target counts F of some moves otherwise than the source.
-    pub(crate) times_differ: bool,
-    /// Whether any pass wants to know where the tool is.
-    pub(crate) follow: bool,
-    pub(crate) walk: Walk,
-    pub(crate) cycles: expand_cycles::ExpandCyclesState,
-    pub(crate) length: offset_with_z::OffsetWithZState,
-    pub(crate) one: one_move::OneMoveState,
-    pub(crate) work: work_offset::WorkOffsetState,
-    pub(crate) shift: origin_shift::OriginShiftState,
-    pub(crate) path: path_control::PathControlState,
-    pub(crate) polar: polar_words::PolarWordsState,
-    pub(crate) corners: expand_corners::ExpandCornersState,
-    pub(crate) angle: spindle_angle::SpindleAngleState,
-    pub(crate) skip: skip_levels::SkipLevelsState,
-    pub(crate) arcs: arc_form::ArcFormState,
-    pub(crate) feed: feed_unit::FeedUnitState,
-    /// What holds after each call and label of a program that is kept whole.
-    pub(crate) entries: Option<Rc<known_facts::Known>>,
-    pub(crate) times: feed_time::FeedTimeState,
-    pub(crate) edge: tool_edge::ToolEdgeState,
-    pub(crate) radius: cutter_radius::CutterRadiusState,
-    pub(crate) compensated: compensated_modes::CompensatedModesState,
-    pub(crate) axis: tool_axis::ToolAxisState,
-    pub(crate) frames: expand_frames::ExpandFramesState,
-    pub(crate) taps: taps::TapsState,
-    pub(crate) threads: in_step::ThreadsState,
-    pub(crate) machine: machine_moves::MachineMovesState,
-    pub(crate) change: tool_change::ToolChangeState,
-    pub(crate) at_once: at_once::AtOnceState,
-    pub(crate) increments: frame_increments::FrameIncrementsState,
-    pub(crate) length_axis: length_axis::LengthAxisState,
-    pub(crate) by_hand: length_by_hand::LengthByHandState,
-    pub(crate) rotary: rotary_turns::RotaryTurnsState,
-    pub(crate) z_left: z_after_change::ZAfterChangeState,
+    pub(crate) shared: Shared,
 }
 
 impl Legaliser {
@@ -103,74 +95,31 @@ impl Legaliser {
     /// that must be written out.
     pub fn new(caps: &Caps, decimals: u8, peck_clearance: Option<Num>) -> Legaliser {
         let lacks = lacks(caps);
-        Legaliser {
-            target: Target {
-                caps: caps.clone(),
-                decimals: decimals.min(8),
-                peck_clearance,
-                ..Target::default()
-            },
+        let target =
+            Target { caps: caps.clone(), decimals: decimals.min(8), peck_clearance, ..Target::default() };
+        let increments = FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours);
+        let follow = lacks & FOLLOWED != 0 || caps.modes.feed_ends_with_mode || increments.is_used();
+        let mut states = States::default();
+        states.put(AtOnceState::new(caps));
+        states.put(increments);
+        let shared = Shared {
             lacks,
             measures: false,
             source_arcs: None,
             times_differ: false,
-            feed_again: feed_unit::says_again(&Target { caps: caps.clone(), ..Target::default() }),
-            follow: lacks
-                & (THREAD
-                    | PATTERN
-                    | CYCLE
-                    | ARC
-                    | LENGTH
-                    | EVERY
-                    | CALL
-                    | EDGE
-                    | TABLE
-                    | FRAME
-                    | MACHINE
-                    | POLAR
-                    | TOOL_AXIS
-                    | CORNER
-                    | AT_ONCE)
-                != 0
-                || caps.modes.feed_ends_with_mode
-                || frame_increments::FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours)
-                    .is_used(),
+            feed_again: feed_unit::says_again(&target),
+            follow,
             walk: Walk::default(),
-            cycles: expand_cycles::ExpandCyclesState::default(),
-            length: offset_with_z::OffsetWithZState::default(),
-            one: one_move::OneMoveState::default(),
-            work: work_offset::WorkOffsetState::default(),
-            shift: origin_shift::OriginShiftState::default(),
-            path: path_control::PathControlState::default(),
-            polar: polar_words::PolarWordsState::default(),
-            corners: expand_corners::ExpandCornersState::default(),
-            angle: spindle_angle::SpindleAngleState::default(),
-            skip: skip_levels::SkipLevelsState::default(),
-            arcs: arc_form::ArcFormState::default(),
-            feed: feed_unit::FeedUnitState::default(),
             entries: None,
-            times: feed_time::FeedTimeState::default(),
-            edge: tool_edge::ToolEdgeState::default(),
-            radius: cutter_radius::CutterRadiusState::default(),
-            compensated: compensated_modes::CompensatedModesState::default(),
-            axis: tool_axis::ToolAxisState::default(),
-            frames: expand_frames::ExpandFramesState::default(),
-            taps: taps::TapsState::default(),
-            threads: in_step::ThreadsState::default(),
-            machine: machine_moves::MachineMovesState::default(),
-            change: tool_change::ToolChangeState::default(),
-            at_once: at_once::AtOnceState::new(caps),
-            increments: frame_increments::FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours),
-            length_axis: length_axis::LengthAxisState::default(),
-            by_hand: length_by_hand::LengthByHandState::default(),
-            rotary: rotary_turns::RotaryTurnsState::default(),
-            z_left: z_after_change::ZAfterChangeState::default(),
-        }
+            states,
+            target,
+        };
+        Legaliser { shared }
     }
 
     /// What the target can say.
     pub fn caps(&self) -> &Caps {
-        &self.target.caps
+        &self.shared.target.caps
     }
 
     /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
@@ -181,36 +130,39 @@ impl Legaliser {
         passes_first: bool,
         diags: &mut Vec<Diagnostic>,
     ) {
-        let start = self.walk.at.clone();
+        let start = self.shared.walk.at.clone();
         if passes_first {
-            self.increments.take_source().whole(program, &start, diags);
+            self.shared.states.of::<FrameIncrementsState>().take_source().whole(program, &start, diags);
         } else {
-            self.increments.whole(program, &start, diags);
+            self.shared.states.of::<FrameIncrementsState>().whole(program, &start, diags);
         }
     }
 
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
-        self.at_once = at_once::AtOnceState::default();
+        self.shared.states.forget::<AtOnceState>();
+        self.shared.states.of::<OffsetWithZState>().stands_alone();
         self.nothing_before();
     }
 
     /// The program is called by another, which has given each axis a word after its last change of frame.
     pub fn nothing_before(&mut self) {
-        self.increments.stands_alone();
+        self.shared.states.of::<FrameIncrementsState>().stands_alone();
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, position: &[Option<Nanos>; AXES]) {
-        self.walk.at.position = *position;
+        self.shared.walk.at.position = *position;
     }
 
     /// What the target is taken to start with, because it has no words to say it: the work offset
     /// that its only one stands for, and no shift of the origin.
     pub fn taken(&self) -> Modes {
+        let only = self.shared.states.ask(|own: &WorkOffsetState| own.only);
+        let none = self.shared.states.ask(|own: &OriginShiftState| own.none);
         Modes {
-            work_offset: self.work.only.filter(|_| self.target.caps.frames.work_offsets == 0),
-            no_origin_shift: self.shift.none.then_some(true),
+            work_offset: only.filter(|_| self.shared.target.caps.frames.work_offsets == 0),
+            no_origin_shift: none.then_some(true),
             ..Modes::default()
         }
     }
@@ -224,8 +176,8 @@ impl Legaliser {
         lines: Option<Lines>,
         diags: &mut Vec<Diagnostic>,
     ) {
-        self.walk.assume(assumed);
-        self.frames.assume(assumed);
+        self.shared.walk.assume(assumed);
+        self.shared.states.of::<ExpandFramesState>().assume(assumed);
         let lines = self.absolute(lines);
         // Nothing is mended on arrival, and no walk begins there.
         let nowhere = Walk::default();
@@ -233,7 +185,7 @@ impl Legaliser {
         self.steps(Moment::Arrival, &mut piece);
         piece.needs = self.needs(piece.stmts);
         self.follow_cycles(&piece);
-        let start = (piece.needs != 0).then(|| self.walk.clone());
+        let start = (piece.needs != 0).then(|| self.shared.walk.clone());
         self.follow_piece(&piece);
         if let Some(start) = start {
             let mut piece = Piece { start: &start, stmts: piece.stmts, diags: piece.diags, ..piece };
@@ -253,113 +205,161 @@ impl Legaliser {
     /// Runs a pass if its moment is there and it is needed.
     fn step(&mut self, pass: &Pass, moment: Moment, piece: &mut Piece) {
         let Some(step) = pass.step.filter(|step| step.moment == moment) else { return };
-        if (step.needed)(self, piece) {
-            (step.run)(self, piece);
-            if !piece.done {
-                ran(pass.name, piece.stmts);
-            }
-        } else {
-            (step.otherwise)(self, piece);
+        if !(step.needed)(&self.shared, piece) {
+            return (step.otherwise)(&mut self.shared, piece);
         }
+        if let Some(mut found) = step.first.and_then(|first| self.with_first(pass, first, piece)) {
+            piece.diags.append(&mut found);
+            piece.done = true;
+            return;
+        }
+        (step.run)(&mut self.shared, piece);
+        ran(pass.name, piece.stmts);
+    }
+
+    /// The same in the form that is tried first, with all passes behind; `None`, and nothing done, where that has no
+    /// sense, or one of them refuses something.
+    fn with_first(&mut self, pass: &Pass, first: First, piece: &mut Piece) -> Option<Vec<Diagnostic>> {
+        let (mut own, mut kept, mut found) = (self.clone(), piece.stmts.clone(), Vec::new());
+        let Piece { start, assumed, lines, needs, .. } = *piece;
+        let mut copy =
+            Piece { stmts: &mut kept, needs, start, assumed, lines, diags: &mut found, done: false };
+        if !(first.tried)(&mut own.shared, &mut copy) {
+            return None;
+        }
+        ran(pass.name, copy.stmts);
+        let before = copy.stmts.clone();
+        own.mend(&mut copy, Some(pass.name));
+        let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
+        if refused || !(first.kept)(piece, &before, &kept) {
+            return None;
+        }
+        (*self, *piece.stmts) = (own, kept);
+        Some(found)
     }
 
     /// Notes what cycles and threads behind a piece may rely on that has none itself.
     fn follow_cycles(&mut self, piece: &Piece) {
-        self.threads.said = self.taps.said;
-        if !piece.needs(CYCLE | THREAD) && self.target.caps.moves.threads.turned {
-            piece.stmts.iter().for_each(|stmt| self.threads.note(stmt));
+        let states = &mut self.shared.states;
+        states.of::<ThreadsState>().said = states.ask(|taps: &TapsState| taps.said);
+        if !piece.needs(CYCLE | THREAD) && self.shared.target.caps.moves.threads.turned {
+            let threads = states.of::<ThreadsState>();
+            piece.stmts.iter().for_each(|stmt| threads.note(stmt));
         }
         if !piece.needs(CYCLE) {
             // Feeds and speeds that a tap may rely on.
-            piece.stmts.iter().for_each(|stmt| self.taps.note(stmt));
+            let taps = states.of::<TapsState>();
+            piece.stmts.iter().for_each(|stmt| taps.note(stmt));
         }
     }
 
     /// Follows the tool, and what passes note of a piece that they do not change.
     fn follow_piece(&mut self, piece: &Piece) {
         let stmts = &*piece.stmts;
-        if !piece.needs(MOVE) && self.lacks & MOVE != 0 {
-            self.one.note(stmts);
+        if !piece.needs(MOVE) && self.shared.lacks & MOVE != 0 {
+            self.shared.states.of::<OneMoveState>().note(stmts);
         }
-        if !piece.needs(FRAME) && self.lacks & FRAME != 0 {
-            self.frames.note(stmts);
+        if !piece.needs(FRAME) && self.shared.lacks & FRAME != 0 {
+            self.shared.states.of::<ExpandFramesState>().note(stmts);
         }
-        if self.measures && !self.target.caps.arcs.forms && !piece.needs(ARC) {
-            arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
-        } else if self.follow {
-            self.walk.pass(stmts);
+        if self.shared.measures && !self.shared.target.caps.arcs.forms && !piece.needs(ARC) {
+            arc_form::follow(stmts, &mut self.shared.walk, self.shared.states.of::<ArcFormState>());
+        } else if self.shared.follow {
+            self.shared.walk.pass(stmts);
         }
     }
 
     /// Lines, if their words count from zero.
     fn absolute(&self, lines: Option<Lines>) -> Option<Lines> {
-        lines.filter(|_| self.walk.at.modes.distance == Some(Distance::Absolute))
+        lines.filter(|_| self.shared.walk.at.modes.distance == Some(Distance::Absolute))
     }
 
     /// Whether further statements of the main procedure would be rewritten.
     pub fn touches(&self, stmts: &[Stmt], lines: Option<Lines>) -> bool {
+        let Shared { states, walk, .. } = &self.shared;
         self.needs(stmts) != 0
-            || self.times_differ && lines.is_none() && self.times.concerns(stmts, &self.walk)
-            || self.absolute(lines).is_none() && self.increments.concerns(stmts, self.walk.at.modes.distance)
-            || self.length_axis.concerns(stmts)
-            || self.z_left.concerns(stmts)
+            || self.shared.times_differ
+                && lines.is_none()
+                && states.ask(|times: &FeedTimeState| times.concerns(stmts, walk))
+            || self.absolute(lines).is_none()
+                && states.ask(|own: &FrameIncrementsState| own.concerns(stmts, walk.at.modes.distance))
+            || states.ask(|own: &LengthAxisState| own.concerns(stmts))
+            || states.ask(|own: &ZAfterChangeState| own.concerns(stmts))
     }
 
     /// What further statements need that the target lacks.
     fn needs(&self, stmts: &[Stmt]) -> u32 {
-        let mut found = self.lacks & EVERY;
+        let mut found = self.shared.lacks & EVERY;
         for stmt in stmts {
             found |= interest(stmt);
         }
-        let mut needs = found & self.lacks;
-        if found & ARC != 0 && self.follow {
-            let fine = |stmt: &Stmt| convert_arcs::may_be_too_fine(&stmt.op, self.target.decimals);
+        let mut needs = found & self.shared.lacks;
+        if found & ARC != 0 && self.shared.follow {
+            let fine = |stmt: &Stmt| convert_arcs::may_be_too_fine(&stmt.op, self.shared.target.decimals);
             needs |= if stmts.iter().any(fine) { ARC } else { 0 };
         }
-        needs |= if self.length.is_busy() { LENGTH } else { 0 };
-        needs |= if self.cycles.is_busy() || self.taps.is_busy() { CYCLE } else { 0 };
-        needs |= if self.threads.is_busy() { THREAD } else { 0 };
-        if self.feed_again {
+        needs |= if self.shared.states.ask(OffsetWithZState::is_busy) { LENGTH } else { 0 };
+        needs |= if self.shared.states.ask(ExpandCyclesState::is_busy)
+            || self.shared.states.ask(TapsState::is_busy)
+        {
+            CYCLE
+        } else {
+            0
+        };
+        needs |= if self.shared.states.ask(ThreadsState::is_busy) { THREAD } else { 0 };
+        if self.shared.feed_again {
             let changes = |stmt: &Stmt| matches!(stmt.op, Op::UseLengthUnits(_));
-            needs |= if self.feed.is_busy() || stmts.iter().any(changes) { MEASURE } else { 0 };
+            needs |= if self.shared.states.ask(FeedUnitState::is_busy) || stmts.iter().any(changes) {
+                MEASURE
+            } else {
+                0
+            };
         }
-        if self.measures {
-            let units = self.walk.at.modes.units;
+        if self.shared.measures {
+            let units = self.shared.walk.at.modes.units;
             let changes = |op: &Op| matches!(op, Op::UseLengthUnits(_));
             let apart = |op: &Op| one_distance::may_mix(op) || feed_unit::differs(op, units) || changes(op);
             needs |= if stmts.iter().any(|stmt| apart(&stmt.op)) { MEASURE } else { 0 };
         }
-        if self.path.is_busy() {
+        if self.shared.states.ask(PathControlState::is_busy) {
             needs |= PATH;
         }
-        if self.work.is_busy() {
+        if self.shared.states.ask(WorkOffsetState::is_busy) {
             needs |= WORK;
         }
-        if (needs & MOVE != 0 || self.one.is_busy()) && self.lacks & MOVE != 0 {
-            let concerned = needs & PATH != 0 || self.one.concerns(stmts);
+        if (needs & MOVE != 0 || self.shared.states.ask(OneMoveState::is_busy))
+            && self.shared.lacks & MOVE != 0
+        {
+            let concerned =
+                needs & PATH != 0 || self.shared.states.ask(|own: &OneMoveState| own.concerns(stmts));
             needs = if concerned { needs | MOVE } else { needs & !MOVE };
         }
-        if self.frames.is_busy() {
+        if self.shared.states.ask(ExpandFramesState::is_busy) {
             needs |= FRAME;
         } else if needs & FRAME != 0
-            && !stmts.iter().any(|stmt| expand_frames::concerns(&stmt.op, &self.target.caps))
+            && !stmts.iter().any(|stmt| expand_frames::concerns(&stmt.op, &self.shared.target.caps))
         {
             needs &= !FRAME;
         }
-        if self.corners.is_busy() {
+        if self.shared.states.ask(ExpandCornersState::is_busy) {
             needs |= CORNER;
         }
-        if self.machine.is_busy() {
+        if self.shared.states.ask(MachineMovesState::is_busy) {
             needs |= MACHINE;
         }
-        if self.at_once.is_busy() {
+        if self.shared.states.ask(AtOnceState::is_busy) {
             needs |= AT_ONCE;
         }
-        if self.edge.is_busy() || self.target.caps.tools.change_by_hand && self.by_hand.is_busy() {
-            needs |= self.lacks & (EDGE | TABLE);
+        if self.shared.states.ask(ToolEdgeState::is_busy)
+            || self.shared.target.caps.tools.change_by_hand
+                && self.shared.states.ask(LengthByHandState::is_busy)
+        {
+            needs |= self.shared.lacks & (EDGE | TABLE);
         }
-        if self.axis.is_busy() && stmts.iter().any(|stmt| tool_axis::is_length(&stmt.op)) {
-            needs |= self.lacks & TOOL_AXIS;
+        if self.shared.states.ask(ToolAxisState::is_busy)
+            && stmts.iter().any(|stmt| tool_axis::is_length(&stmt.op))
+        {
+            needs |= self.shared.lacks & TOOL_AXIS;
         }
         needs
     }
@@ -375,77 +375,25 @@ impl Legaliser {
                 return;
             }
         }
-        if self.follow && piece.needs(CONTROL | WORK | SHIFT | FRAME | MACHINE) {
-            self.walk = piece.start.clone();
+        if self.shared.follow && piece.needs(CONTROL | WORK | SHIFT | FRAME | MACHINE) {
+            self.shared.walk = piece.start.clone();
             if piece.needs(FRAME) && !piece.needs(ARC) {
-                self.arcs = arc_form::ArcFormState::default();
-                arc_form::follow(piece.stmts, &mut self.walk, &mut self.arcs);
+                self.shared.states.forget::<ArcFormState>();
+                arc_form::follow(piece.stmts, &mut self.shared.walk, self.shared.states.of::<ArcFormState>());
             } else {
-                self.walk.pass(piece.stmts);
+                self.shared.walk.pass(piece.stmts);
             }
         }
         self.steps(Moment::Wording, piece);
     }
 
-    /// Says polar points in the target's form; by coordinates where another pass has to write out what they belong to.
-    pub(crate) fn polar_words(&mut self, piece: &mut Piece) {
-        if let Some(mut found) = self.with_polar_words(piece) {
-            piece.diags.append(&mut found);
-            piece.done = true;
-            return;
-        }
-        // Corners and frames are worked out from exact points.
-        let exact = Target { decimals: EXACT - 1, ..self.target.clone() };
-        let target = if piece.needs(CORNER | FRAME) { &exact } else { &self.target };
-        polar_words::over(piece.stmts, &mut piece.start.clone(), &mut self.polar, target, false, piece.diags);
-        piece.needs &= !POLAR;
-    }
-
-    /// The same with polar points in the target's form, and all passes behind; `None`, and nothing done, if another pass
-    /// has to write out what they belong to.
-    fn with_polar_words(&mut self, piece: &mut Piece) -> Option<Vec<Diagnostic>> {
-        let looks_into = piece.needs(FRAME | EVERY | CORNER) || self.cycles.is_busy() || self.taps.is_busy();
-        if self.target.caps.moves.polar == PolarForm::None || looks_into {
-            return None;
-        }
-        let (mut own, mut kept, mut found) = (self.clone(), piece.stmts.clone(), Vec::new());
-        polar_words::over(&mut kept, &mut piece.start.clone(), &mut own.polar, &own.target, true, &mut found);
-        ran(polar_words::PASS.name, &kept);
-        let holes = |stmts: &[Stmt]| {
-            let polar = stmts.iter().filter(|stmt| matches!(stmt.op, Op::Polar(_))).count();
-            let calls = stmts.iter().filter(|stmt| matches!(stmt.op, Op::StartCycle(_))).count();
-            let others =
-                stmts.iter().filter(|s| matches!(s.op, Op::Hole(_) | Op::Pattern(_) | moves!())).count();
-            [polar, calls, others]
-        };
-        let before = holes(&kept);
-        let Piece { start, assumed, lines, .. } = *piece;
-        let needs = piece.needs & !POLAR;
-        let mut copy =
-            Piece { stmts: &mut kept, needs, start, assumed, lines, diags: &mut found, done: false };
-        own.mend(&mut copy, Some(polar_words::PASS.name));
-        let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
-        if refused || needs & (CYCLE | PATTERN) != 0 && holes(&kept) != before {
-            return None;
-        }
-        (*self, *piece.stmts) = (own, kept);
-        Some(found)
-    }
-
-    /// Whether words of a piece may be measured in several ways, or feeds in another unit than lengths. Computed words
-    /// are from zero, others may not be.
-    pub(crate) fn is_measured(&self, piece: &Piece) -> bool {
-        let computed = self.measures && piece.needs(ARC | FRAME | CORNER);
-        piece.needs(MEASURE) || computed && piece.stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op))
-    }
-
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        self.corners.flush(stmts, diags);
-        self.length.flush(stmts, diags);
-        self.one.flush(stmts);
-        self.threads.finish(stmts, diags);
-        self.change.finish(diags);
-        self.edge.finish(diags);
+        self.shared.states.of::<ExpandCornersState>().flush(stmts, diags);
+        self.shared.states.of::<OffsetWithZState>().flush(stmts, diags);
+        self.shared.states.of::<OneMoveState>().flush(stmts);
+        self.shared.states.of::<ThreadsState>().finish(stmts, diags);
+        self.shared.states.of::<ToolChangeState>().finish(diags);
+        self.shared.states.of::<ToolEdgeState>().finish(diags);
     }
 }

@@ -4,6 +4,12 @@
 //! target needs follows from its capabilities; [`Legaliser`] picks them and runs them on a program
 //! that streams through in pieces. A pass never names a dialect, and never changes what the machine
 //! does: what it cannot mend it refuses.
+//!
+//! ```text
+//! --print-after all    shows the program behind each pass that changed it
+//! ```
+//!
+//! Not here: reading, writing, executing.
 
 pub mod arcs;
 pub mod flow;
@@ -59,6 +65,8 @@ pub struct Target {
     /// The entry of its length table that has the length of edge 1 of a tool, where that is not the
     /// entry with the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
+    /// The entry that another edge of a tool has, by tool and edge.
+    pub further_edges: BTreeMap<(u32, u32), u32>,
     /// Numbers of programs that the machine has already: no subprogram is given one of them.
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.

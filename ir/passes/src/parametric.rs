@@ -4,50 +4,18 @@
 //! The steps are rows of the table of passes, in its order. Not here: blocks between two statements of control, which the
 //! legaliser brings within the target's capabilities.
 
-use ncc_ir::caps::Caps;
 use ncc_ir::computed::code_of;
-use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::expr::num::Num;
-use ncc_ir::expr::system::System;
 use ncc_ir::program::Program;
-use ncc_ir::track::Tracker;
 
 use crate::PASSES;
 use crate::frames::computed_frames;
 use crate::modes::own_distance;
+pub use crate::pass::Parametric;
 use crate::pass::Pass;
-use crate::support::known_facts::{self, Known};
-use crate::values::variables::{Digits, Renamed};
+use crate::support::known_facts;
 use crate::watch::ran_whole;
-
-/// What is known of both controls of a program that computes, and what the passes find out about it.
-pub struct Parametric<'p> {
-    /// What the target can say.
-    pub caps: &'p Caps,
-    /// What it computes with.
-    pub target: &'p Computes,
-    /// What the source's control computes with.
-    pub source: &'p Computes,
-    /// Whether words of the source say how they are measured, each by itself.
-    pub word_distance: bool,
-    /// Whether both are controls of other kinds.
-    pub others: bool,
-    /// Whether the program's own words of control stay, which say by themselves where they lead.
-    pub keeps_words: bool,
-    /// How far apart two numbers are that the source's comparisons find equal, if they have a tolerance.
-    pub tolerance: Option<Num>,
-    /// To which digits the target's words are rounded.
-    pub digits: Digits,
-    /// Whether the target tells this, where a program asks its control.
-    pub tells: &'p dyn Fn(&System) -> bool,
-    /// What holds where the program begins.
-    pub entry: Tracker,
-    /// What holds where stretches of its blocks begin.
-    pub known: Known,
-    /// Which variables became which.
-    pub renamed: Renamed,
-}
 
 impl Parametric<'_> {
     /// Says a program so.

@@ -3,15 +3,23 @@
 //! Each pass is a `PASS` in its own file, which says what makes it needed; [`crate::PASSES`] is the table of them, and its
 //! order is the order in which they run. A new pass is a file and a line of the table.
 
+use std::rc::Rc;
+
 use ncc_ir::canon::Modes;
+use ncc_ir::caps::Caps;
+use ncc_ir::computed::computes::Computes;
 use ncc_ir::diag::Diagnostic;
+use ncc_ir::expr::num::Num;
+use ncc_ir::expr::system::System;
+use ncc_ir::geometry::round::ArcRule;
 use ncc_ir::program::{Lines, Program, Stmt};
 use ncc_ir::track::Tracker;
 
 use crate::Target;
-use crate::legalise::Legaliser;
-use crate::parametric::Parametric;
+use crate::support::known_facts::Known;
+use crate::support::states::States;
 use crate::support::walk::Walk;
+use crate::values::variables::renamed::{Digits, Renamed};
 
 /// A pass on a whole program; the tracker says what holds before the main procedure.
 pub type Alone = fn(&mut Program, &Target, &Tracker, &mut Vec<Diagnostic>);
@@ -83,22 +91,85 @@ pub(crate) struct Step {
     /// When it is run.
     pub(crate) moment: Moment,
     /// What makes it needed.
-    pub(crate) needed: fn(&Legaliser, &Piece) -> bool,
+    pub(crate) needed: fn(&Shared, &Piece) -> bool,
     /// Runs it.
-    pub(crate) run: fn(&mut Legaliser, &mut Piece),
+    pub(crate) run: fn(&mut Shared, &mut Piece),
     /// Follows a piece that does not need it.
-    pub(crate) otherwise: fn(&mut Legaliser, &Piece),
+    pub(crate) otherwise: fn(&mut Shared, &Piece),
+    /// A form that is tried first.
+    pub(crate) first: Option<First>,
+}
+
+/// A form of a pass that is tried on a copy of the piece together with all passes behind it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct First {
+    /// Puts the piece in this form; `false`, and nothing done, where that has no sense.
+    pub(crate) tried: fn(&mut Shared, &mut Piece) -> bool,
+    /// Whether it is kept, where no pass has refused anything: what the form left, and what came of that.
+    pub(crate) kept: fn(&Piece, &[Stmt], &[Stmt]) -> bool,
 }
 
 impl Step {
     /// One that follows nothing.
     pub(crate) const fn at(
         moment: Moment,
-        needed: fn(&Legaliser, &Piece) -> bool,
-        run: fn(&mut Legaliser, &mut Piece),
+        needed: fn(&Shared, &Piece) -> bool,
+        run: fn(&mut Shared, &mut Piece),
     ) -> Option<Step> {
-        Some(Step { moment, needed, run, otherwise: |_, _| {} })
+        Some(Step { moment, needed, run, otherwise: |_, _| {}, first: None })
     }
+}
+
+/// What passes share while a program goes through them piece by piece.
+#[derive(Clone, Debug)]
+pub(crate) struct Shared {
+    pub(crate) target: Target,
+    /// What the target lacks: bits of `support::needs`.
+    pub(crate) lacks: u32,
+    /// Whether words of the source may have a measure of their own that the target's cannot have.
+    pub(crate) measures: bool,
+    /// Which arcs the source's control accepts, if the target's has another rule.
+    pub(crate) source_arcs: Option<ArcRule>,
+    /// Whether feeds are said again behind a change of units.
+    pub(crate) feed_again: bool,
+    /// Whether the target counts F of some moves otherwise than the source.
+    pub(crate) times_differ: bool,
+    /// Whether any pass wants to know where the tool is.
+    pub(crate) follow: bool,
+    /// Where it is, and what is in force.
+    pub(crate) walk: Walk,
+    /// What holds after each call and label of a program that is kept whole.
+    pub(crate) entries: Option<Rc<Known>>,
+    /// What each pass remembers.
+    pub(crate) states: States,
+}
+
+/// What is known of both controls of a program that computes, and what the passes find out about it.
+pub struct Parametric<'p> {
+    /// What the target can say.
+    pub caps: &'p Caps,
+    /// What it computes with.
+    pub target: &'p Computes,
+    /// What the source's control computes with.
+    pub source: &'p Computes,
+    /// Whether words of the source say how they are measured, each by itself.
+    pub word_distance: bool,
+    /// Whether both are controls of other kinds.
+    pub others: bool,
+    /// Whether the program's own words of control stay, which say by themselves where they lead.
+    pub keeps_words: bool,
+    /// How far apart two numbers are that the source's comparisons find equal, if they have a tolerance.
+    pub tolerance: Option<Num>,
+    /// To which digits the target's words are rounded.
+    pub digits: Digits,
+    /// Whether the target tells this, where a program asks its control.
+    pub tells: &'p dyn Fn(&System) -> bool,
+    /// What holds where the program begins.
+    pub entry: Tracker,
+    /// What holds where stretches of its blocks begin.
+    pub known: Known,
+    /// Which variables became which.
+    pub renamed: Renamed,
 }
 
 /// A piece of a program on its way through the steps.

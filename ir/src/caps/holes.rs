@@ -44,6 +44,8 @@ pub struct HoleCaps {
     pub returns: ReturnsTo,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub measured_anew: bool,
+    /// The initial level of a hole is where the tool stands before its block; else where it stood before the series.
+    pub level_of_block: bool,
     /// Behind the end of a cycle no motion is in force.
     pub end_motion: bool,
     /// Whether a subprogram cannot leave a cycle in force to its caller.
@@ -138,6 +140,10 @@ pub struct CycleCap {
     pub clearance: bool,
     /// Whether that can be left to a parameter of the control.
     pub parameter: bool,
+    /// Whether each of its pecks goes out to where the tool is left, and down at feed.
+    pub from_return: bool,
+    /// Seconds that the control dwells by itself after each peck, at the bottom too.
+    pub pause: Option<Num>,
     /// Whether it can say another first peck, and dwells between pecks.
     pub strokes: bool,
     /// Whether it can say pecks that decrease from the first one to a least one.

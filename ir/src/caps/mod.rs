@@ -1,4 +1,11 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
+//!
+//! ```text
+//! caps.arcs.by_radius        whether `R` can be written
+//! caps.holes.cycles          the cycles, each with where it can leave the tool
+//! ```
+//!
+//! Not here: which word says it: the dictionary.
 
 mod frames;
 mod holes;

@@ -2,6 +2,13 @@
 //!
 //! Nearly every argument of a real program is a literal, so a literal is stored inline and
 //! everything else behind a box. What an expression is worth is in `value`.
+//!
+//! ```text
+//! 10.5mm                 a literal, with its unit and its digits
+//! common:100 + 1         a variable and a literal
+//! ```
+//!
+//! Not here: the spelling of a formula on any control.
 
 pub mod decimals;
 pub mod fails;

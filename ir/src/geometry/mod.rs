@@ -1,6 +1,13 @@
 //! Geometry of arcs and patterns: the only place where positions pass through binary floats.
 //!
 //! All lengths are nanos. Results are rounded to a nano, a thousandth of what any control resolves.
+//!
+//! ```text
+//! round::centre      start, end and radius of an arc    its centre
+//! places             a circle of 12 holes               12 positions
+//! ```
+//!
+//! Not here: what a control accepts as an arc: that is its own rule.
 
 pub mod arc_feed;
 pub mod beside;

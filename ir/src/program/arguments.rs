@@ -304,7 +304,7 @@ fn pecks<E>(
     seen(Argument::Optional(less), Unit::Entry)?;
     match clearance {
         Clearance::Stated(length) => seen(Argument::Value(length), Unit::Entry),
-        Clearance::Parameter => Ok(()),
+        Clearance::Parameter | Clearance::FromReturn => Ok(()),
     }
 }
 

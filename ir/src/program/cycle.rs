@@ -189,6 +189,9 @@ pub enum Clearance {
     Stated(Expr),
     /// The control's own parameter; its value belongs to the world.
     Parameter,
+    /// Of pecks alone: no rapid back. Each peck goes out to where the tool is left after the hole, and from there down
+    /// at feed.
+    FromReturn,
 }
 
 /// A clearance that grows with the hole: a fiftieth of its depth, but no less than 0.6 mm and no more than 7 mm. The

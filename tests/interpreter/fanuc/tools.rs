@@ -7,6 +7,25 @@ use super::super::{Halt, What};
 use super::{Control, Word, number};
 
 impl Control {
+    /// G43, G43.4 or G49 with what its block has for H.
+    pub(super) fn length_code(&mut self, code: Option<u32>, entry: Option<u32>) -> Result<(), Halt> {
+        match (code, entry) {
+            (Some(43 | 434), Some(entry)) => {
+                self.entry = Some(entry);
+                self.m.use_length(entry);
+            }
+            // The length comes back with the next G43 or the next H (0i-MB, 14.1.2): H is modal.
+            (Some(43), None) => match self.entry {
+                Some(entry) => self.m.use_length(entry),
+                None => return self.m.halt("G43 and no H so far"),
+            },
+            (Some(49), None) => self.m.use_length(0),
+            (None, None) => {}
+            _ => return self.m.halt("G43 and H"),
+        }
+        Ok(())
+    }
+
     /// T: selects. What waited before, where the block names another one.
     pub(super) fn select(&mut self, words: &[Word]) -> Option<u32> {
         let (tool, _) = number(words, 'T')?;

@@ -23,6 +23,8 @@ pub(super) fn everything(decimals: u8) -> Target {
         returns: vec![ReturnLevel::Initial, ReturnLevel::Retract],
         dwell: true,
         clearance: true,
+        from_return: false,
+        pause: None,
         parameter: true,
         strokes: true,
         shrinks: true,

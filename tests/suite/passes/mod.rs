@@ -109,6 +109,15 @@ fn told(text: &str) -> Result<Told, String> {
                 told.target.compensating.known = true;
             }
             "edge-entries" => told.target.edge_entries = numbers(value)?,
+            "further-edges" => {
+                let rows = value.split(' ').map(|row| {
+                    let number = |text: &str| text.parse::<u32>().map_err(|e| e.to_string());
+                    let (edge, entry) = row.split_once(':').ok_or("an edge has a colon")?;
+                    let (tool, edge) = edge.split_once('.').ok_or("an edge has a point")?;
+                    Ok(((number(tool)?, number(edge)?), number(entry)?))
+                });
+                told.target.further_edges = rows.collect::<Result<_, String>>()?;
+            }
             "program-numbers" => told.target.program_numbers = numbers(value)?.into_keys().collect(),
             "can" => value.split(' ').try_for_each(|one| can(&mut told.target.caps, one))?,
             _ => return Err(format!("unknown directive {what}")),
@@ -367,7 +376,12 @@ fn levels(program: &Program) -> Vec<u16> {
 fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), String> {
     for seed in [1, 2] {
         for skip in levels(before) {
-            let world = world(seed, before, told);
+            let mut world = world(seed, before, told);
+            for ((tool, edge), entry) in &told.target.further_edges {
+                let (edge, length) = ((i64::from(*tool), *edge), world.tool_length(*entry));
+                world.tables.named_lengths.insert(edge, length);
+                world.tables.named_entries.insert(edge, *entry);
+            }
             let mut a = Machine::new(before, &world, skip, told);
             if told.beside {
                 a.exec.compute_compensation(told.target.compensating.rules);

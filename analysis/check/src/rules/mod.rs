@@ -1,4 +1,10 @@
 //! The rules, one file each: plain functions that are shown what happens.
+//!
+//! ```text
+//! rapid-into-part    G0 Z-5. above a place that was cut from Z 0    a finding at the block
+//! ```
+//!
+//! Not here: which of them are asked for, and how they are told.
 
 pub(crate) mod feed;
 pub(crate) mod left;

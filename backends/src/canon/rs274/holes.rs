@@ -5,7 +5,7 @@ use std::fmt::Write;
 use ncc_ir::canon::{AXES, PathMode, ReturnLevel, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_ir::program::cycle::{BoreStop, CycleKind};
+use ncc_ir::program::cycle::{BoreStop, Clearance, CycleKind};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::track::InForce;
 
@@ -85,6 +85,9 @@ impl Printer<'_> {
                 go(self, feed, depth);
                 let _ = writeln!(self.out, "DWELL({:.4})", literal(dwell)?);
                 go(self, rapid, clear);
+            }
+            CycleKind::DrillPeck { clearance: Clearance::FromReturn, .. } => {
+                return Err(cannot("pecks that go down at feed all the way"));
             }
             CycleKind::DrillPeck { peck, .. } => {
                 let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;

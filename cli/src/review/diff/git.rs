@@ -8,7 +8,6 @@ use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 
-use clap::Args;
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 use ncc_driver::guess::{Guess, guess};
 use ncc_driver::problem::{Exit, Problem};
@@ -18,32 +17,12 @@ use ncc_driver::review::diff::tell::{Account, decoded};
 use ncc_driver::side::Side;
 use ncc_driver::source::not_milling;
 
+use super::args::GitDiff;
 use super::{SHOWN, plain, text, unified};
-use crate::args::pair;
 use crate::files;
 use crate::known::Known;
 use crate::project::Look;
 use crate::review::side::{Asked, open};
-
-/// `ncc git-diff`.
-#[derive(Debug, Args)]
-#[command(
-    override_usage = "ncc git-diff [OPTIONS] PATH OLD OLD-HEX OLD-MODE NEW NEW-HEX NEW-MODE [RENAMED …]"
-)]
-pub struct GitDiff {
-    /// Path in the repository, then file, hash and mode of the old and of the new version
-    #[arg(value_name = "GIT", num_args = 1.., required = true)]
-    pub git: Vec<String>,
-    /// Dialect of the programs [default: recognised]
-    #[arg(long, value_name = "DIALECT")]
-    pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
-    pub from_option: Vec<(String, String)>,
-    /// Show every difference, not only the first ten
-    #[arg(long)]
-    pub all: bool,
-}
 
 /// Runs the verb.
 ///

@@ -4,15 +4,14 @@
 //! what was found into words, which `plain`, `json` and `html` lay out; `git` is the driver for git. Not
 //! here: what counts as the same, and how streams come together again (ncc-diff).
 
+pub mod args;
 mod edits;
 pub mod git;
 mod plain;
 mod text;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
 use ncc_driver::machines::pair::Machines;
@@ -21,11 +20,11 @@ use ncc_driver::questions;
 use ncc_driver::render::{About, human};
 use ncc_driver::review::diff::{html, json};
 
+use self::args::{Diff, Form, Ignore};
 use self::text::Texts;
 use super::side::{Asked, open};
-use crate::args::pair;
 use crate::known::Known;
-use crate::setting::{Holding, Nearness, Standing, Telling};
+use crate::time::running::Running;
 use crate::{files, project};
 pub use ncc_driver::review::diff::json::SCHEMA;
 use ncc_driver::review::diff::motion::Motion;
@@ -34,132 +33,6 @@ use ncc_driver::review::diff::tell::Account;
 use ncc_driver::side::Side;
 use ncc_driver::source::Source;
 use ncc_driver::source::spool::Spool;
-
-const EXAMPLES: &str = "\
-Examples:
-  ncc diff old.nc new.nc                      do both make the same cut? what differs
-  ncc diff mach9:a.cn fanuc:b.nc --summary    across dialects, in one line
-  ncc diff a.nc b.nc --side-by-side --all     every difference, in two columns
-  ncc diff a.nc b.nc --html review.html       a page to send to somebody
-  ncc diff a.nc b.nc --text --ignore all      only what the text says otherwise
-
-Both programs are executed in three worlds: one in which offsets and lengths are nothing, and two
-with odd ones, so that a lost work offset shows; under every setting of the block-skip switches. Each
-takes for granted what its dialect does; -v says what. Exit code: 0 the same, 1 different, 2 wrong
-usage, 4 a file could not be read, 5 could not be compared, because a program has errors.";
-
-/// `ncc diff`.
-#[derive(Debug, Args)]
-#[command(
-    after_help = EXAMPLES,
-    mut_arg("start", |start| start.help(
-        "Where the tool stands before the first block of both, in program coordinates"
-    ))
-)]
-pub struct Diff {
-    /// The first program, as `PATH` or `DIALECT:PATH`; `-` for stdin
-    #[arg(value_name = "A", required_unless_present = "schema")]
-    pub a: Option<String>,
-    /// The second program
-    #[arg(value_name = "B", required_unless_present = "schema")]
-    pub b: Option<String>,
-    /// Dialect of what does not name one [default: recognised]
-    #[arg(long, value_name = "DIALECT", help_heading = "What is compared")]
-    pub from: Option<String>,
-    /// The machine of A: a profile by its name or file, which names the dialect too
-    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
-    pub a_machine: Option<String>,
-    /// The machine of B
-    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
-    pub b_machine: Option<String>,
-    /// Decide a question that the dictionary of A leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
-    pub a_option: Vec<(String, String)>,
-    /// Decide a question that the dictionary of B leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
-    pub b_option: Vec<(String, String)>,
-    /// Where both begin.
-    #[command(flatten, next_help_heading = "What is compared")]
-    pub standing: Standing,
-    /// What the variables of both hold.
-    #[command(flatten, next_help_heading = "What is compared")]
-    pub holding: Holding,
-    /// What counts as the same.
-    #[command(flatten, next_help_heading = "What is compared")]
-    pub nearness: Nearness,
-    /// Compare the text, block by block, instead of what it does
-    #[arg(long, help_heading = "What is compared")]
-    pub text: bool,
-    /// What counts for nothing in a text: numbers (of blocks), blanks, comments, case,
-    /// number-format, or all
-    #[arg(
-        long,
-        value_name = "LIST",
-        value_enum,
-        value_delimiter = ',',
-        requires = "text",
-        hide_possible_values = true,
-        help_heading = "What is compared"
-    )]
-    pub ignore: Vec<Ignore>,
-
-    /// Say in one line what differs
-    #[arg(long, conflicts_with_all = ["side_by_side", "format"], help_heading = "How the result looks")]
-    pub summary: bool,
-    /// Both texts in two columns
-    #[arg(long, conflicts_with = "format", help_heading = "How the result looks")]
-    pub side_by_side: bool,
-    /// Show every difference, not only the first ten
-    #[arg(long, help_heading = "How the result looks")]
-    pub all: bool,
-    /// For people, or as JSON [default: human]
-    #[arg(
-        long,
-        value_name = "human|json",
-        value_enum,
-        default_value_t = Form::Human,
-        hide_possible_values = true,
-        hide_default_value = true,
-        help_heading = "How the result looks"
-    )]
-    pub format: Form,
-    /// Write a page with everything to this file
-    #[arg(long, value_name = "FILE", help_heading = "How the result looks")]
-    pub html: Option<PathBuf>,
-    /// Print the JSON Schema of `--format json`, and nothing else
-    #[arg(long, help_heading = "How the result looks")]
-    pub schema: bool,
-
-    /// How much is told.
-    #[command(flatten)]
-    pub telling: Telling,
-}
-
-/// Form of the result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Form {
-    /// For people
-    Human,
-    /// One JSON document
-    Json,
-}
-
-/// What counts for nothing in a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Ignore {
-    /// Block numbers
-    Numbers,
-    /// Blanks, and lines without anything else
-    Blanks,
-    /// Comments
-    Comments,
-    /// Capitals and small letters
-    Case,
-    /// How a number is written, where its value is the same
-    NumberFormat,
-    /// All of these
-    All,
-}
 
 /// Differences that are shown where not all are.
 const SHOWN: usize = 10;
@@ -209,7 +82,9 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         texts = Some(found);
         account
     } else {
+        let running = Running::shown(&sides[0].source.name, !args.telling.quiet);
         let found = motion(&mut sides, args.nearness.tolerance).map_err(|e| cannot(&e))?;
+        drop(running);
         if !args.telling.quiet {
             for (side, course) in sides.iter_mut().zip(&found.courses) {
                 questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err)?;

@@ -9,7 +9,8 @@ use ncc_ir::canon::{AXES, Axis, SpindleMode};
 use ncc_ir::expr::num::{Nanos, ONE};
 
 use super::motion::Motion;
-use crate::render::source::{Lines, visible};
+use crate::render::source::Lines;
+use crate::render::text::visible;
 use crate::review::words::{coolant, length, number, rounded, spindle};
 use crate::side::Side;
 use crate::source::Source;

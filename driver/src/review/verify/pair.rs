@@ -140,6 +140,7 @@ pub fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Found> {
     let plan = Plan {
         worlds,
         starts,
+        tool: sides[0].job.tool_at_start(),
         muted,
         in_full: in_full.flatten(),
         writes: sides.iter().all(|side| writes(&side.job.from)),
@@ -293,6 +294,8 @@ fn starts(sides: &mut [Side; 2], worlds: &[[World; 2]]) -> io::Result<Vec<[Nanos
 struct Plan {
     worlds: Vec<[World; 2]>,
     starts: Vec<[Nanos; AXES]>,
+    /// The tool that is in the spindle of both, as far as the source's T code is stated.
+    tool: Option<u32>,
     muted: bool,
     /// With how many digits values stand in messages that have none too many.
     in_full: Option<u8>,
@@ -323,6 +326,7 @@ impl Plan {
             if side == 1 {
                 exec.be_at(*start);
             }
+            self.tool.into_iter().for_each(|tool| exec.hold_tool(tool));
             if self.muted {
                 exec.mute(self.stops_speak);
             }

@@ -10,8 +10,8 @@ use ncc_machines::reading::Told;
 use ncc_time::{Act, Place};
 
 use super::{Drive, Length, MOST_HELD, Said};
+use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
-use crate::translate::parameter;
 
 impl<'d> Drive<'d> {
     /// Notes a block of a contour, and contours that the tool's centre is not followed along.

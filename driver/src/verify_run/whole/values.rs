@@ -7,7 +7,7 @@ use ncc_ir::expr::value::Value;
 use ncc_ir::program::{Program, Type};
 use ncc_ir::source::Span;
 use ncc_passes::values::otherwise::Taken;
-use ncc_passes::values::variables::Renamed;
+use ncc_passes::values::variables::renamed::Renamed;
 
 use crate::job::given::Given as Stated;
 

@@ -3,6 +3,12 @@
 //!
 //! Each reader notes them as it goes (`rows`, `numbers`, `back`). [`ways`] looks at the whole text when it
 //! has been read.
+//!
+//! ```text
+//! #10 = #4001    ...    G#10    the code of group 1 that was in force, put back
+//! ```
+//!
+//! Not here: what a text computes besides (`values` of each reader).
 
 pub(crate) mod ways;
 

@@ -7,7 +7,7 @@
 //!
 //! Not here: the cycles themselves.
 
-use ncc_dialects::{NameRole, Quantity, Role};
+use ncc_dialects::{MACHINE_LENGTH, Meaning, NameMeaning, NameRole, Quantity, Role};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
@@ -194,7 +194,7 @@ impl Lower {
                     self.not_supported(code.name, "polar words in machine coordinates", code.span, out);
                 }
                 if let Some(code) = machine {
-                    self.push(code.span, Op::UseMachineCoordinates { length: true }, out);
+                    self.in_machine(code, &to, out);
                 }
                 let to = Move { to, said };
                 let op = match line {
@@ -222,6 +222,15 @@ impl Lower {
             }
         }
         motion
+    }
+
+    /// Coordinates of the machine. Whether the tool's length counts in them is a setting of the control.
+    fn in_machine(&mut self, code: Code, to: &Point, out: &mut Batch) {
+        let counts = |length| NameMeaning::Code(Meaning::UseMachineCoordinates { length, rapid: false });
+        if to.get(Axis::Z).is_some() && self.state.length.value() != Some(false) {
+            self.option(MACHINE_LENGTH, code.span, out);
+        }
+        self.push(code.span, Op::UseMachineCoordinates { length: code.meaning == counts(true) }, out);
     }
 
     /// The axis words that are left. With `hole`, the drilling axis moves as well.

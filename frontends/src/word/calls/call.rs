@@ -125,7 +125,13 @@ impl Lower {
     /// The end of the main program's text: what returns does not end by itself as well.
     pub(in crate::word) fn alone_or_main(&mut self, out: &mut Batch) {
         self.callers_feed(out);
-        let Some(at) = self.alone.returns else { return };
+        if let Some(at) = self.alone.returns {
+            self.alone_or_again(at, out);
+        }
+        self.starts_again_alike(out);
+    }
+
+    fn alone_or_again(&mut self, at: Span, out: &mut Batch) {
         if self.alone.ends {
             if out.subprogram {
                 self.began_again(at, out);
@@ -167,6 +173,7 @@ impl Lower {
         if !self.settings.dialect.program.begins_again {
             return self.endless(at, "M99".into(), out);
         }
+        self.tools.at_start.begins_again(at);
         out.subprogram = false;
         begin_again_there(&mut out.stmts);
     }
@@ -189,6 +196,7 @@ impl Lower {
             return self.endless(code.span, name.into(), out);
         }
         self.alone.begins_again.get_or_insert(code.span);
+        self.tools.at_start.begins_again(code.span);
         self.ended |= self.now.skip.is_none();
         self.leave_motion(None, out);
         self.tap_elsewhere(out);

@@ -2,17 +2,16 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{
-    AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Hand, Quantity, TAPPING,
-};
-use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
+use ncc_dialects::{AskedDwell, Bare, CYCLE_APPROACH, CycleRow, Quantity, TAPPING};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
-use ncc_ir::program::{Coord, Move, Op, Pitch};
+use ncc_ir::program::cycle::{Cycle, CycleKind};
+use ncc_ir::program::{Coord, Move, Op};
 use ncc_ir::source::Span;
 
+use super::kind::{Pecks, kind_of};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
@@ -178,7 +177,8 @@ impl Lower {
             self.missing(code, depth_letter, out);
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
-        let bottom = self.dwells(row, dwell, code.span, out);
+        let bottom = self.dwells(row, [given.dwell, dwell], code.span, out);
+        let bottom = self.tap_dwell(row, rigid, bottom, code.span, out);
         let kind = self.kind(row, rigid, bottom, pecks, code, out);
         let feed = self.now.feed;
         if feed.is_some() {
@@ -190,7 +190,11 @@ impl Lower {
             self.state.cycle = InForce::Lost;
             return;
         };
-        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed };
+        let called = match &mut self.state.cycle {
+            InForce::Active(before) => before.called.take(),
+            InForce::None | InForce::Lost => None,
+        };
+        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed, called };
         self.state.cycle = InForce::Active(Box::new(active));
         self.call_up(block, out);
         if dialect.cycles.hole_on_definition && has_hole_word {
@@ -274,7 +278,8 @@ impl Lower {
         active.shrinking = given.shrinking.or(active.shrinking);
         let rigid = active.kind.name() == "tap-rigid";
         let (dwell, peck, shrinking) = (active.dwell, active.peck.clone(), active.shrinking);
-        let bottom = self.dwells(row, dwell, block, out);
+        let bottom = self.dwells(row, [given.dwell, dwell], block, out);
+        let bottom = self.tap_dwell(row, rigid, bottom, block, out);
         let pecks = self.pecks(row, peck, shrinking, block, out);
         if let (Ok(kind), InForce::Active(active)) =
             (kind_of(row, rigid, bottom, pecks), &mut self.state.cycle)
@@ -287,6 +292,7 @@ impl Lower {
     /// The cycle in force as a statement.
     pub(in crate::word) fn call_up(&mut self, block: Span, out: &mut Batch) {
         let return_level = self.return_level(block, out);
+        let anew = self.start_anew(return_level, block, out);
         let InForce::Active(active) = &self.state.cycle else {
             return;
         };
@@ -306,6 +312,9 @@ impl Lower {
             feed: active.feed.map(Expr::Num),
         };
         self.push(block, Op::StartCycle(Box::new(cycle)), out);
+        if anew {
+            self.separate(out);
+        }
     }
 
     /// One hole, or as many as the block says.
@@ -373,59 +382,6 @@ impl Lower {
         let Some(plane) = plane.known() else { return Some(row.depth) };
         let normal = char::from(plane.axes().2.letter());
         (normal == row.depth || self.settings.dialect.cycles.any_plane && !row.one_plane).then_some(normal)
-    }
-
-    /// Takes note of a cycle's dwell where it stays in force for others.
-    fn note_dwell(&mut self, row: &CycleRow, dwell: Option<Num>, out: &mut Batch) {
-        let (Some(dwell), true) = (dwell, self.settings.dialect.cycles.dwell_left) else { return };
-        self.state.dwell_left = Know::Said(dwell);
-        self.dwells.said = true;
-        if let Some(relied) = self.dwells.relied.take() {
-            self.fault(left_open(&row.code), relied, out);
-        }
-    }
-
-    /// The dwell that a cycle without one takes over from an earlier one.
-    fn dwell_left(&mut self, row: &CycleRow, code: &Code, out: &mut Batch) -> Option<Num> {
-        let takes = self.settings.dialect.cycles.dwell_left && row.dwell.is_some() && !row.dwell_needed;
-        match self.state.dwell_left {
-            _ if !takes => None,
-            Know::Said(dwell) | Know::Taken(dwell) => Some(dwell),
-            Know::Unsaid => None,
-            Know::Lost | Know::Open | Know::Callers if self.dwells.said => {
-                self.refuse(left_open(&row.code), code.span, out)
-            }
-            Know::Lost | Know::Open | Know::Callers => {
-                self.dwells.relied.get_or_insert(code.span);
-                None
-            }
-        }
-    }
-
-    /// Control goes elsewhere: a cycle that is called up there keeps the dwell of the one in force.
-    pub(in crate::word) fn carry_dwell(&mut self, out: &mut Batch) {
-        let with_dwell = matches!(&self.state.cycle, InForce::Active(active) if active.dwell.is_some());
-        if !(with_dwell && self.settings.dialect.cycles.retained_by_all()) {
-            return;
-        }
-        self.dwells.carried = true;
-        if let Some((relied, code)) = self.dwells.over_unknown.take() {
-            self.fault(left_open(code), relied, out);
-        }
-    }
-
-    /// A cycle without a dwell of its own, called up where another may be in force whose dwell it would keep.
-    fn no_dwell_before(&mut self, row: &'static CycleRow, code: &Code, out: &mut Batch) {
-        let takes = row.dwell.is_some() || row.dwell_by.is_some();
-        if self.state.cycle != InForce::Lost || !takes || !self.settings.dialect.cycles.retained_by_all() {
-            return;
-        }
-        match self.dwells.carried {
-            true => self.fault(left_open(&row.code), code.span, out),
-            false => {
-                self.dwells.over_unknown.get_or_insert((code.span, &row.code));
-            }
-        }
     }
 
     /// A cycle cannot turn rotary axes on some controls.
@@ -533,29 +489,6 @@ impl Lower {
         }
     }
 
-    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
-    /// an option is asked.
-    fn dwells(
-        &mut self,
-        row: &'static CycleRow,
-        dwell: Option<Num>,
-        at: Span,
-        out: &mut Batch,
-    ) -> Option<Num> {
-        let dwell = dwell.filter(|_| row.dwell.is_some() || row.dwell_by.is_some())?;
-        let Some(asked) = row.dwell_by.as_ref().filter(|_| !dwell.is_zero()) else {
-            return Some(dwell);
-        };
-        match self.option(&asked.option, at, out) {
-            DWELLS => Some(dwell),
-            DWELL_REFUSED => {
-                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
-                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
-            }
-            _ => None,
-        }
-    }
-
     /// Whether a row's tapping is rigid: by its own kind, by a code before it, or as the machine is set.
     fn tap_is_rigid(&mut self, row: &CycleRow, at: Span, out: &mut Batch) -> bool {
         match row.kind.as_str() {
@@ -592,11 +525,6 @@ impl Lower {
     }
 }
 
-fn left_open(code: &str) -> Fault {
-    let name = "dwell that another cycle left in force, on some way to here".into();
-    Fault::NotSupported { code: code.into(), name }
-}
-
 /// A cycle's words in one block.
 struct Given {
     depth: Option<Coord>,
@@ -604,71 +532,4 @@ struct Given {
     dwell: Option<Num>,
     peck: Option<Expr>,
     shrinking: Option<[Num; 3]>,
-}
-
-/// How deep pecks are.
-#[derive(Clone, Debug)]
-struct Pecks {
-    /// Each of them; the least of those that decrease.
-    peck: Expr,
-    /// The first, and how much less each further one is.
-    shrinking: Option<[Num; 2]>,
-}
-
-/// The cycle of a row; `Err` with the letter of the word that it lacks.
-fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>) -> Result<CycleKind, char> {
-    let (own, to_level) = (row.own(), row.feed_to_level);
-    let shrinking = pecks.as_ref().and_then(|pecks| pecks.shrinking);
-    let peck = pecks.map(|pecks| pecks.peck);
-    let (first, less) = (shrinking.map(|s| Expr::Num(s[0])), shrinking.map(|s| Expr::Num(s[1])));
-    if row.dwell_needed && dwell.is_none() {
-        return Err(row.dwell.map_or(' ', |d| d.letter));
-    }
-    // A dwell of no seconds is none, where a cycle can go without.
-    let none = row.kind != "drill-dwell";
-    let is_one = |dwell: &Num| !(none && dwell.is_zero());
-    let bottom = dwell.filter(is_one).map(Expr::Num);
-    Ok(match row.kind.as_str() {
-        "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
-        "drill-peck" => CycleKind::DrillPeck {
-            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
-            first,
-            less,
-            clearance: Clearance::Parameter,
-            pause: None,
-            settle: None,
-            dwell: bottom,
-        },
-        "drill-break" => CycleKind::DrillBreak {
-            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
-            first,
-            less,
-            lift: Clearance::Parameter,
-            lift_at_feed: false,
-            pause: None,
-            dwell: bottom,
-        },
-        "tap" | "tap-rigid" => {
-            let turn = row.hand.unwrap_or(Hand::Right).turn();
-            let chuck = !rigid;
-            let after = if chuck { turn.spindle() } else { Spindle::Stopped };
-            let (dwell, back, settle) = match own.dwells_turned {
-                true => (None, bottom, None),
-                false => (bottom.clone(), None, bottom),
-            };
-            let pitch = Pitch::Feed;
-            CycleKind::Tap(Box::new(Tap { turn, pitch, chuck, dwell, back, settle, after, to_level }))
-        }
-        "bore-fine" => {
-            let shift = Shift::Parameter(peck.ok_or(row.shift.unwrap_or(' '))?);
-            let after = own.after();
-            CycleKind::FineBore(Box::new(FineBore { turn: None, dwell: bottom, angle: None, shift, after }))
-        }
-        "bore-stop" => {
-            CycleKind::BoreStop(BoreStop { turn: None, dwell: bottom, stop: false, after: own.after() })
-        }
-        "bore" => CycleKind::Bore { dwell: bottom, feed_out: None, to_level },
-        // The loader lets no other kind pass.
-        _ => CycleKind::Drill,
-    })
 }

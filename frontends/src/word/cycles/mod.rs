@@ -8,5 +8,8 @@
 //! Not here: the moves of a hole; the executor and passes have those.
 
 pub(super) mod cycle;
+mod dwells;
+mod kind;
+mod levels;
 pub(super) mod no_cycle;
 pub(super) mod pattern;

@@ -93,7 +93,15 @@ impl Lower {
             && let Some(value) = self.value_of(row, place, at, out)
         {
             self.rely_on_row(row, at, out);
-            return Some(value);
+            let asked = match &value {
+                Expr::Node(node) => match &**node {
+                    Node::Var(Var::System(asked)) => Some(asked.clone()),
+                    _ => None,
+                },
+                Expr::Num(_) => None,
+            };
+            let stated = asked.and_then(|asked| self.stated_at_start(&asked, at, out));
+            return Some(stated.map_or(value, |stated| Expr::int(i64::from(stated))));
         }
         let told =
             found.and_then(|(row, _)| row.refuse.as_deref()).unwrap_or("variable of the control's own");

@@ -159,6 +159,7 @@ fn cycle(c: &Cycle) -> String {
     let stated = |c: &Clearance| match c {
         Clearance::Stated(e) => expr(e),
         Clearance::Parameter => "?".into(),
+        Clearance::FromReturn => "return".into(),
     };
     let kind = match &c.kind {
         CycleKind::Drill => String::new(),

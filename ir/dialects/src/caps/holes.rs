@@ -27,6 +27,8 @@ fn every_cycle() -> Vec<CycleCap> {
         dwell: true,
         clearance: true,
         parameter: true,
+        from_return: true,
+        pause: None,
         strokes: true,
         shrinks: true,
         feed_out: true,
@@ -49,20 +51,7 @@ fn cycles(dialect: &Dialect) -> Vec<CycleCap> {
         None => vec![ReturnLevel::Initial, ReturnLevel::Retract],
     };
 
-    let cap = |row: &CycleRow, kind: &str| CycleCap {
-        kind: kind.to_owned(),
-        returns: returns.clone(),
-        dwell: row.dwell.is_some(),
-        clearance: false,
-        parameter: true,
-        strokes: false,
-        shrinks: row.shrinking.is_some(),
-        feed_out: false,
-        form: CycleForm::Control(row.own()),
-        turns: row.hand.map(|hand| hand.turn()).into_iter().collect(),
-        lift: Lift::Rapid,
-        feeds_out_to: FeedsOutTo::only(row.feed_to_level),
-    };
+    let cap = |row: &CycleRow, kind: &str| cycle_cap(row, kind, &returns);
     let called = |row: &CallRow| {
         let has = |role| row.place(role).is_some();
         let caps = row.kind.cycles().iter().map(|kind| CycleCap {
@@ -71,6 +60,8 @@ fn cycles(dialect: &Dialect) -> Vec<CycleCap> {
             dwell: has(ParameterRole::Dwell),
             clearance: has(ParameterRole::Clearance),
             parameter: !has(ParameterRole::Clearance),
+            from_return: false,
+            pause: None,
             strokes: has(ParameterRole::RelativeFirstDepth),
             shrinks: false,
             feed_out: has(ParameterRole::FeedOut),
@@ -135,8 +126,29 @@ pub(super) fn holes(dialect: &Dialect) -> HoleCaps {
         incremental: everything || dialect.cycles.incremental,
         returns: if everything { ReturnsTo::Either } else { ReturnsTo::only(dialect.states_return_planes()) },
         measured_anew: dialect.cycles.measured_anew,
+        level_of_block: dialect.cycles.level_of_block,
         end_motion: dialect.cycles.ends_motion,
         end_with_call: dialect.cycles.ends_with_call,
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
+    }
+}
+
+/// What a row of a cycle can say.
+fn cycle_cap(row: &CycleRow, kind: &str, returns: &[ReturnLevel]) -> CycleCap {
+    CycleCap {
+        kind: kind.to_owned(),
+        returns: returns.to_vec(),
+        dwell: row.dwell.is_some(),
+        clearance: false,
+        parameter: !row.from_return,
+        from_return: row.from_return,
+        pause: row.own_pause(),
+        strokes: false,
+        shrinks: row.shrinking.is_some(),
+        feed_out: false,
+        form: CycleForm::Control(row.own()),
+        turns: row.hand.map(|hand| hand.turn()).into_iter().collect(),
+        lift: Lift::Rapid,
+        feeds_out_to: FeedsOutTo::only(row.feed_to_level),
     }
 }

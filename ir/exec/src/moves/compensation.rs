@@ -196,8 +196,8 @@ impl Exec {
             CutterRadius::InForce => match self.length_in_force() {
                 Length::Entry(entry) => entry,
                 // A tool with a name whose number on the other control is known.
-                Length::Edge(tool, 1) if self.world.tables.named_entries.contains_key(&tool) => {
-                    return Ok(self.world.tables.named_entries[&tool] & !(EDGE | STATED));
+                Length::Edge(tool, edge) if self.world.tables.named_entries.contains_key(&(tool, edge)) => {
+                    return Ok(self.world.tables.named_entries[&(tool, edge)] & !(EDGE | STATED));
                 }
                 Length::Edge(tool, edge) => {
                     // Any two tools of a program are told apart by this.

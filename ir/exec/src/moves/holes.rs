@@ -52,7 +52,9 @@ enum Way {
     },
     Peck {
         strokes: Strokes,
-        clearance: Nanos,
+        /// How far above the last depth the rapid back ends; without, each peck goes out to where the tool is left, and
+        /// down at feed.
+        clearance: Option<Nanos>,
         settle: Option<Nanos>,
     },
     Break {
@@ -165,8 +167,9 @@ impl Exec {
                 let strokes = self.strokes(pecks, less.as_ref(), retract - depth, span)?;
                 let strokes = Strokes { pause: dwell(pause)?, dwell: dwell(d)?, ..strokes };
                 let clearance = match clearance {
-                    Clearance::Stated(value) => self.value(value, span)?,
-                    Clearance::Parameter => self.world.peck_clearance,
+                    Clearance::Stated(value) => Some(self.value(value, span)?),
+                    Clearance::Parameter => Some(self.world.peck_clearance),
+                    Clearance::FromReturn => None,
                 };
                 Way::Peck { strokes, clearance, settle: dwell(settle)? }
             }
@@ -176,7 +179,8 @@ impl Exec {
                 let strokes = Strokes { pause: dwell(pause)?, dwell: dwell(d)?, ..strokes };
                 let lift = match lift {
                     Clearance::Stated(value) => self.value(value, span)?,
-                    Clearance::Parameter => self.world.break_lift,
+                    // No reader makes one.
+                    Clearance::Parameter | Clearance::FromReturn => self.world.break_lift,
                 };
                 Way::Break { strokes, lift, at_feed: *lift_at_feed }
             }
@@ -412,14 +416,15 @@ impl Exec {
                 self.dwell(dwell, span, out)?;
             }
             Way::Peck { strokes, clearance, settle } => {
-                let mut stroke = strokes.first;
-                let mut bottom = cycle.retract - stroke;
+                let (mut stroke, mut bottom) = (strokes.first, cycle.retract - strokes.first);
                 while bottom > cycle.depth {
                     self.go_to_level(normal, bottom, true, span, out)?;
                     self.dwell(strokes.pause, span, out)?;
-                    self.go_to_level(normal, cycle.retract, false, span, out)?;
+                    // Without a clearance it goes down at feed.
+                    let [up, down] = clearance.map_or([out_to; 2], |by| [cycle.retract, bottom + by]);
+                    self.go_to_level(normal, up, false, span, out)?;
                     self.dwell(settle, span, out)?;
-                    self.go_to_level(normal, bottom + clearance, false, span, out)?;
+                    self.go_to_level(normal, down, false, span, out)?;
                     stroke = next_peck(stroke, strokes.peck, strokes.less);
                     bottom -= stroke;
                 }

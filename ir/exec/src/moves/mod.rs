@@ -1,4 +1,11 @@
 //! Moves: lines, arcs, corners, the contour beside which the tool goes, cycles, and how long each takes.
+//!
+//! ```text
+//! HOLE(X 10mm) under drill-peck    rapid, feed, rapid, feed …: one event each
+//! ARC_FEED(…) with a feed          one event with its centre, normal and sweep
+//! ```
+//!
+//! Not here: when a move happens: `ncc_time` has the clock.
 
 pub(crate) mod arcs;
 pub(crate) mod carried;

@@ -17,6 +17,12 @@ impl Exec {
         self.last = self.machine();
     }
 
+    /// Has a tool in the spindle, and its T code in force, before the program begins (a stated start).
+    pub fn hold_tool(&mut self, tool: u32) {
+        let tool = i64::from(tool);
+        (self.state.tool, self.selected, self.changed_to) = (tool, tool, tool);
+    }
+
     /// Takes facts for granted that nothing has set yet.
     pub fn assume(&mut self, facts: &Modes) {
         let here = self.machine();

@@ -1,4 +1,11 @@
 //! Execution of a program that is kept whole: calls, repetitions, variables and jumps, one statement at a time.
+//!
+//! ```text
+//! while #1 <= 3 { … }    three times the events of its body
+//! CALL("8000", #1 = 5)   those of the subprogram, with #1 = 5
+//! ```
+//!
+//! Not here: what a statement does to the machine (`Exec`).
 
 mod calls;
 pub(crate) mod code;
@@ -32,7 +39,7 @@ use ncc_ir::source::Span;
 
 /// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
 /// end.
-const MOST_STEPS: u64 = 50_000_000;
+pub const MOST_STEPS: u64 = 50_000_000;
 
 /// Most of them between two statements that are executed by themselves, and between two that anything comes of: a
 /// control that executes a thousand blocks a second stands still for half an hour with so many.
@@ -305,7 +312,7 @@ impl<'p> Runner<'p> {
     /// statement.
     #[inline]
     fn may_go_on(&self, before: u64, span: Span) -> Result<(), Diagnostic> {
-        if halt::is_asked() {
+        if halt::is_asked_at(self.steps) {
             return Err(Diagnostic::new(Fault::Interrupted { steps: self.steps }, span));
         }
         if self.steps > self.most {

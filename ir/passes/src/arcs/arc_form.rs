@@ -27,7 +27,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(ARC) && !l.target.caps.arcs.forms,
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.arcs, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ArcFormState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

@@ -24,17 +24,21 @@ pub(crate) const PASS: Pass = Pass {
     step: Some(Step {
         moment: Moment::Departure,
         needed: |l, p| {
-            l.compensated.refused.any() && (l.entries.is_some() || l.compensated.concerns(p.stmts))
+            l.states.ask(|own: &CompensatedModesState| {
+                own.refused.any() && (l.entries.is_some() || own.concerns(p.stmts))
+            })
         },
         run: |l, p| {
             let entries = l.entries.clone();
-            over(p.stmts, &mut l.compensated, entries.as_deref(), p.diags);
+            over(p.stmts, l.states.of::<CompensatedModesState>(), entries.as_deref(), p.diags);
         },
         otherwise: |l, p| {
-            if l.compensated.refused.any() {
-                l.compensated.note(p.stmts);
+            let own = l.states.of::<CompensatedModesState>();
+            if own.refused.any() {
+                own.note(p.stmts);
             }
         },
+        first: None,
     }),
     parametric: None,
 };

@@ -25,7 +25,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(RADIUS),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.radius, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<CutterRadiusState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

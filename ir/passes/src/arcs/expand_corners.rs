@@ -31,7 +31,14 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| {
             let (found, whole) = (p.diags.len(), p.needs(FRAME));
             let keep = if whole { Keep::None } else { Keep::Sayable };
-            over(p.stmts, &mut p.start.clone(), &mut l.corners, &l.target, keep, p.diags);
+            over(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.of::<ExpandCornersState>(),
+                &l.target,
+                keep,
+                p.diags,
+            );
             // They are arcs, which their moves need not be, and their words are measured from zero.
             let written = p.diags[found..].iter().any(|d| matches!(d.fault, Fault::CornerExpanded));
             p.needs |= if written { l.lacks & ARC } else { 0 };

@@ -4,20 +4,22 @@
 //! A computed coordinate is rounded to the target's digits. A point whose place is not known from the
 //! program alone is refused.
 
-use crate::legalise::Legaliser;
-use crate::pass::{Moment, Pass, Step};
-use crate::support::needs::POLAR;
+use super::polar_places::by_coordinates;
+use crate::holes::expand_cycles::ExpandCyclesState;
+use crate::pass::{First, Moment, Pass, Piece, Shared, Step};
+use crate::support::needs::{CORNER, CYCLE, EVERY, FRAME, PATTERN, POLAR};
 use crate::support::walk::Walk;
-use crate::support::write::{self, EXACT, exact, is_absolute, rebuild, rounded};
+use crate::support::write::{EXACT, exact, rebuild};
+use crate::threads::taps::TapsState;
 use crate::{Target, each_body};
-use ncc_ir::canon::{Axis, Distance, Plane};
+use ncc_ir::canon::{Distance, Plane};
 use ncc_ir::caps::PolarForm;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::geometry::polar::{self, Pole};
 use ncc_ir::program::cycle::absolute;
-use ncc_ir::program::kinds::{conduct, miscellaneous};
+use ncc_ir::program::kinds::{conduct, miscellaneous, moves};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleWords, Program, SetPole, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -26,9 +28,46 @@ pub(crate) const PASS: Pass = Pass {
     name: "polar-words",
     about: "says points by radius and angle in the target's form, or by coordinates",
     alone: Some(run),
-    step: Step::at(Moment::Placing, |_, p| p.needs(POLAR), Legaliser::polar_words),
+    step: Some(Step {
+        moment: Moment::Placing,
+        needed: |_, p| p.needs(POLAR),
+        run: in_coordinates,
+        otherwise: |_, _| {},
+        first: Some(First { tried: in_its_form, kept: holes_are_kept }),
+    }),
     parametric: None,
 };
+
+/// Writes them by coordinates, as another pass has to write out what they belong to.
+fn in_coordinates(l: &mut Shared, p: &mut Piece) {
+    // Corners and frames are worked out from exact points.
+    let exact = Target { decimals: EXACT - 1, ..l.target.clone() };
+    let target = if p.needs(CORNER | FRAME) { &exact } else { &l.target };
+    over(p.stmts, &mut p.start.clone(), l.states.of(), target, false, p.diags);
+    p.needs &= !POLAR;
+}
+
+/// Says them in the target's form, unless a pass behind looks into what they say.
+fn in_its_form(l: &mut Shared, p: &mut Piece) -> bool {
+    let holes = l.states.ask(ExpandCyclesState::is_busy) || l.states.ask(TapsState::is_busy);
+    if l.target.caps.moves.polar == PolarForm::None || p.needs(FRAME | EVERY | CORNER) || holes {
+        return false;
+    }
+    over(p.stmts, &mut p.start.clone(), l.states.of(), &l.target, true, p.diags);
+    p.needs &= !POLAR;
+    true
+}
+
+/// Whether no hole was written out by a pass behind.
+fn holes_are_kept(piece: &Piece, before: &[Stmt], after: &[Stmt]) -> bool {
+    let counts = |stmts: &[Stmt]| {
+        let polar = stmts.iter().filter(|stmt| matches!(stmt.op, Op::Polar(_))).count();
+        let calls = stmts.iter().filter(|stmt| matches!(stmt.op, Op::StartCycle(_))).count();
+        let others = stmts.iter().filter(|s| matches!(s.op, Op::Hole(_) | Op::Pattern(_) | moves!())).count();
+        [polar, calls, others]
+    };
+    !piece.needs(CYCLE | PATTERN) || counts(before) == counts(after)
+}
 
 /// What is known of the target's text.
 #[derive(Clone, Copy, Debug, Default)]
@@ -98,32 +137,6 @@ pub(crate) fn over(
             }
         }
     });
-}
-
-/// Puts the words of the plane into a polar move, if its place is known.
-///
-/// # Errors
-/// It is not known.
-pub(crate) fn by_coordinates(polar: &Polar, walk: &Walk, target: &Target) -> Result<Op, Fault> {
-    let unknown = || Fault::CannotSay {
-        what: "a point by radius and angle whose place is known only when the program runs".into(),
-    };
-    let (at, plane, _) = walk.at.polar(polar).ok_or_else(unknown)?;
-    let unit = walk.unit();
-    let make = |nanos| absolute(rounded(nanos, target.decimals_in(unit).min(EXACT), unit));
-    let mut op = polar::with_words(polar, plane, at, make).ok_or_else(unknown)?;
-    // One block, one way of measuring.
-    for (axis, word) in Axis::ALL.into_iter().zip(polar::end(&mut op).into_iter().flat_map(|to| &mut to.axes))
-    {
-        let Some(word) = word else { continue };
-        let here = walk.at.position[axis as usize];
-        if !is_absolute(word, walk.at.modes.distance)
-            && let Some(nanos) = walk.at.resolve(word, here)
-        {
-            *word = write::at(nanos, axis, unit);
-        }
-    }
-    Ok(op)
 }
 
 /// The statement of a pole in the target's form; nothing where that has none.

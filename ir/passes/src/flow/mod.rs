@@ -1,4 +1,11 @@
 //! Calls, jumps, loops and repetitions.
+//!
+//! ```text
+//! REPEAT_BLOCKS("A", times 2)    expand-repeats    the blocks behind label A, twice more
+//! CALL("8000")                   expand-calls      the body of subprogram 8000, in its place
+//! ```
+//!
+//! Not here: what is computed on the way (`values`).
 
 pub mod control_forms;
 pub mod expand_calls;

@@ -18,7 +18,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(SKIP),
-        |l, p| over(p.stmts, &mut l.skip, &l.target, p.diags),
+        |l, p| over(p.stmts, l.states.of::<SkipLevelsState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

@@ -30,12 +30,16 @@ pub(crate) const PASS: Pass = Pass {
     alone: None,
     step: Some(Step {
         moment: Moment::Arrival,
-        needed: |l, p| p.lines.is_none() && l.increments.concerns(p.stmts, l.walk.at.modes.distance),
-        run: |l, p| l.increments.over(p.stmts, &l.walk, p.diags),
-        otherwise: |l, p| match p.lines {
-            Some(lines) => l.increments.note_lines(lines),
-            None => l.increments.note(p.stmts, &l.walk),
+        needed: |l, p| {
+            p.lines.is_none()
+                && l.states.ask(|own: &FrameIncrementsState| own.concerns(p.stmts, l.walk.at.modes.distance))
         },
+        run: |l, p| l.states.of::<FrameIncrementsState>().over(p.stmts, &l.walk, p.diags),
+        otherwise: |l, p| match p.lines {
+            Some(lines) => l.states.of::<FrameIncrementsState>().note_lines(lines),
+            None => l.states.of::<FrameIncrementsState>().note(p.stmts, &l.walk),
+        },
+        first: None,
     }),
     parametric: None,
 };

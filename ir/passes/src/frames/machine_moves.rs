@@ -41,10 +41,10 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(MACHINE),
         |l, p| {
             let found = p.diags.len();
-            over(p.stmts, &mut p.start.clone(), &mut l.machine, &l.target, p.diags);
+            over(p.stmts, &mut p.start.clone(), l.states.of::<MachineMovesState>(), &l.target, p.diags);
             let cut = p.diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
             if let Some(at) = cut.map(|cut| cut.span) {
-                origin_shift::take(&mut l.shift, at, p.diags);
+                origin_shift::take(l.states.of::<origin_shift::OriginShiftState>(), at, p.diags);
             }
             p.needs |= l.lacks & (EDGE | TABLE | LENGTH);
         },

@@ -1,4 +1,11 @@
 //! Frames, work offsets, places of the machine, and rotary axes.
+//!
+//! ```text
+//! SET_FRAME(rotate, XY, 30deg)        expand-frames    positions that are turned by 30 degrees
+//! SET_ORIGIN_OFFSETS(1)           work-offset      nothing, for a target that has one work offset alone
+//! ```
+//!
+//! Not here: where a frame puts a position: `ncc_exec::frames` executes it.
 
 pub mod computed_frames;
 pub mod expand_frames;

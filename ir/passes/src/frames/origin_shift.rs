@@ -17,7 +17,11 @@ pub(crate) const PASS: Pass = Pass {
     name: "origin-shift",
     about: "takes a target that cannot cancel a shift of the origin to start without one",
     alone: Some(run),
-    step: Step::at(Moment::Placing, |_, p| p.needs(SHIFT), |l, p| over(p.stmts, &mut l.shift, p.diags)),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(SHIFT),
+        |l, p| over(p.stmts, l.states.of::<OriginShiftState>(), p.diags),
+    ),
     parametric: None,
 };
 

@@ -20,8 +20,8 @@ pub(crate) const PASS: Pass = Pass {
     alone: None,
     step: Step::at(
         Moment::Arrival,
-        |l, p| l.rotary.is_used() && p.lines.is_none(),
-        |l, p| l.rotary.check(p.stmts, &l.walk, p.diags),
+        |l, p| p.lines.is_none() && l.states.ask(RotaryTurnsState::is_used),
+        |l, p| l.states.of::<RotaryTurnsState>().check(p.stmts, &l.walk, p.diags),
     ),
     parametric: None,
 };
@@ -50,7 +50,7 @@ impl RotaryTurnsState {
     }
 
     /// Whether there is more than one.
-    pub(crate) fn is_used(self) -> bool {
+    pub(crate) fn is_used(&self) -> bool {
         self.values.count_ones() > 1
     }
 

@@ -24,7 +24,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(WORK),
-        |l, p| over(p.stmts, &mut l.work, p.assumed, &l.target, p.diags),
+        |l, p| over(p.stmts, l.states.of::<WorkOffsetState>(), p.assumed, &l.target, p.diags),
     ),
     parametric: None,
 };

@@ -3,7 +3,7 @@
 //! For targets whose cycles are only known in absolute mode; and where the distance mode of a hole's
 //! block would measure the planes of its cycle in another way than they are.
 
-use crate::holes::expand_cycles::level;
+use crate::holes::sayable::level;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;

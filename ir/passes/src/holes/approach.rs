@@ -5,16 +5,16 @@
 //! a rapid of its own, after which both ways are one. What cannot be mended so is left to
 //! `expand-cycles`.
 
-use crate::holes::expand_cycles::{level, sayable};
+use crate::holes::sayable::{level, sayable};
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
-use crate::support::walk::Walk;
+use crate::support::walk::{Walk, has_holes};
 use crate::support::write::{at, only, traverse};
 use crate::{Target, each_body};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::cycle::{Approach, Cycle, Pattern};
+use ncc_ir::program::cycle::{Approach, Cycle};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::track::{InForce, Tracker};
@@ -252,13 +252,4 @@ fn is_last(body: &[Stmt], i: usize) -> bool {
         }
     }
     false
-}
-
-/// Whether a pattern makes any hole.
-pub(crate) fn has_holes(pattern: &Pattern) -> bool {
-    match pattern {
-        Pattern::Circle { count, .. } | Pattern::Line { count, .. } => *count > 0,
-        Pattern::List(points) => !points.is_empty(),
-        Pattern::Grid { columns, rows, .. } => columns.count > 0 && rows.count > 0,
-    }
 }

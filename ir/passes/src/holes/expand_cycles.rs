@@ -7,7 +7,8 @@
 //!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole
 //!    that was left no higher than R straight to the level of return above the next;
 //! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
-//!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
+//!    the clearance above the last depth, the last peck clipped at the bottom (without a clearance, by rapid to
+//!    where the tool is left and down at feed); dwell, if there is one;
 //! 3. out by rapid to R or to the level where the tool stood when the cycle was called up, which
 //!    under [`Approach::RaiseFirst`] is not below R (NIST RS274/NGC 3.5.20); [`CycleKind::Bore`]
 //!    feeds to R first.
@@ -16,25 +17,23 @@
 //! Moves without way are left out. Levels that the program measures from others are written
 //! absolute, for which they must be known.
 
-use crate::arcs::polar_words;
+use super::sayable::{lasts, level, sayable};
+use crate::arcs::polar_places;
 use crate::holes::approach::is_one_way;
 use crate::holes::expand_patterns;
+use crate::holes::pecks::{level_is_here, pecks};
 use crate::holes::spindle_holes::with_spindle;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
-use crate::support::write::{
-    Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of,
-};
+use crate::support::write::{Rebuild, at, cut, is_absolute, only, rebuild, traverse};
 use crate::{Target, each_body};
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, Lift};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Num};
-use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Shift, absolute, next_peck};
+use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift};
 use ncc_ir::program::kinds::{flow, moves};
-use ncc_ir::program::{Coord, Op, Point, Program, Stmt};
+use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::{InForce, Tracker};
 
@@ -46,13 +45,10 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.cycles, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandCyclesState>(), &l.target, p.diags),
     ),
     parametric: None,
 };
-
-/// Most pecks of one hole; more is a slip of the pen.
-const MOST_PECKS: i64 = 100_000;
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
@@ -97,12 +93,12 @@ pub(crate) fn over(
         match &stmt.op {
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
-                let kept_before = walk.at.cycle.is_some() && !state.expanding;
-                // Cycles called up one after another share the initial level.
-                let chained = state.expanding;
+                let [kept, doubt] = in_force_before(walk).map(|is| is && !state.expanding);
                 walk.step(&stmt);
                 let must = match &walk.at.cycle {
-                    Some(in_force) => chained || must_expand(walk, in_force, target, stmt.span, diags),
+                    // Cycles called up one after another share the initial level.
+                    Some(_) if state.expanding => true,
+                    Some(now) => must_expand(walk, now, kept || doubt, target, stmt.span, diags),
                     None => false,
                 };
                 if !must {
@@ -118,14 +114,14 @@ pub(crate) fn over(
                 let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
                 state.owed = feed.clone().map(owed);
                 state.feed = feed;
-                if kept_before {
+                if kept {
                     made.replace(stmt, [(true, Op::EndCycle)]);
                 } else {
                     made.leave_out(stmt);
                 }
             }
             Op::Polar(polar) if state.expanding && matches!(polar.op, Op::Hole(_) | Op::Position(_)) => {
-                match polar_words::by_coordinates(polar, walk, target) {
+                match polar_places::by_coordinates(polar, walk, target) {
                     Ok(Op::Hole(m) | Op::Position(m)) => {
                         // The pole and its words are those behind the point.
                         let mut behind = walk.at.clone();
@@ -308,113 +304,25 @@ fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether the target has words for a cycle, whatever the tool does before it.
-pub(crate) fn sayable(
-    walk: &Walk,
-    cycle: &Cycle,
-    target: &Target,
-    span: Span,
-    diags: &mut Vec<Diagnostic>,
-) -> bool {
-    let caps = &target.caps;
-    if caps.flat {
-        return false;
-    }
-    let kind = cycle.kind.name();
-    let cap = |has: fn(&CycleCap) -> bool| caps.holes.cycles.iter().any(|c| c.kind == kind && has(c));
-    let (dwell, details) = match &cycle.kind {
-        CycleKind::Drill => (false, true),
-        CycleKind::DrillDwell { .. } => (true, true),
-        CycleKind::DrillPeck { dwell, clearance, first, less, pause, settle, .. } => {
-            let other_first = first.is_some() && less.is_none();
-            let strokes = other_first || pause.is_some() || settle.is_some();
-            (dwell.is_some(), says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks)))
-        }
-        CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
-            let strokes = first.is_some() && less.is_none() || pause.is_some();
-            let rapid = cap(|c| c.lift != Lift::Feed);
-            let way = if *lift_at_feed { cap(|c| c.lift != Lift::Rapid) } else { rapid };
-            let shrinks = less.is_none() || cap(|c| c.shrinks);
-            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
-        }
-        CycleKind::Bore { dwell, feed_out, .. } => {
-            (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
-        }
-        CycleKind::Tap(tap) => {
-            let turns = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
-            (
-                tap.dwell.is_some() || tap.back.is_some(),
-                driven(caps, cycle) && caps.holes.cycles.iter().any(|c| c.kind == kind && turns(c)),
-            )
-        }
-        CycleKind::FineBore(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
-        CycleKind::BoreStop(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
-    };
-    if !details || !caps.holes.returns.says(cycle.return_plane.is_some()) {
-        return false;
-    }
-    let mut rows = caps.holes.cycles.iter().filter(|c| c.kind == kind && (c.dwell || !dwell));
-    if cycle.return_plane.is_some() {
-        return rows.any(|c| c.ends_feed(&cycle.kind, None));
-    }
-    let says =
-        |level| rows.clone().any(|c| c.returns.contains(&level) && c.ends_feed(&cycle.kind, Some(level)));
-    match cycle.return_level.known().or(walk.at.modes.return_level) {
-        Some(level) => says(level),
-        None => {
-            let (initial, retract) = (says(ReturnLevel::Initial), says(ReturnLevel::Retract));
-            if initial != retract {
-                diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }, span));
-            }
-            initial || retract
-        }
-    }
-}
-
-/// Whether the target says what a cycle does with the spindle in the way that it does it.
-fn driven(caps: &Caps, cycle: &Cycle) -> bool {
-    let kind = cycle.kind.name();
-    caps.holes.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
-}
-
-/// Whether the target can say how a hole is pecked.
-fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance, strokes: bool) -> bool {
-    let stated = match clearance {
-        Clearance::Stated(_) => cap(|c| c.clearance),
-        Clearance::Parameter => cap(|c| c.parameter),
-    };
-    stated && (!strokes || cap(|c| c.strokes))
+/// Whether a cycle is in force, and whether one may be.
+fn in_force_before(walk: &Walk) -> [bool; 2] {
+    [walk.at.cycle.is_some(), walk.at.cycle_in_doubt]
 }
 
 fn must_expand(
     walk: &Walk,
     in_force: &InForce,
+    kept: bool,
     target: &Target,
     span: Span,
     diags: &mut Vec<Diagnostic>,
 ) -> bool {
     let cycle = &in_force.cycle;
+    if kept && !level_is_here(walk, in_force, target) {
+        return true;
+    }
     let same_way = target.caps.holes.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
-}
-
-/// A level of a cycle as an absolute word.
-pub(crate) fn level(
-    walk: &Walk,
-    word: &Coord,
-    resolved: Option<Nanos>,
-    normal: Axis,
-) -> Result<Coord, Fault> {
-    if is_absolute(word, walk.at.modes.distance) {
-        return Ok(as_absolute(word));
-    }
-    match resolved {
-        Some(nanos) => Ok(at(nanos, normal, walk.unit())),
-        None if word.distance.known().or(walk.at.modes.distance).is_none() => {
-            Err(Fault::EntryFactNeeded { fact: ModeName::Distance })
-        }
-        None => Err(Fault::PositionUnknown { axis: normal.letter() as char }),
-    }
 }
 
 /// The moves of one hole; `true` marks those that stand in the block of the one before.
@@ -529,7 +437,7 @@ pub(crate) fn hole(
         }
         return Ok(());
     }
-    pecks(walk, in_force, normal, target, stated, moves)?;
+    pecks(walk, in_force, [&retract, out.as_ref().unwrap_or(&retract)], target, stated, moves)?;
     let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
     moves.push((stated && first_cut, cut(depth)));
     let dwell = match &cycle.kind {
@@ -560,102 +468,4 @@ pub(crate) fn hole(
         (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),
     }
     Ok(())
-}
-
-/// What comes between two pecks.
-enum Between<'c> {
-    /// Out of the hole and back to the clearance.
-    Out { clearance: Nanos, settle: Option<&'c Expr> },
-    /// Up a little.
-    Up { lift: Nanos, at_feed: bool },
-}
-
-/// All pecks but the last.
-fn pecks(
-    walk: &Walk,
-    in_force: &InForce,
-    normal: Axis,
-    target: &Target,
-    stated: bool,
-    moves: &mut Vec<(bool, Op)>,
-) -> Result<(), Fault> {
-    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
-    let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
-        Some(nanos) => Ok(nanos),
-        None => Err(Fault::CannotSay { what: what.into() }),
-    };
-    let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
-    let (peck, first, less, pause, between) = match &in_force.cycle.kind {
-        CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, .. } => {
-            let clearance = match clearance {
-                Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter => parameter(
-                    target.peck_clearance,
-                    "peck drilling whose clearance is a parameter of the control",
-                )?,
-            };
-            (peck, first, less, pause, Between::Out { clearance, settle: settle.as_ref() })
-        }
-        CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, .. } => {
-            let lift = match lift {
-                Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter => parameter(
-                    target.break_lift,
-                    "chip-breaking drilling whose lift is a parameter of the control",
-                )?,
-            };
-            (peck, first, less, pause, Between::Up { lift, at_feed: *lift_at_feed })
-        }
-        CycleKind::Drill
-        | CycleKind::DrillDwell { .. }
-        | CycleKind::Bore { .. }
-        | CycleKind::Tap(_)
-        | CycleKind::FineBore(_)
-        | CycleKind::BoreStop(_) => return Ok(()),
-    };
-    let (Some(retract), Some(depth)) = (in_force.retract, in_force.depth) else { return Err(unknown) };
-    let peck = length(peck)?.checked_abs().unwrap_or(0);
-    let first = match first {
-        Some(first) => length(first)?,
-        None => peck,
-    };
-    let less = less.as_ref().map(length).transpose()?;
-    let grows = less.is_some_and(|less| less < 0 || first < peck);
-    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MOST_PECKS {
-        return Err(Fault::OutOfRange { word: "depth of a peck".into() });
-    }
-    let unit = unit_of(normal, walk.unit());
-    let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
-    let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
-    let mut stroke = first;
-    let mut bottom = retract.saturating_sub(stroke);
-    let mut joined = stated;
-    while bottom > depth {
-        moves.push((joined, cut(go(bottom))));
-        joined = false;
-        if let Some(pause) = pause.as_ref().filter(|pause| lasts(pause)) {
-            moves.push((false, Op::Dwell(pause.clone())));
-        }
-        match &between {
-            Between::Out { clearance, settle } => {
-                moves.push((false, traverse(up.clone())));
-                if let Some(settle) = settle.filter(|settle| lasts(settle)) {
-                    moves.push((false, Op::Dwell((*settle).clone())));
-                }
-                moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
-            }
-            Between::Up { lift, at_feed } => {
-                let to = go(bottom.saturating_add(*lift));
-                moves.push((false, if *at_feed { cut(to) } else { traverse(to) }));
-            }
-        }
-        stroke = next_peck(stroke, peck, less);
-        bottom = bottom.saturating_sub(stroke);
-    }
-    Ok(())
-}
-
-/// Whether a cycle's dwell is one: of no seconds it is none.
-pub(crate) fn lasts(seconds: &Expr) -> bool {
-    seconds.literal().is_none_or(|n| !n.is_zero())
 }

@@ -2,7 +2,7 @@
 //! positions, one block a hole.
 
 use crate::holes::absolute_holes;
-use crate::holes::pattern_forms;
+use crate::holes::pattern_forms::{self, MOST_HOLES};
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::PATTERN;
 use crate::support::walk::Walk;
@@ -40,9 +40,6 @@ pub(crate) const REFORM: Pass = Pass {
     ),
     parametric: None,
 };
-
-/// Most holes of one pattern; more is a slip of the pen.
-pub(crate) const MOST_HOLES: u32 = 100_000;
 
 /// Expands the patterns that the target cannot say.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

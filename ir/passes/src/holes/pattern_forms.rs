@@ -6,7 +6,6 @@
 //! the tool stands at the first hole.
 
 use crate::Target;
-use crate::holes::expand_patterns::MOST_HOLES;
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute, rounded};
 use ncc_ir::canon::{Axis, Plane};
@@ -20,6 +19,9 @@ use ncc_ir::track::Tracker;
 
 /// Degrees of a quarter turn, in nanos.
 const QUARTER: Nanos = 90 * ONE;
+
+/// Most holes of one pattern; more is a slip of the pen.
+pub(crate) const MOST_HOLES: u32 = 100_000;
 
 /// What is known here.
 struct Here<'h> {

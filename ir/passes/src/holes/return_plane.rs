@@ -6,8 +6,9 @@
 //! below the retract plane is not made: controls that state planes refuse it. What cannot be mended
 //! so is left to `expand-cycles`.
 
-use crate::holes::expand_cycles::{self, level, sayable};
+use crate::holes::expand_cycles;
 use crate::holes::expand_patterns;
+use crate::holes::sayable::{level, sayable};
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;

@@ -8,7 +8,7 @@
 //! where it is not known how it turned.
 
 use crate::Target;
-use crate::holes::expand_cycles::lasts;
+use crate::holes::sayable::lasts;
 use crate::support::walk::Walk;
 use crate::support::write::{cut, exact, traverse, unit_of};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle};

@@ -4,12 +4,18 @@
 //! target's capabilities by the same passes; behind each nothing is known. What a pass would have to change that is
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
+use crate::arcs::compensated_modes::CompensatedModesState;
+use crate::frames::expand_frames::ExpandFramesState;
+use crate::frames::frame_increments::FrameIncrementsState;
+use crate::frames::origin_shift::OriginShiftState;
+use crate::modes::at_once::AtOnceState;
+use crate::threads::taps::TapsState;
+use crate::tools::z_after_change::ZAfterChangeState;
 use std::rc::Rc;
 
 use crate::flow::number_names;
 use crate::frames::computed_frames;
 use crate::frames::machine_cuts;
-use crate::frames::origin_shift;
 use crate::legalise::{Legaliser, Target};
 use crate::support::known_facts::{self, Known};
 use crate::threads::taps;
@@ -26,19 +32,19 @@ use ncc_ir::track::Tracker;
 impl Legaliser {
     /// What holds behind what has come so far.
     pub fn stands(&self) -> &Tracker {
-        &self.walk.at
+        &self.shared.walk.at
     }
 
     /// Brings a program that computes within the target's capabilities, its structure kept.
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
-        number_names::over(program, &self.target, true, diags);
+        number_names::over(program, &self.shared.target, true, diags);
         ran_whole("number-names", program);
         let mut found = Vec::new();
         let mut bare = program.clone();
         let any =
             bare.procedures.iter_mut().map(|p| known_facts::positions(&mut p.body)).fold(false, |a, b| a | b);
-        if any && self.target.caps.flow.computes.as_ref().is_some_and(|there| !there.restates) {
+        if any && self.shared.target.caps.flow.computes.as_ref().is_some_and(|there| !there.restates) {
             self.stretches(&mut bare, known, &mut found);
             if found.iter().all(|d| d.fault.gravity() != Gravity::Error) {
                 *program = bare;
@@ -53,12 +59,12 @@ impl Legaliser {
         let assumed = program.assumed;
         // What the target says of a program's flow has been looked at before.
         let mut fresh = self.clone();
-        fresh.lacks &= !(crate::legalise::CONTROL | crate::legalise::CALL);
-        match computed_frames::run(program, &self.target.caps, known) {
+        fresh.shared.lacks &= !(crate::legalise::CONTROL | crate::legalise::CALL);
+        match computed_frames::run(program, &self.shared.target.caps, known) {
             Ok(computed_frames::Found::Straight) => {}
-            Ok(computed_frames::Found::Said) if !self.frames.is_busy() => {
+            Ok(computed_frames::Found::Said) if !self.shared.states.ask(ExpandFramesState::is_busy) => {
                 ran_whole("computed-frames", program);
-                fresh.lacks &= !crate::legalise::FRAME
+                fresh.shared.lacks &= !crate::legalise::FRAME
             }
             Ok(computed_frames::Found::Said) => {
                 let at = program.procedures.first().and_then(|main| main.body.first());
@@ -68,8 +74,9 @@ impl Legaliser {
             }
             Err(refusal) => return diags.push(refusal),
         }
-        fresh.entries = fresh.entries_of(program).map(Rc::new);
-        let first = Legaliser { entries: None, ..fresh.clone() };
+        fresh.shared.entries = fresh.entries_of(program).map(Rc::new);
+        let mut first = fresh.clone();
+        first.shared.entries = None;
         let bare = program.procedures.iter().any(|procedure| known_facts::has_bare_holes(&procedure.body));
         let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body, bare));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
@@ -78,30 +85,33 @@ impl Legaliser {
                 _ => None,
             };
             let inherits = has_positions(&procedure.body);
-            let mut region = Region { fresh: &fresh, known, inherits, levels, diags, shift: self.shift };
+            let mut region =
+                Region { fresh: &fresh, known, inherits, levels, diags, shift: *self.shared.states.of() };
             region.body(&mut procedure.body, start);
-            self.shift = region.shift;
+            self.shared.states.put(region.shift);
         }
     }
 
     /// The same legaliser where nothing is known of what was before but this.
     fn anew(&self, known: Option<Tracker>, first: Option<&Stmt>) -> Legaliser {
-        let Target { caps, decimals, peck_clearance, .. } = &self.target;
+        let Target { caps, decimals, peck_clearance, .. } = &self.shared.target;
         let mut own = Legaliser::new(caps, *decimals, *peck_clearance);
-        own.target.clone_from(&self.target);
-        (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
-        (own.source_arcs, own.feed_again, own.times_differ) =
-            (self.source_arcs, self.feed_again, self.times_differ);
-        own.walk = crate::legalise::Walk::new(known.unwrap_or_else(Tracker::unknown));
-        own.walk.at.z_lost_at_change = self.walk.at.z_lost_at_change;
-        own.compensated.refused = self.compensated.refused;
-        own.entries.clone_from(&self.entries);
+        own.shared.target.clone_from(&self.shared.target);
+        (own.shared.lacks, own.shared.measures, own.shared.follow) =
+            (self.shared.lacks, self.shared.measures, self.shared.follow);
+        (own.shared.source_arcs, own.shared.feed_again, own.shared.times_differ) =
+            (self.shared.source_arcs, self.shared.feed_again, self.shared.times_differ);
+        own.shared.walk = crate::legalise::Walk::new(known.unwrap_or_else(Tracker::unknown));
+        own.shared.walk.at.z_lost_at_change = self.shared.walk.at.z_lost_at_change;
+        own.shared.states.of::<CompensatedModesState>().refused =
+            self.shared.states.ask(|here: &CompensatedModesState| here.refused);
+        own.shared.entries.clone_from(&self.shared.entries);
         own.enter(first);
-        own.taps = taps::TapsState::entered(&own.walk.at);
-        own.at_once = crate::legalise::at_once::AtOnceState::default();
-        own.increments = self.increments.clone();
-        own.z_left = self.z_left;
-        own.z_left.start_over();
+        own.shared.states.put(TapsState::entered(&own.shared.walk.at));
+        own.shared.states.forget::<AtOnceState>();
+        own.shared.states.put(self.shared.states.ask(FrameIncrementsState::clone));
+        own.shared.states.put(self.shared.states.ask(ZAfterChangeState::clone));
+        own.shared.states.of::<ZAfterChangeState>().start_over();
         own
     }
 }
@@ -230,7 +240,7 @@ struct Region<'l> {
     levels: bool,
     diags: &'l mut Vec<Diagnostic>,
     /// What has been taken for granted of the origin's shift.
-    shift: origin_shift::OriginShiftState,
+    shift: OriginShiftState,
 }
 
 impl Region<'_> {
@@ -262,16 +272,16 @@ impl Region<'_> {
             start.unwrap_or_else(|| (self.fresh.anew(known.cloned(), stmts.first()), Modes::default()));
         let before = stmts.clone();
         let mut found = Vec::new();
-        own.shift = self.shift;
+        own.shared.states.put(self.shift);
         own.run(stmts, &assumed, None, &mut found);
-        self.shift = own.shift;
-        if own.frames.is_worked_in()
+        self.shift = *own.shared.states.of();
+        if own.shared.states.ask(ExpandFramesState::is_worked_in)
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)
         {
             let what = "a frame that is worked into coordinates, where a program computes".into();
             found.push(Diagnostic::new(Fault::Computes { what }, last.span));
         }
-        if own.taps.has_lost_feed()
+        if own.shared.states.ask(TapsState::has_lost_feed)
             && let Some(last) = before.last()
         {
             found.push(Diagnostic::new(Fault::CannotSay { what: taps::LOST.into() }, last.span));

@@ -4,10 +4,10 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Arc, Data, Op, Stmt};
 use ncc_ir::track::Tracker;
 
-use super::{Legaliser, messages, tool_data};
+use super::{messages, tool_data};
 use crate::arcs::arc_radii;
 use crate::frames::work_offset;
-use crate::pass::{Moment, Pass, Step};
+use crate::pass::{Moment, Pass, Shared, Step};
 use crate::support::needs::{ARC, CALL, CONTROL, MACHINE, MESSAGE};
 use crate::support::walk::Walk;
 
@@ -19,73 +19,71 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(ARC | MESSAGE | CALL | CONTROL | MACHINE),
-        |l, p| l.refuse(p.stmts, &mut p.start.clone(), p.diags),
+        |l, p| refuse(l, p.stmts, &mut p.start.clone(), p.diags),
     ),
     parametric: None,
 };
 
-impl Legaliser {
-    /// Refuses what no pass can mend.
-    pub(crate) fn refuse(&self, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
-        let caps = &self.target.caps;
-        for stmt in &mut *stmts {
-            walk.enter(stmt.skip);
-            if !caps.frames.offset_turns {
-                work_offset::leave_straight(&mut stmt.op);
-            }
-            if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &self.source_arcs) {
-                match arc_radii::over(arc, walk, source, &self.target) {
-                    arc_radii::Judged::Kept => {}
-                    arc_radii::Judged::ByCentre => {
-                        diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
-                    }
-                    arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
-                }
-            }
-            let mut cannot = |what: &str| {
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
-            };
-            match &stmt.op {
-                Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot("a helix"),
-                Op::Control(_) if !caps.flow.repeats => cannot("control of the program's flow"),
-                Op::Goto(_) if !caps.flow.repeats => cannot("a jump"),
-                Op::Label(_) if !caps.flow.repeats && !caps.flow.repeat_blocks => cannot("a jump"),
-                Op::Call(_) if !caps.flow.calls => cannot("a call"),
-                Op::Return if !caps.flow.calls => cannot("a return"),
-                Op::UseMachineCoordinates { .. } if !caps.machine.coordinates => {
-                    cannot("a move in machine coordinates");
-                }
-                Op::UseMachineCoordinates { length } if !caps.machine.length.says(*length) => {
-                    cannot(if *length {
-                        "a move in machine coordinates that is measured with the tool's length"
-                    } else {
-                        "a move in machine coordinates without the tool's length"
-                    });
-                }
-                Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
-                Op::SetData(data) => match &**data {
-                    Data::Offset { turn: Some(_), .. } if !caps.frames.offset_turns => {
-                        cannot("rotation of a work offset");
-                    }
-                    Data::Offset { mode, .. } if caps.frames.offset_data[*mode as usize] => {}
-                    Data::Tool { .. } | Data::Measured { .. } => {
-                        if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
-                            cannot(what);
-                        }
-                    }
-                    Data::Position(place) if caps.machine.stored_positions[usize::from(*place == 2)] => {}
-                    Data::ToolInSpindle(_) if caps.tools.number => {}
-                    Data::Position(_) => cannot("storing where the axes stand"),
-                    Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
-                    Data::Offset { .. } => cannot("this value in the control's tables"),
-                },
-                _ => {}
-            }
-            walk.step(stmt);
+/// Refuses what no pass can mend.
+fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+    let caps = &shared.target.caps;
+    for stmt in &mut *stmts {
+        walk.enter(stmt.skip);
+        if !caps.frames.offset_turns {
+            work_offset::leave_straight(&mut stmt.op);
         }
-        if !caps.modes.messages {
-            messages::drop_messages(stmts, caps, diags);
+        if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &shared.source_arcs) {
+            match arc_radii::over(arc, walk, source, &shared.target) {
+                arc_radii::Judged::Kept => {}
+                arc_radii::Judged::ByCentre => {
+                    diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
+                }
+                arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+            }
         }
+        let mut cannot = |what: &str| {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        };
+        match &stmt.op {
+            Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot("a helix"),
+            Op::Control(_) if !caps.flow.repeats => cannot("control of the program's flow"),
+            Op::Goto(_) if !caps.flow.repeats => cannot("a jump"),
+            Op::Label(_) if !caps.flow.repeats && !caps.flow.repeat_blocks => cannot("a jump"),
+            Op::Call(_) if !caps.flow.calls => cannot("a call"),
+            Op::Return if !caps.flow.calls => cannot("a return"),
+            Op::UseMachineCoordinates { .. } if !caps.machine.coordinates => {
+                cannot("a move in machine coordinates");
+            }
+            Op::UseMachineCoordinates { length } if !caps.machine.length.says(*length) => {
+                cannot(if *length {
+                    "a move in machine coordinates that is measured with the tool's length"
+                } else {
+                    "a move in machine coordinates without the tool's length"
+                });
+            }
+            Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
+            Op::SetData(data) => match &**data {
+                Data::Offset { turn: Some(_), .. } if !caps.frames.offset_turns => {
+                    cannot("rotation of a work offset");
+                }
+                Data::Offset { mode, .. } if caps.frames.offset_data[*mode as usize] => {}
+                Data::Tool { .. } | Data::Measured { .. } => {
+                    if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
+                        cannot(what);
+                    }
+                }
+                Data::Position(place) if caps.machine.stored_positions[usize::from(*place == 2)] => {}
+                Data::ToolInSpindle(_) if caps.tools.number => {}
+                Data::Position(_) => cannot("storing where the axes stand"),
+                Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
+                Data::Offset { .. } => cannot("this value in the control's tables"),
+            },
+            _ => {}
+        }
+        walk.step(stmt);
+    }
+    if !caps.modes.messages {
+        messages::drop_messages(stmts, caps, diags);
     }
 }
 

@@ -4,6 +4,25 @@
 //! What can stay a subprogram does: those alone are written out that belong to a cycle of a caller which the target
 //! says in another way, or that cannot be said by themselves.
 
+use crate::arcs::arc_form::ArcFormState;
+use crate::arcs::compensated_modes::CompensatedModesState;
+use crate::arcs::expand_corners::ExpandCornersState;
+use crate::arcs::polar_words::PolarWordsState;
+use crate::frames::expand_frames::ExpandFramesState;
+use crate::frames::machine_moves::MachineMovesState;
+use crate::holes::expand_cycles::ExpandCyclesState;
+use crate::holes::sayable::sayable;
+use crate::modes::at_once::AtOnceState;
+use crate::modes::feed_time::FeedTimeState;
+use crate::modes::feed_unit::FeedUnitState;
+use crate::modes::one_move::OneMoveState;
+use crate::modes::path_control::PathControlState;
+use crate::threads::in_step::ThreadsState;
+use crate::threads::taps::TapsState;
+use crate::tools::tool_axis::ToolAxisState;
+use crate::tools::tool_change::ToolChangeState;
+use crate::tools::tool_edge::ToolEdgeState;
+use crate::tools::z_after_change::ZAfterChangeState;
 use std::collections::{BTreeSet, HashSet};
 use std::rc::Rc;
 
@@ -31,11 +50,12 @@ impl Legaliser {
     /// procedure, and all subprograms. Ends it, as [`Legaliser::finish`] does.
     pub fn run_program(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) {
         let assumed = rest.assumed;
-        self.walk.assume(&assumed);
-        let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.target.caps);
+        self.shared.walk.assume(&assumed);
+        let frames =
+            self.shared.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.shared.target.caps);
         // Where the frames can be said, subprograms stay what they are.
-        let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.target.caps);
-        if apart && rest.procedures.len() > 1 && self.lacks & CALL == 0 {
+        let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.shared.target.caps);
+        if apart && rest.procedures.len() > 1 && self.shared.lacks & CALL == 0 {
             let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
             own.run_whole(&mut program, Subprograms::Keep, &mut found);
             let worked_in = |d: &Diagnostic| {
@@ -52,23 +72,23 @@ impl Legaliser {
         }
         // A subprogram may lack what only its callers know: it is given that, or written out.
         let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
-        let first = match self.lacks & CALL != 0 || frames {
+        let first = match self.shared.lacks & CALL != 0 || frames {
             true => 2,
             false if !self.calls_under_expanded(rest) => 0,
             false => {
                 let mut own = rest.clone();
-                let inherits = self.target.caps.flow.inherits_motion;
-                specialise_procedures::over(&mut own, &self.walk, inherits, &mut Vec::new());
+                let inherits = self.shared.target.caps.flow.inherits_motion;
+                specialise_procedures::over(&mut own, &self.shared.walk, inherits, &mut Vec::new());
                 if self.calls_under_expanded(&own) { 2 } else { 1 }
             }
         };
-        if first == 2 && self.lacks & CALL == 0 && !frames && self.write_out_some(rest, diags) {
+        if first == 2 && self.shared.lacks & CALL == 0 && !frames && self.write_out_some(rest, diags) {
             return;
         }
         if first == 2 {
             return self.run_whole(rest, Subprograms::Expand, diags);
         }
-        if self.lacks != 0 && rest.procedures.len() > 1 {
+        if self.shared.lacks != 0 && rest.procedures.len() > 1 {
             for way in ways.into_iter().skip(first) {
                 if way == Subprograms::Expand && self.write_out_some(rest, diags) {
                     return;
@@ -88,8 +108,8 @@ impl Legaliser {
     /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
         let (mut given, mut told) = (rest.clone(), Vec::new());
-        let inherits = self.target.caps.flow.inherits_motion;
-        specialise_procedures::over(&mut given, &self.walk, inherits, &mut told);
+        let inherits = self.shared.target.caps.flow.inherits_motion;
+        specialise_procedures::over(&mut given, &self.shared.walk, inherits, &mut told);
         ran_whole("specialise-procedures", &given);
         let subs = given.procedures.iter().skip(1);
         let mut names: BTreeSet<Text> = match self.calls_under_expanded(&given) {
@@ -98,7 +118,7 @@ impl Legaliser {
         };
         loop {
             let (mut own, mut program, mut found) = (self.clone(), given.clone(), told.clone());
-            expand_calls::some(&mut program, &mut self.walk.clone(), &names, &mut found);
+            expand_calls::some(&mut program, &mut self.shared.walk.clone(), &names, &mut found);
             ran_whole("expand-calls", &program);
             if program.procedures.len() < 2 || self.calls_under_expanded(&program) {
                 return false;
@@ -128,56 +148,56 @@ impl Legaliser {
         match way {
             Subprograms::Keep => {}
             Subprograms::Specialise => {
-                let inherits = self.target.caps.flow.inherits_motion;
-                specialise_procedures::over(rest, &self.walk, inherits, diags);
+                let inherits = self.shared.target.caps.flow.inherits_motion;
+                specialise_procedures::over(rest, &self.shared.walk, inherits, diags);
                 ran_whole("specialise-procedures", rest);
             }
             Subprograms::Expand => {
-                expand_repeats::in_procedures(rest, self.target.caps.flow.repeat_blocks, diags);
+                expand_repeats::in_procedures(rest, self.shared.target.caps.flow.repeat_blocks, diags);
                 ran_whole("expand-repeats", rest);
                 // The walk is needed again for the other passes.
-                expand_calls::over(rest, &mut self.walk.clone(), diags);
+                expand_calls::over(rest, &mut self.shared.walk.clone(), diags);
                 ran_whole("expand-calls", rest);
             }
         }
         self.refuse_cycles_left(rest, diags);
-        number_names::over(rest, &self.target, false, diags);
+        number_names::over(rest, &self.shared.target, false, diags);
         ran_whole("number-names", rest);
-        self.entries = self.entries_of(rest).map(Rc::new);
+        self.shared.entries = self.entries_of(rest).map(Rc::new);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
             self.run(&mut main.body, &assumed, None, diags);
             self.finish(&mut main.body, diags);
         }
         for procedure in procedures {
-            self.walk = Walk::new(Tracker::unknown());
-            self.cycles = expand_cycles::ExpandCyclesState::default();
-            self.taps = taps::TapsState::default();
-            self.feed = feed_unit::FeedUnitState::default();
-            self.threads = in_step::ThreadsState::default();
-            self.edge.start_over();
-            self.axis.start_over();
-            self.path.start_over();
-            self.one = one_move::OneMoveState::default();
-            self.polar = polar_words::PolarWordsState::default();
-            self.corners = expand_corners::ExpandCornersState::default();
-            self.arcs = arc_form::ArcFormState::default();
-            self.frames.start_over();
-            self.machine = machine_moves::MachineMovesState::default();
-            self.change.start_over();
-            self.at_once = at_once::AtOnceState::default();
-            self.z_left.start_over();
+            self.shared.walk = Walk::new(Tracker::unknown());
+            self.shared.states.forget::<ExpandCyclesState>();
+            self.shared.states.forget::<TapsState>();
+            self.shared.states.forget::<FeedUnitState>();
+            self.shared.states.forget::<ThreadsState>();
+            self.shared.states.of::<ToolEdgeState>().start_over();
+            self.shared.states.of::<ToolAxisState>().start_over();
+            self.shared.states.of::<PathControlState>().start_over();
+            self.shared.states.forget::<OneMoveState>();
+            self.shared.states.forget::<PolarWordsState>();
+            self.shared.states.forget::<ExpandCornersState>();
+            self.shared.states.forget::<ArcFormState>();
+            self.shared.states.of::<ExpandFramesState>().start_over();
+            self.shared.states.forget::<MachineMovesState>();
+            self.shared.states.of::<ToolChangeState>().start_over();
+            self.shared.states.forget::<AtOnceState>();
+            self.shared.states.of::<ZAfterChangeState>().start_over();
             self.enter(procedure.body.first());
             self.run(&mut procedure.body, &Modes::default(), None, diags);
-            self.change.start_over();
+            self.shared.states.of::<ToolChangeState>().start_over();
             self.finish(&mut procedure.body, diags);
-            self.at_once.end_of_sub(&procedure.body, diags);
+            self.shared.states.of::<AtOnceState>().end_of_sub(&procedure.body, diags);
         }
     }
 
     /// Refuses subprograms that leave a cycle in force to their callers, where the target's cannot.
     pub(super) fn refuse_cycles_left(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
-        if !self.target.caps.holes.end_with_call {
+        if !self.shared.target.caps.holes.end_with_call {
             return;
         }
         let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
@@ -190,40 +210,43 @@ impl Legaliser {
     /// What holds after each call and label, where a pass asks for it.
     pub(super) fn entries_of(&self, program: &Program) -> Option<known_facts::Known> {
         let has = |wanted| program.procedures.iter().any(|procedure| has(&procedure.body, wanted));
-        let units = self.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
+        let units = self.shared.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
         let starts = || has(|op| matches!(op, Op::StartCutterRadiusCompensation { .. }));
-        let beside = self.compensated.refused.any() && (self.compensated.on || starts());
-        let by_time = self.times_differ && has(|op| *op == Op::SetFeedMode(FeedMode::InverseTime));
+        let compensated = self.shared.states.ask(CompensatedModesState::clone);
+        let beside = compensated.refused.any() && (compensated.on || starts());
+        let by_time = self.shared.times_differ && has(|op| *op == Op::SetFeedMode(FeedMode::InverseTime));
         if !(units || beside || by_time) || !has(|op| matches!(op, flow!())) {
             return None;
         }
-        let mut entry = match self.follow {
-            true => self.walk.at.clone(),
+        let mut entry = match self.shared.follow {
+            true => self.shared.walk.at.clone(),
             false => Tracker::unknown(),
         };
-        entry.compensated = self.compensated.on;
-        known_facts::starts(program, &entry, self.compensated.path())
+        entry.compensated = compensated.on;
+        known_facts::starts(program, &entry, compensated.path())
     }
 
     /// Control comes from elsewhere to a body, or to what follows control.
     pub(super) fn enter(&mut self, first: Option<&Stmt>) {
-        let entries = self.entries.clone();
+        let entries = self.shared.entries.clone();
         let at = first.and_then(|first| entries.as_ref()?.before(first));
         let path = first.and_then(|first| entries.as_ref()?.path_before(first));
-        let unknown = Tracker { compensated: self.walk.at.compensated, ..Tracker::unknown() };
-        self.compensated.enter(at.unwrap_or(&unknown), path);
-        self.feed.enter();
-        self.times.enter();
+        let unknown = Tracker { compensated: self.shared.walk.at.compensated, ..Tracker::unknown() };
+        self.shared.states.of::<CompensatedModesState>().enter(at.unwrap_or(&unknown), path);
+        self.shared.states.of::<FeedUnitState>().enter();
+        self.shared.states.of::<FeedTimeState>().enter();
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
     /// is known only where they are written out.
     fn repeats_in_the_way(&self, program: &Program) -> bool {
-        if self.lacks == 0 || !self.target.caps.flow.repeat_blocks || !expand_repeats::repeats_blocks(program)
+        if self.shared.lacks == 0
+            || !self.shared.target.caps.flow.repeat_blocks
+            || !expand_repeats::repeats_blocks(program)
         {
             return false;
         }
-        let caps = &self.target.caps;
+        let caps = &self.shared.target.caps;
         let moved = |p: &Procedure| {
             caps.arcs.centres_from_zero && repeat_ends::moves_arcs(&p.body)
                 || (!caps.flow.repeat_by_numbers || repeat_ends::changes_cycle(&p.body))
@@ -234,7 +257,7 @@ impl Legaliser {
             return true;
         }
         let (mut own, mut trial, mut found) = (self.clone(), program.clone(), Vec::new());
-        let way = if self.lacks & CALL != 0 { Subprograms::Expand } else { Subprograms::Keep };
+        let way = if self.shared.lacks & CALL != 0 { Subprograms::Expand } else { Subprograms::Keep };
         own.run_whole(&mut trial, way, &mut found);
         let written_out = |d: &Diagnostic| {
             matches!(d.fault, Fault::CycleExpanded { .. }) || d.fault.gravity() == Gravity::Error
@@ -244,22 +267,25 @@ impl Legaliser {
 
     /// Whether positions in a subprogram may belong to a cycle that the target cannot say.
     fn calls_under_expanded(&self, program: &Program) -> bool {
-        if self.lacks & CYCLE == 0 || !program.procedures.iter().skip(1).any(|sub| takes_cycle(&sub.body)) {
+        if self.shared.lacks & CYCLE == 0
+            || !program.procedures.iter().skip(1).any(|sub| takes_cycle(&sub.body))
+        {
             return false;
         }
         let walk = Walk::default();
-        let planes = self.target.caps.holes.returns;
+        let planes = self.shared.target.caps.holes.returns;
         let bodies = || program.procedures.iter().enumerate();
-        let stands = |at: usize| if at == 0 { self.walk.clone() } else { Walk::new(Tracker::unknown()) };
+        let stands =
+            |at: usize| if at == 0 { self.shared.walk.clone() } else { Walk::new(Tracker::unknown()) };
         bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
             Op::StartCycle(cycle) if !planes.says(cycle.return_plane.is_some()) => {
                 let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
-                !return_plane::mends(body, &stands(at), &self.target)
+                !return_plane::mends(body, &stands(at), &self.shared.target)
             }
             Op::StartCycle(cycle) => {
-                let other = self.target.caps.holes.approach.is_some_and(|a| a != cycle.approach);
+                let other = self.shared.target.caps.holes.approach.is_some_and(|a| a != cycle.approach);
                 let mut nothing = Vec::new();
-                let says = expand_cycles::sayable(&walk, cycle, &self.target, stmt.span, &mut nothing);
+                let says = sayable(&walk, cycle, &self.shared.target, stmt.span, &mut nothing);
                 other || !says || !nothing.is_empty()
             }
             _ => false,

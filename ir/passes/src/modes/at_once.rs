@@ -24,7 +24,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(AT_ONCE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.at_once, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<AtOnceState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

@@ -298,7 +298,7 @@ impl Converter<'_> {
                 first.iter_mut().chain(less).try_for_each(|first| self.whole(first))?;
                 match clearance {
                     Clearance::Stated(value) => self.loose(value)?,
-                    Clearance::Parameter => {}
+                    Clearance::Parameter | Clearance::FromReturn => {}
                 }
             }
             CycleKind::Bore { feed_out, .. } => {

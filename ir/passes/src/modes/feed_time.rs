@@ -38,19 +38,21 @@ pub(crate) const PASS: Pass = Pass {
     step: Some(Step {
         moment: Moment::Arrival,
         needed: |l, p| {
-            let concerned = || l.entries.is_some() || l.times.concerns(p.stmts, &l.walk);
+            let concerned =
+                || l.entries.is_some() || l.states.ask(|own: &FeedTimeState| own.concerns(p.stmts, &l.walk));
             l.times_differ && p.lines.is_none() && concerned()
         },
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            over(p.stmts, &mut l.walk.clone(), &mut l.times, &l.target, known, p.diags);
+            over(p.stmts, &mut l.walk.clone(), l.states.of::<FeedTimeState>(), &l.target, known, p.diags);
         },
         otherwise: |l, p| {
             if l.times_differ && p.lines.is_none() {
-                l.times.note(p.stmts);
+                l.states.of::<FeedTimeState>().note(p.stmts);
             }
         },
+        first: None,
     }),
     parametric: None,
 };
@@ -262,6 +264,11 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
     let units =
         at.modes.units.ok_or("a feed of linear and rotary axes together in units that are not known")?;
     let unit = if units == Units::Inch { 25.4 } else { 1.0 };
+    let simple = |value| value == LINEAR || value == DEGREES;
+    // Rotary axes alone turn at degrees a minute, from wherever they are.
+    if to.axes[..3].iter().all(Option::is_none) && simple(own) && simple(there) {
+        return Ok(None);
+    }
     let mut ways = [0.0; AXES];
     for (axis, word) in to.axes.iter().enumerate() {
         let Some(word) = word else { continue };
@@ -276,7 +283,6 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
     }
     let length = |axes: &[f64]| axes.iter().copied().fold(0.0, f64::hypot);
     let (line, turn) = (length(&ways[..3]) / unit, length(&ways[3..]));
-    let simple = |value| value == LINEAR || value == DEGREES;
     if turn == 0.0 || line == 0.0 && simple(own) && simple(there) {
         return Ok(None);
     }

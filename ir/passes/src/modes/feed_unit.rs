@@ -8,8 +8,8 @@
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
 
-use crate::legalise::Legaliser;
-use crate::pass::{Moment, Pass, Step};
+use crate::modes::one_distance::is_measured;
+use crate::pass::{Moment, Pass, Shared, Step};
 use crate::support::known_facts::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rebuild, rounded};
@@ -25,8 +25,8 @@ use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
 /// Whether feeds are followed, because the target may forget one.
-fn follows(legaliser: &Legaliser) -> bool {
-    legaliser.target.caps.modes.feed_ends_with_mode || legaliser.feed_again
+fn follows(l: &Shared) -> bool {
+    l.target.caps.modes.feed_ends_with_mode || l.feed_again
 }
 
 /// A pass.
@@ -41,18 +41,20 @@ pub(crate) const AGAIN: Pass = Pass {
             let changes =
                 |op: &Op| matches!(op, Op::SetFeedMode(_)) || again && matches!(op, Op::UseLengthUnits(_));
             let changes = || l.entries.is_some() || p.stmts.iter().any(|stmt| changes(&stmt.op));
-            follows(l) && (changes() || l.feed.is_busy())
+            follows(l) && (changes() || l.states.ask(FeedUnitState::is_busy))
         },
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            again(p.stmts, &mut l.walk.clone(), &mut l.feed, &l.target, known, p.diags);
+            again(p.stmts, &mut l.walk.clone(), l.states.of::<FeedUnitState>(), &l.target, known, p.diags);
         },
         otherwise: |l, p| {
             if follows(l) {
-                p.stmts.iter().for_each(|stmt| l.feed.note(&stmt.op));
+                let own = l.states.of::<FeedUnitState>();
+                p.stmts.iter().for_each(|stmt| own.note(&stmt.op));
             }
         },
+        first: None,
     }),
     parametric: None,
 };
@@ -64,7 +66,7 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| l.is_measured(p) && !l.target.caps.modes.feed_apart,
+        |l, p| is_measured(l, p) && !l.target.caps.modes.feed_apart,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
     ),
     parametric: None,

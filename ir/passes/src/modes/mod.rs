@@ -1,4 +1,11 @@
 //! What is in force: units, distances, feeds, path control, and what codes do besides their name.
+//!
+//! ```text
+//! STRAIGHT_FEED(X inc 1mm), in a block of absolute words    one-distance    STRAIGHT_FEED(X 11mm)
+//! PROGRAM_STOP(), on a control that stops the spindle       side-effects    STOP_SPINDLE() before it
+//! ```
+//!
+//! Not here: frames and lengths of tools, which say where a position is (`frames`, `tools`).
 
 pub(crate) mod at_once;
 pub mod convert_distance;

@@ -3,7 +3,8 @@
 //! For targets whose distance mode holds for a whole block. Only blocks that mix are touched; an
 //! incremental word of an axis whose place is not known is refused.
 
-use crate::pass::{Moment, Pass, Step};
+use crate::pass::{Moment, Pass, Piece, Shared, Step};
+use crate::support::needs::{ARC, CORNER, FRAME, MEASURE};
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute};
 use crate::{Target, each_body};
@@ -19,11 +20,18 @@ pub(crate) const PASS: Pass = Pass {
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
-        |l, p| l.is_measured(p) && !l.target.caps.modes.word_distance,
+        |l, p| is_measured(l, p) && !l.target.caps.modes.word_distance,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
     parametric: None,
 };
+
+/// Whether words of a piece may be measured in several ways, or feeds in another unit than lengths. Computed words
+/// are from zero, others may not be.
+pub(crate) fn is_measured(l: &Shared, p: &Piece) -> bool {
+    let computed = l.measures && p.needs(ARC | FRAME | CORNER);
+    p.needs(MEASURE) || computed && p.stmts.iter().any(|stmt| may_mix(&stmt.op))
+}
 
 /// Measures them from program zero.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

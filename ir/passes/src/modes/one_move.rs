@@ -23,7 +23,11 @@ pub(crate) const PASS: Pass = Pass {
     name: "one-move",
     about: "puts an exact stop of one move, and its feed by time, into the block of the move",
     alone: Some(run),
-    step: Step::at(Moment::Wording, |_, p| p.needs(MOVE), |l, p| over(p.stmts, &mut l.one)),
+    step: Step::at(
+        Moment::Wording,
+        |_, p| p.needs(MOVE),
+        |l, p| over(p.stmts, l.states.of::<OneMoveState>()),
+    ),
     parametric: None,
 };
 

@@ -26,7 +26,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(PATH),
-        |l, p| over(p.stmts, &mut l.path, &l.target, p.diags),
+        |l, p| over(p.stmts, l.states.of::<PathControlState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

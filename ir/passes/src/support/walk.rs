@@ -6,6 +6,7 @@
 
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
 use ncc_ir::expr::num::Unit;
+use ncc_ir::program::cycle::Pattern;
 use ncc_ir::program::kinds::{conduct, flow, frames, miscellaneous, modes, tooling, variables};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::track::Tracker;
@@ -193,7 +194,7 @@ impl Walk {
             }
             Op::Hole(m) => m.to.get(Axis::Z).is_some() || normal_is_z(),
             // Its places are in the plane of X and Y, above which it drills, or in one with Z.
-            Op::Pattern(pattern) => crate::holes::approach::has_holes(pattern),
+            Op::Pattern(pattern) => has_holes(pattern),
             Op::GoToReference(reference) => reference.via.get(Axis::Z).is_some(),
             Op::Polar(polar) => {
                 let of_plane = self.at.plane(polar.plane).is_some_and(|plane| plane != Plane::Xy);
@@ -229,5 +230,14 @@ impl Walk {
             // A literal in mm is what it says, whatever is in force.
             None => of_cycle().unwrap_or(Unit::Mm),
         }
+    }
+}
+
+/// Whether a pattern makes any hole.
+pub(crate) fn has_holes(pattern: &Pattern) -> bool {
+    match pattern {
+        Pattern::Circle { count, .. } | Pattern::Line { count, .. } => *count > 0,
+        Pattern::List(points) => !points.is_empty(),
+        Pattern::Grid { columns, rows, .. } => columns.count > 0 && rows.count > 0,
     }
 }

@@ -50,7 +50,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.threads, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ThreadsState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

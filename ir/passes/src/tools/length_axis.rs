@@ -22,8 +22,8 @@ pub(crate) const PASS: Pass = Pass {
     alone: None,
     step: Step::at(
         Moment::Arrival,
-        |l, _| l.length_axis.is_used(),
-        |l, p| l.length_axis.check(p.stmts, &l.walk, p.diags),
+        |l, _| l.states.ask(LengthAxisState::is_used),
+        |l, p| l.states.of::<LengthAxisState>().check(p.stmts, &l.walk, p.diags),
     ),
     parametric: None,
 };
@@ -47,7 +47,7 @@ impl LengthAxisState {
     }
 
     /// Whether they differ at all.
-    pub(crate) fn is_used(self) -> bool {
+    pub(crate) fn is_used(&self) -> bool {
         self.in_plane || self.at_call || self.moves.is_used()
     }
 

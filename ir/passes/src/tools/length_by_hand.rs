@@ -26,7 +26,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(TABLE) && l.target.caps.tools.change_by_hand,
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.by_hand, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<LengthByHandState>(), p.diags),
     ),
     parametric: None,
 };

@@ -1,4 +1,11 @@
 //! Tools: their change, their length, their edges, and the way they stand.
+//!
+//! ```text
+//! USE_TOOL_LENGTH_OFFSET(2)               tool-edge     USE_TOOL_EDGE(1), for a target whose lengths are edges
+//! SELECT_TOOL(2) & CHANGE_TOOL()          tool-change   the spindle started again behind it, where the target stops it
+//! ```
+//!
+//! Not here: what a change does besides its name: the dictionary says it, and `modes::side_effects` writes it.
 
 pub(crate) mod length_axis;
 pub(crate) mod length_by_hand;

@@ -9,6 +9,7 @@ use crate::support::needs::LENGTH;
 use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
 use crate::{Target, each_body};
+use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::kinds::flow;
@@ -24,7 +25,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(LENGTH),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.length, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<OffsetWithZState>(), p.diags),
     ),
     parametric: None,
 };
@@ -35,6 +36,8 @@ pub(crate) struct OffsetWithZState {
     waiting: Option<Waiting>,
     /// Number of the present block.
     block: u64,
+    /// The program goes back to a caller that is not in the text, so that no offset may wait at its end.
+    alone: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -60,6 +63,20 @@ pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<D
 }
 
 impl OffsetWithZState {
+    /// The program is a subprogram without its main program.
+    pub(crate) fn stands_alone(&mut self) {
+        self.alone = true;
+    }
+
+    /// Whether the end of an offset that waits goes into the block of a move to a reference point: Z goes there whatever
+    /// its length.
+    fn ends_on_the_way(&self, stmt: &Stmt) -> bool {
+        let Op::GoToReference(to) = &stmt.op else { return false };
+        let goes = to.axes[Axis::Z as usize] && to.via.get(Axis::Z).is_none();
+        let ends = |waiting: &Waiting| waiting.skip == stmt.skip && is_zero(&waiting.entry);
+        self.alone && goes && self.waiting.as_ref().is_some_and(ends)
+    }
+
     /// Whether an offset waits.
     pub(crate) fn is_busy(&self) -> bool {
         self.waiting.is_some()
@@ -127,7 +144,7 @@ pub(crate) fn over(
                 });
                 made.leave_out(stmt);
             }
-            _ if state.waiting.is_some() && commands => {
+            _ if state.waiting.is_some() && commands || state.ends_on_the_way(&stmt) => {
                 walk.step(&stmt);
                 take_up(stmt, state, &mut made, diags);
             }
@@ -158,6 +175,10 @@ pub(crate) fn over(
 fn is_in_force(walk: &Walk, entry: &Expr) -> bool {
     let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
     !walk.waiting && entry.is_some() && walk.at.modes.length_offset == entry
+}
+
+fn is_zero(entry: &Expr) -> bool {
+    entry.literal().is_some_and(|n| n.is_zero())
 }
 
 /// Whether a statement calls up a cycle that drills along Z: its block says Z.

@@ -16,7 +16,11 @@ pub(crate) const PASS: Pass = Pass {
     name: "spindle-angle",
     about: "states the angle at which the spindle stops where the target needs it",
     alone: Some(run),
-    step: Step::at(Moment::Wording, |_, _| true, |l, p| over(p.stmts, &mut l.angle, &l.target, p.diags)),
+    step: Step::at(
+        Moment::Wording,
+        |_, _| true,
+        |l, p| over(p.stmts, l.states.of::<SpindleAngleState>(), &l.target, p.diags),
+    ),
     parametric: None,
 };
 

@@ -12,7 +12,7 @@ use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_exec::TiltedPlane;
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::caps::{TiltForm, TipForm};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -29,7 +29,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(TOOL_AXIS),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.axis, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolAxisState>(), &l.target, p.diags),
     ),
     parametric: None,
 };
@@ -39,8 +39,10 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct ToolAxisState {
     tip: Known,
     tilt: Known,
-    /// Whether the length that comes next was said already with the word before it.
-    pair: bool,
+    /// How many lengths that come next were said already with the word before them.
+    pair: u32,
+    /// The work offset that was said already, before the word that it stands behind in the source.
+    offset: Option<u16>,
     /// Whether each was told.
     told: [bool; 2],
 }
@@ -96,11 +98,18 @@ impl ToolAxisState {
         self.tip.met
     }
 
+    /// Whether the length at hand was said already.
+    fn has_said_length(&mut self) -> bool {
+        let said = self.pair > 0;
+        self.pair = self.pair.saturating_sub(1);
+        said
+    }
+
     /// At the start of another body.
     pub(crate) fn start_over(&mut self) {
         self.tip.lose();
         self.tilt.lose();
-        self.pair = false;
+        (self.pair, self.offset) = (0, None);
     }
 }
 
@@ -130,7 +139,7 @@ pub(crate) fn over(
     diags: &mut Vec<Diagnostic>,
 ) {
     let caps = &target.caps;
-    let lengths = lengths_behind(body);
+    let said_behind = said_behind(body);
     let oriented = orientations_behind(body);
     let mut at = 0;
     rebuild(body, |stmt, made: &mut Rebuild| {
@@ -138,8 +147,7 @@ pub(crate) fn over(
         at += 1;
         walk.enter(stmt.skip);
         let span = stmt.span;
-        let before = walk.at.modes.length_offset;
-        let offset = walk.at.modes.work_offset;
+        let before = walk.at.modes;
         walk.step(&stmt);
         let mut refuse = |what: &str| {
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
@@ -173,8 +181,8 @@ pub(crate) fn over(
                     return made.leave_out(stmt);
                 }
                 if caps.tools.tip == TipForm::WithLength {
-                    let behind = lengths.get(place).copied().flatten();
-                    if let Err(what) = with_length(stmt, on, behind, before, state, made) {
+                    let behind = said_behind.get(place).copied().unwrap_or_default();
+                    if let Err(what) = with_length(stmt, on, behind, &before, state, made) {
                         diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
                     }
                     return;
@@ -183,20 +191,21 @@ pub(crate) fn over(
             }
             Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
                 let entry = number(entry);
-                if std::mem::take(&mut state.pair) {
+                if state.has_said_length() {
                     return made.leave_out(stmt);
                 }
                 if state.tip.is_off() {
                     return made.push(stmt);
                 }
-                if entry.is_some() && entry == before && state.tip.is_on() {
+                if entry.is_some() && entry == before.length_offset && state.tip.is_on() {
                     return made.leave_out(stmt);
                 }
                 refuse("another length where the tool's tip may be under control");
             }
             // The one in force is said again; a control may take no such word there.
             Op::SetOriginOffsets(n) if caps.tools.tip == TipForm::WithLength && !state.tip.is_off() => {
-                match offset == Some(*n) && state.tip.is_on() {
+                let said = [state.offset.take(), before.work_offset].contains(&Some(*n));
+                match said && state.tip.is_on() {
                     true => made.leave_out(stmt),
                     false => made.push(stmt),
                 }
@@ -288,8 +297,8 @@ pub(crate) fn over(
 fn with_length(
     stmt: Stmt,
     on: bool,
-    behind: Option<u32>,
-    in_force: Option<u32>,
+    behind: Behind,
+    before: &Modes,
     state: &mut ToolAxisState,
     made: &mut Rebuild,
 ) -> Result<(), &'static str> {
@@ -298,12 +307,16 @@ fn with_length(
     if stmt.skip.is_some() {
         return Err("control of the tool's tip in a block that can be skipped");
     }
-    match (on, behind) {
+    if let Some(own) = behind.offset.filter(|own| on && before.work_offset != Some(*own)) {
+        state.offset = Some(own);
+        made.push(Stmt::new(stmt.span, Op::SetOriginOffsets(own)));
+    }
+    match (on, behind.length) {
         (true, Some(entry @ 1..)) | (false, Some(entry @ 0)) => {
-            state.pair = true;
+            state.pair = behind.lengths;
             made.replace(stmt, [(true, op), (true, length(entry))]);
         }
-        (true, None) => match in_force {
+        (true, None) => match before.length_offset {
             Some(entry @ 1..) => {
                 made.replace(stmt, [(true, op), (true, length(entry))]);
             }
@@ -312,7 +325,7 @@ fn with_length(
         (true, Some(0)) => return Err("control of the tool's tip without a length"),
         // The word that ends it takes the length away too.
         (false, Some(_)) => made.replace(stmt, [(true, op), (true, length(0))]),
-        (false, None) => match in_force {
+        (false, None) => match before.length_offset {
             Some(0) => made.replace(stmt, [(true, op), (true, length(0))]),
             Some(entry) => made.replace(stmt, [(true, op), (true, length(0)), (false, length(entry))]),
             None => return Err("the end of control of the tool's tip under a length that is not known"),
@@ -325,25 +338,42 @@ fn number(entry: &Expr) -> Option<u32> {
     entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok())
 }
 
-/// For each statement that switches control of the tip: the length that is said behind it before anything
-/// moves.
-fn lengths_behind(body: &[Stmt]) -> Vec<Option<u32>> {
+/// What is said behind a word that switches control of the tip, before anything moves.
+#[derive(Clone, Copy, Debug, Default)]
+struct Behind {
+    /// The last length; the others before it are never used.
+    length: Option<u32>,
+    /// How many lengths.
+    lengths: u32,
+    /// The work offset.
+    offset: Option<u16>,
+}
+
+/// For each statement that switches control of the tip: what is said behind it before anything moves. Blocks that can
+/// be skipped end what is looked at.
+fn said_behind(body: &[Stmt]) -> Vec<Behind> {
     if !body.iter().any(|stmt| matches!(stmt.op, Op::UseToolCentrePoint(_))) {
         return Vec::new();
     }
-    let mut behind = vec![None; body.len()];
-    let mut next: Option<(u32, Option<u8>)> = None;
+    let mut behind = vec![Behind::default(); body.len()];
+    let mut next = Behind::default();
     for (place, stmt) in body.iter().enumerate().rev() {
         match &stmt.op {
-            Op::UseToolLengthOffset(entry) => next = number(entry).map(|entry| (entry, stmt.skip)),
+            _ if stmt.skip.is_some() => next = Behind::default(),
+            Op::UseToolLengthOffset(entry) => match (next.lengths, number(entry)) {
+                (0, entry) => (next.length, next.lengths) = (entry, u32::from(entry.is_some())),
+                (_, Some(_)) => next.lengths += 1,
+                (_, None) => (next.length, next.lengths) = (None, 0),
+            },
+            Op::SetOriginOffsets(own) => next.offset = next.offset.or(Some(*own)),
             Op::UseToolCentrePoint(_) => {
                 if let Some(behind) = behind.get_mut(place) {
-                    *behind = next.filter(|next| next.1 == stmt.skip).map(|next| next.0);
+                    *behind = next;
                 }
-                next = None;
+                next = Behind::default();
             }
             miscellaneous!() | conduct!() | modes!() | Op::SetFeedRate(_) => {}
-            _ => next = None,
+            _ => next = Behind::default(),
         }
     }
     behind

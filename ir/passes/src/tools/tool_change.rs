@@ -20,7 +20,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, _| l.target.caps.tools.change_stops_spindle,
         |l, p| {
             let up = l.target.caps.behaviours.surely(Behaviour::ZAtChange);
-            l.change.over(p.stmts, up, p.diags);
+            l.states.of::<ToolChangeState>().over(p.stmts, up, p.diags);
         },
     ),
     parametric: None,

@@ -2,7 +2,7 @@
 //!
 //! Edge 1 of tool `n` is entry `n` of the table: an assumption, told once for each tool. Of a tool whose number is not
 //! known it stays edge 1 for a target that calls up the length of the tool in the spindle without its number. Other edges
-//! have no entry, and other entries no edge: they are refused. On a control with edges a tool change
+//! have an entry where the target's settings name one, and other entries no edge: else they are refused. On a control with edges a tool change
 //! makes edge 1 active by itself, so that what is in force after the change is said there: it moves
 //! nothing until Z is commanded, and stands right behind the change where nothing commands Z between. An edge of a tool
 //! that the program has not called is left out where another follows before Z is commanded.
@@ -28,7 +28,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(EDGE | TABLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.edge, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolEdgeState>(), &l.target, p.diags),
     ),
     parametric: None,
 };
@@ -157,11 +157,18 @@ fn to_entries(
         return made.push(stmt);
     };
     let (edge, said) = (edge.clone(), *said);
+    let (span, skip) = (stmt.span, stmt.skip);
+    let further = |edge, tool| target.further_edges.get(&(tool, edge)).copied();
     let found = match (whole(&edge), tool(walk)) {
         (Some(0), _) => Ok(Some(0)),
         // No tool has no length, whatever edge is active.
         (Some(_), _) if walk.at.tool == Some(0) => Ok(Some(0)),
-        (Some(1), Some(tool)) => Ok(Some(tool)),
+        (Some(1), Some(tool)) => {
+            state.tell(tool, span, diags);
+            // The tool's own number, unless the machine keeps its length elsewhere.
+            Ok(Some(target.edge_entries.get(&tool).copied().unwrap_or(tool)))
+        }
+        (Some(edge), Some(tool)) if let Some(entry) = further(edge, tool) => Ok(Some(entry)),
         (Some(1), None) if target.caps.tools.own_length => Ok(None),
         (Some(1), None) => Err(cannot("an edge of a tool that is not known".into())),
         (Some(edge), _) => Err(cannot(format!("edge {edge} of a tool"))),
@@ -180,16 +187,10 @@ fn to_entries(
             diags.push(Diagnostic::new(fault, before.span));
         }
     }
-    let (span, skip) = (stmt.span, stmt.skip);
     let mut waiting = Waiting { place: None, span, skip, said, refused: None };
     match found {
         Ok(entry) => {
             if let Some(entry) = entry {
-                if entry > 0 {
-                    state.tell(entry, span, diags);
-                }
-                // The tool's own number, unless the machine keeps its length elsewhere.
-                let entry = target.edge_entries.get(&entry).copied().unwrap_or(entry);
                 stmt.op = Op::UseToolLengthOffset(Expr::int(i64::from(entry)));
             }
             waiting.place = Some(made.out.len());

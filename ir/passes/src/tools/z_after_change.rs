@@ -30,8 +30,8 @@ pub(crate) const PASS: Pass = Pass {
     alone: None,
     step: Step::at(
         Moment::Arrival,
-        |l, p| l.z_left.concerns(p.stmts),
-        |l, p| l.z_left.over(p.stmts, &l.walk, p.diags),
+        |l, p| l.states.ask(|own: &ZAfterChangeState| own.concerns(p.stmts)),
+        |l, p| l.states.of::<ZAfterChangeState>().over(p.stmts, &l.walk, p.diags),
     ),
     parametric: None,
 };

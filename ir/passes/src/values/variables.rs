@@ -14,6 +14,7 @@ mod names;
 mod put;
 mod references;
 mod remainders;
+pub mod renamed;
 mod vacancy;
 mod words;
 
@@ -21,10 +22,11 @@ use ncc_ir::canon::{Distance, Units};
 use ncc_ir::computed::computes::{Computes, Handed};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Unit;
-use ncc_ir::expr::{Expr, Function, Node, Target, Var};
+use ncc_ir::expr::{Expr, Function, Node, Target};
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::{Control, Op, Program, Stmt};
 
+use self::renamed::{Digits, Renamed};
 use crate::pass::Pass;
 pub use vacancy::{Question, questions};
 pub use words::Fineness;
@@ -37,44 +39,6 @@ pub(crate) const PASS: Pass = Pass::parametric(
     |_, _| true,
     |program, own, found| own.renamed = run(program, own.source, own.target, own.digits, found),
 );
-
-/// Variables of the main procedure, and those that all procedures see: what each is called in the target.
-#[derive(Clone, Debug, Default)]
-pub struct Renamed {
-    /// The source's and the target's.
-    pairs: Vec<(Var, Var)>,
-    /// Whether one that is not among them has some value in the target, whatever the source has.
-    filled: bool,
-}
-
-impl Renamed {
-    /// The source's variable behind one of the target's.
-    pub fn source(&self, target: &Var) -> Option<&Var> {
-        self.pairs.iter().find(|(_, new)| new == target).map(|(old, _)| old)
-    }
-
-    /// What the target calls one of the source's variables.
-    pub fn target<'v>(&'v self, source: &'v Var) -> &'v Var {
-        self.pairs.iter().find(|(old, _)| old == source).map_or(source, |(_, new)| new)
-    }
-
-    /// Whether what the target reads and has not set is something, never nothing.
-    pub fn filled(&self) -> bool {
-        self.filled
-    }
-}
-
-/// Digits of the target's lengths.
-#[derive(Clone, Copy, Debug)]
-pub struct Digits {
-    /// Behind the point, in mm; in inches it has one more.
-    pub decimals: u8,
-    /// To which its words round what is computed, in mm or degrees, and in inches.
-    pub increments: [u8; 2],
-    /// To which words of seconds do; none where its dwell has one word alone, of which what is computed may count
-    /// seconds or milliseconds.
-    pub seconds: Option<u8>,
-}
 
 /// Puts the target's variables in.
 ///

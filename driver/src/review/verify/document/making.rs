@@ -22,7 +22,7 @@ use crate::review::diff::motion::motion;
 use crate::review::diff::tell::{Account, Block, Blocks};
 use crate::side::Side;
 use crate::source::Readable;
-use crate::source::called::CalledFile;
+use crate::source::called_files::CalledFile;
 use crate::translate::difference;
 use crate::verify_run::WORLDS;
 

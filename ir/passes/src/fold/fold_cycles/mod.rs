@@ -20,7 +20,7 @@ mod acts;
 pub(crate) mod feed;
 mod hole;
 
-use crate::holes::expand_cycles::sayable;
+use crate::holes::sayable::sayable;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, cut, only, traverse};
 use crate::{Target, each_body};

@@ -4,7 +4,6 @@
 //! Refused by name: cycles whose drilling axis the frame turns, mirrors or scales.
 
 use crate::frames::expand_frames::{Frames, NOTHING, cannot, leaves_alone, value_of};
-use crate::holes::expand_patterns;
 use crate::holes::pattern_forms;
 use crate::support::write::{exact, rounded, unit_of};
 use ncc_ir::canon::{Axis, Fact, Plane};
@@ -44,7 +43,7 @@ impl Frames<'_> {
             return Ok(vec![Op::Pattern(Box::new(self.shifted_pattern(pattern, axes)?))]);
         }
         let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
-        let places = at.places(pattern).filter(|p| p.count() <= expand_patterns::MOST_HOLES);
+        let places = at.places(pattern).filter(|p| p.count() <= pattern_forms::MOST_HOLES);
         let places = places.ok_or_else(|| {
             unknown(axes.into_iter().find(|a| at.position[*a as usize].is_none()).unwrap_or(first))
         })?;

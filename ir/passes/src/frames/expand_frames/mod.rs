@@ -41,7 +41,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(FRAME),
-        |l, p| over(p.stmts, &mut p.start.clone(), &mut l.frames, &l.target, p.diags),
+        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandFramesState>(), &l.target, p.diags),
     ),
     parametric: None,
 };

@@ -1,0 +1,179 @@
+//! What users type behind options: its forms, and how they are read.
+
+use std::fmt;
+
+use clap::ValueEnum;
+use ncc_backends::Numbering;
+use ncc_driver::job::given::decimal;
+use ncc_ir::canon::{AXES, Axis, Units};
+use ncc_ir::expr::num::Nanos;
+
+/// How canon is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Style {
+    /// As a program that can be read again
+    Plain,
+    /// As LinuxCNC's stand-alone interpreter prints calls
+    Rs274,
+}
+
+/// Line ends of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Eol {
+    /// Those of the source's first line
+    Keep,
+    /// LF
+    Lf,
+    /// CR LF
+    Crlf,
+}
+
+/// The unit of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitsArg {
+    /// Millimetres
+    Mm,
+    /// Inches
+    Inch,
+}
+
+impl From<UnitsArg> for Units {
+    fn from(units: UnitsArg) -> Units {
+        match units {
+            UnitsArg::Mm => Units::Mm,
+            UnitsArg::Inch => Units::Inch,
+        }
+    }
+}
+
+/// Form of the messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people
+    Human,
+    /// One JSON object a line
+    Json,
+}
+
+/// Colour of the messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// If somebody can see it
+    Auto,
+    /// Yes
+    Always,
+    /// No
+    Never,
+}
+
+/// Where the axes stand before the first block.
+pub(crate) type Start = [Option<Nanos>; AXES];
+
+pub(crate) fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
+            Ok((name.to_owned(), value.to_owned()))
+        }
+        Some(_) | None => Err("write it as NAME=VALUE".to_owned()),
+    }
+}
+
+pub(crate) fn numbering(text: &str) -> Result<Numbering, String> {
+    match text {
+        "off" => return Ok(Numbering::Off),
+        "keep" => return Ok(Numbering::Keep),
+        _ => {}
+    }
+    let every = text.split_once(':').and_then(|(first, step)| {
+        let (first, step) = (first.parse().ok()?, step.parse().ok()?);
+        (step > 0 && first < 100_000_000 && step < 100_000_000).then_some(Numbering::Every { first, step })
+    });
+    every.ok_or_else(|| "write `off`, `keep`, or the first number and the step, such as 10:10".to_owned())
+}
+
+pub(crate) fn start(text: &str) -> Result<Start, String> {
+    let mut start = [None; AXES];
+    for word in text.split(',').map(str::trim) {
+        let mut chars = word.chars();
+        let axis = chars.next().map(|c| c.to_ascii_uppercase());
+        let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
+        let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
+        let value = decimal(chars.as_str()).ok_or_else(|| {
+            format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
+        })?;
+        if start[axis as usize].replace(value).is_some() {
+            return Err(format!("{} stands twice", axis.letter() as char));
+        }
+    }
+    Ok(start)
+}
+
+/// An M code of the source and what becomes of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MCode {
+    /// Its number.
+    pub number: u16,
+    /// What is written for it; `None` leaves it out.
+    pub written: Option<u16>,
+}
+
+impl MCode {
+    /// What the command line says: `M31=drop`, `M50=carry`, `M50=M88`.
+    ///
+    /// # Errors
+    /// It is none of these forms.
+    pub fn read(text: &str) -> Result<MCode, String> {
+        let number = |code: &str| {
+            let digits = code.strip_prefix(['M', 'm'])?;
+            (digits.len() <= 4).then(|| digits.parse::<u16>().ok()).flatten()
+        };
+        let (code, fate) = text.split_once('=').unwrap_or((text, ""));
+        let own = number(code);
+        let written = match fate {
+            "drop" => Some(None),
+            "carry" => own.map(Some),
+            other => number(other).map(Some),
+        };
+        let form = || "write it as M31=drop, M31=carry or M31=M88".to_owned();
+        Ok(MCode { number: own.ok_or_else(form)?, written: written.ok_or_else(form)? })
+    }
+}
+
+impl fmt::Display for MCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.written {
+            None => write!(f, "--m-code M{}=drop", self.number),
+            Some(written) if written == self.number => write!(f, "--m-code M{}=carry", self.number),
+            Some(written) => write!(f, "--m-code M{}=M{written}", self.number),
+        }
+    }
+}
+
+/// Assumptions that `--assume` states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Assumed {
+    /// Every program is for a mill, whatever it looks like
+    Milling,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stated_start_is_exact() {
+        let s = start("X-9,Y15.588,z+3").unwrap();
+        assert_eq!(s[..3], [Some(-9_000_000_000), Some(15_588_000_000), Some(3_000_000_000)]);
+        for wrong in ["", "X", "X.", "Q1", "X1,X2", "X1e3", "X1.2.3", "X99999999999", "X0.1234567890"] {
+            assert!(start(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbering_forms() {
+        assert_eq!(numbering("10:5"), Ok(Numbering::Every { first: 10, step: 5 }));
+        for wrong in ["", "10", "10:0", ":", "a:b", "-1:1", "OFF"] {
+            assert!(numbering(wrong).is_err(), "{wrong}");
+        }
+    }
+}

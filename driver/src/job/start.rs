@@ -1,0 +1,74 @@
+//! What the user states of the machine before the program begins: where its axes stand, and which tool is in the spindle.
+//!
+//! The tool is that of the T code in force (Fanuc `--value '#4120=2'`): a program that begins without a tool change cuts
+//! with it.
+
+use ncc_backends::Writer;
+use ncc_exec::Exec;
+use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::expr::system::System;
+use ncc_ir::source::Span;
+use ncc_passes::Legaliser;
+
+use super::Job;
+use super::given::Given;
+use crate::render::numbers::signed;
+
+/// What is stated of the start.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    at: [Option<Nanos>; AXES],
+    tool: Option<u32>,
+}
+
+impl Start {
+    /// What a job states.
+    pub(crate) fn of(job: &Job) -> Start {
+        Start { at: job.start, tool: job.tool_at_start() }
+    }
+
+    /// Has source and target begin with it; the target's axes then go to where the source's are.
+    pub(crate) fn put(&self, [source, target]: [&mut Exec; 2]) {
+        source.stand_at(&self.at);
+        if let Some(tool) = self.tool {
+            source.hold_tool(tool);
+            target.hold_tool(tool);
+        }
+    }
+}
+
+/// Where the axes stand before the program begins, as assumptions for head and report.
+pub fn assumed(at: &[Option<Nanos>; AXES]) -> Vec<Diagnostic> {
+    let stated = Axis::ALL.iter().zip(at).filter_map(|(axis, at)| Some((axis, (*at)?)));
+    let fault = |(axis, at): (&Axis, Nanos)| Fault::AssumedParameter {
+        parameter: format!("{} at the start", char::from(axis.letter())).into(),
+        value: signed(at).into(),
+    };
+    stated.map(|stated| Diagnostic::new(fault(stated), Span::default())).collect()
+}
+
+impl Job {
+    /// Has passes and writer begin with it.
+    pub(crate) fn stand(&self, legaliser: &mut Legaliser, writer: &mut Writer) {
+        legaliser.stand_at(&self.start);
+        writer.stand_at(&self.start);
+        if let Some(tool) = self.tool_at_start() {
+            legaliser.hold_tool(tool);
+            writer.hold_tool(tool);
+        }
+    }
+
+    /// What variables may be given when the program runs: not the T and H code in force at the start, which are read with
+    /// the text.
+    pub(crate) fn given_to_runs(&self) -> Given {
+        let with_text = [System::SelectedTool, System::LengthEntry].map(|of| self.from.variable_of(&of));
+        with_text.into_iter().flatten().fold(self.given.clone(), |given, name| given.without(&name))
+    }
+
+    /// The tool in the spindle before the program begins, as far as the user states the T code in force.
+    pub fn tool_at_start(&self) -> Option<u32> {
+        self.from.stated_of(&System::SelectedTool).and_then(|(_, tool)| u32::try_from(tool).ok())
+    }
+}

@@ -1,0 +1,12 @@
+(row of holes, up to where the tool stood)
+G21 G17 G90 G94 G54
+S8000 M3
+G0 X0 Y0 Z12
+G98 G81 X10 Y5 Z-4 R2 F200
+X20
+X30 Z-6
+X40
+G80
+G0 Z20
+M5
+M30

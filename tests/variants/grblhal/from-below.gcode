@@ -1,0 +1,11 @@
+(the tool stands below R)
+G21 G17 G90 G94 G54
+S2000 M3
+G0 X0 Y0 Z1
+G98 G81 X10 Y0 Z-2 R3 F80
+X20
+X30 R4
+G80
+G0 Z10
+M5
+M2

@@ -1,0 +1,19 @@
+(G99 ends with the next move, and while G80 is in force)
+G21 G17 G90 G94 G54
+S8000 M3
+G0 X0 Y0 Z15
+G99 G81 X10 Y5 Z-4 R2 F200
+X20
+G0 X25
+G81 X30 Z-4 R2
+G80
+G99
+G81 X40 Z-3 R1
+G80
+G0 Z15
+G99
+G81 X50 Z-3 R1
+X55
+G80
+M5
+M2

@@ -1,0 +1,11 @@
+(switches of the overrides)
+G21 G17 G90 G94 G54
+M49
+S2000 M3
+G0 X0 Y0 Z2
+G1 Z-1 F100
+X10
+M48
+G0 Z20
+M5
+M30

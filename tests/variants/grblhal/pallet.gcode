@@ -1,0 +1,14 @@
+(a stop for the pallet)
+G21 G17 G90 G94 G54
+S2000 M3
+G0 X0 Y0 Z2
+G1 Z-1 F100
+G0 Z20
+M5
+M60
+S2000 M3
+G0 Z2
+G1 Z-1
+G0 Z20
+M5
+M30

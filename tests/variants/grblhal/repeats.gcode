@@ -1,0 +1,8 @@
+(the same hole three times)
+G21 G17 G90 G94 G54
+S2000 M3
+G0 X3 Y4 Z5
+G98 G81 X3 Y4 Z-2 R1 L3 F80
+G80
+M5
+M2

@@ -1,0 +1,10 @@
+(the tool that is in has a number)
+G21 G17 G90 G94 G54
+M61 Q4
+G43 H4
+S2000 M3
+G0 X0 Y0 Z10
+G1 Z-1 F100
+G0 Z20
+M5
+M30
