@@ -4,6 +4,8 @@
 //! back-ends, which have no world. Nothing is taken for granted beyond the entry facts given.
 
 mod frames;
+mod holes;
+mod merge;
 
 pub use self::frames::Shifted;
 mod intermediate;
@@ -11,7 +13,7 @@ mod known;
 
 use known::{Known, Polarly, Turning};
 
-use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
+use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, Spindle, Units};
 use crate::computed::code_of::code_of;
 use crate::computed::entry_of::is_about_entries;
 use crate::expr::Expr;
@@ -20,10 +22,10 @@ use crate::geometry;
 use crate::geometry::places::Places;
 use crate::geometry::polar::{self, Pole};
 use crate::geometry::round::{MOST_SHORT, round};
-use crate::program::cycle::{Cycle, CycleKind, Pattern};
+use crate::program::cycle::{Cycle, Pattern};
 use crate::program::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
 use crate::program::{
-    Arc, ArcForm, Coord, Data, FrameSlot, Move, Op, Point, Polar, SetPole, Shape, Stmt, ToolLength, ToolValue,
+    Arc, ArcForm, Coord, Data, FrameSlot, Op, Point, Polar, SetPole, Shape, Stmt, ToolLength, ToolValue,
 };
 
 /// State of the abstract execution.
@@ -227,78 +229,6 @@ impl Tracker {
         } else {
             self.apply(&stmt.op);
         }
-    }
-
-    /// What holds on both of two ways.
-    pub fn join(&mut self, other: &Tracker) {
-        fn both<T: PartialEq>(a: &mut Option<T>, b: &Option<T>) {
-            if a != b {
-                *a = None;
-            }
-        }
-        let (m, o) = (&mut self.modes, &other.modes);
-        both(&mut m.motion, &o.motion);
-        both(&mut m.distance, &o.distance);
-        both(&mut m.units, &o.units);
-        both(&mut m.plane, &o.plane);
-        both(&mut m.feed_mode, &o.feed_mode);
-        both(&mut m.return_level, &o.return_level);
-        both(&mut m.work_offset, &o.work_offset);
-        both(&mut m.length_offset, &o.length_offset);
-        both(&mut m.no_origin_shift, &o.no_origin_shift);
-        for (a, b) in self.position.iter_mut().zip(&other.position) {
-            both(a, b);
-        }
-        match (&mut self.cycle, &other.cycle) {
-            // A hole that may have been skipped: the next one may be the first.
-            (Some(a), Some(b))
-                if a.drilled != b.drilled && (InForce { drilled: b.drilled, ..a.clone() }) == *b =>
-            {
-                a.drilled = false;
-            }
-            (a, b) => {
-                // A level that is not known does not become known where ways meet.
-                let level = |cycle: &Option<InForce>, doubt: bool, initial: Option<Nanos>| match cycle {
-                    Some(cycle) => Some(cycle.initial),
-                    None => doubt.then_some(initial),
-                };
-                let levels = (
-                    level(a, self.cycle_in_doubt, self.doubtful_initial),
-                    level(b, other.cycle_in_doubt, other.doubtful_initial),
-                );
-                self.doubtful_initial = match levels {
-                    (Some(one), None) | (None, Some(one)) => one,
-                    (Some(a), Some(b)) if a == b => a,
-                    (Some(_), Some(_)) | (None, None) => None,
-                };
-                self.cycle_in_doubt |= a != b;
-                both(a, b);
-            }
-        }
-        self.cycle_in_doubt |= other.cycle_in_doubt;
-        both(&mut self.selected, &other.selected);
-        both(&mut self.tool, &other.tool);
-        both(&mut self.spindle, &other.spindle);
-        both(&mut self.feed, &other.feed);
-        both(&mut self.speed, &other.speed);
-        self.fed |= other.fed;
-        self.stale_feed |= other.stale_feed;
-        self.framed |= other.framed;
-        self.chained |= other.chained;
-        self.turned |= other.turned;
-        self.turning.iter_mut().zip(other.turning).for_each(|(own, other)| *own |= other);
-        self.local.join(&other.local);
-        self.chain.join(&other.chain);
-        self.chain_turned |= other.chain_turned;
-        self.raw |= other.raw;
-        self.probing |= other.probing;
-        self.detour |= other.detour;
-        self.intermediate.join(&other.intermediate);
-        self.none_suspended &= other.none_suspended;
-        self.pole_lost |= other.pole_lost || self.pole != other.pole;
-        self.compensated |= other.compensated;
-        self.tilted |= other.tilted;
-        self.aside |= other.aside;
     }
 
     /// Executes an operation, whatever the block-skip switches say.
@@ -608,70 +538,5 @@ impl Tracker {
 
     fn feed_is(&mut self, feed: &Expr) {
         (self.feed, self.fed, self.stale_feed) = (feed.literal(), true, false);
-    }
-
-    fn start_cycle(&mut self, cycle: &Cycle) {
-        if let Some(feed) = &cycle.feed {
-            self.feed_is(feed);
-        }
-        if matches!(cycle.kind, CycleKind::Bore { feed_out: Some(_), .. }) {
-            self.feed = None;
-        }
-        let normal = self.plane(cycle.plane).map(|p| p.axes().2);
-        let initial = match &self.cycle {
-            Some(before) => before.initial,
-            // In force or not, it is the same level.
-            None if self.cycle_in_doubt => {
-                let here = normal.and_then(|axis| self.position[axis as usize]);
-                self.doubtful_initial.filter(|level| here == Some(*level))
-            }
-            None => normal.and_then(|axis| self.position[axis as usize]),
-        };
-        let retract = self.resolve(&cycle.retract, initial);
-        let depth = self.resolve(&cycle.depth, retract);
-        let return_plane = cycle.return_plane.as_ref().and_then(|word| self.resolve(word, retract));
-        let cycle = cycle.clone();
-        self.cycle = Some(InForce { cycle, initial, retract, depth, return_plane, drilled: false });
-        self.cycle_in_doubt = false;
-        self.modes.motion = Some(Motion::Cycle);
-    }
-
-    fn hole(&mut self, m: &Move) {
-        self.position = self.target(&m.to);
-        self.out_of_hole();
-    }
-
-    fn out_of_hole(&mut self) {
-        let Some(in_force) = &mut self.cycle else {
-            self.position[..3].fill(None);
-            return;
-        };
-        in_force.drilled = true;
-        match &in_force.cycle.kind {
-            CycleKind::Tap(tap) => self.spindle = Some(tap.after),
-            CycleKind::FineBore(bore) => self.spindle = bore.after.or(self.spindle),
-            CycleKind::BoreStop(bore) => self.spindle = bore.after.or(self.spindle),
-            CycleKind::Drill
-            | CycleKind::DrillDwell { .. }
-            | CycleKind::DrillPeck { .. }
-            | CycleKind::DrillBreak { .. }
-            | CycleKind::Bore { .. } => {}
-        }
-        let level = match (in_force.return_plane, in_force.cycle.return_level.known()) {
-            (Some(plane), _) => Some(plane),
-            (None, _) if in_force.cycle.return_plane.is_some() => None,
-            (None, level) => match level.or(self.modes.return_level) {
-                Some(ReturnLevel::Retract) => in_force.retract,
-                Some(ReturnLevel::Initial) => {
-                    let levels = in_force.initial.zip(in_force.retract);
-                    levels.map(|(initial, r)| in_force.cycle.approach.initial(initial, r))
-                }
-                None => None,
-            },
-        };
-        match in_force.cycle.plane.known().or(self.modes.plane) {
-            Some(plane) => self.position[plane.axes().2 as usize] = level,
-            None => self.position[..3].fill(None),
-        }
     }
 }

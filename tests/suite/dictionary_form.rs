@@ -121,6 +121,7 @@ fn sources() -> String {
         "names.rs",
         "power_on.rs",
         "stored.rs",
+        "words.rs",
         "behaviours.rs",
         "variants.rs",
     ]

@@ -12,15 +12,14 @@
 //! ```
 
 mod arguments;
+mod modes;
 pub mod rs274;
 
 use ncc_dialects::{Quantity, Settings};
-use ncc_ir::canon::{
-    AXES, Axis, Distance, FeedMode, Modes, Motion, PathMode, Plane, Side, SpindleMode, Turn, Units,
-};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, SpindleMode, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -244,55 +243,11 @@ impl Writer {
                 self.open(s, out);
                 self.value(value, "F", s.span, out, diags).map_err(here)?;
             }
-            Op::SetMotionControlMode(control) => {
-                let within = control.within.as_ref().map(arguments::literal).transpose().map_err(here)?;
-                if let Some(within) = within {
-                    self.use_units(within.unit, out);
-                }
-                self.open(s, out);
-                out.extend_from_slice(match control.mode {
-                    PathMode::ExactStop => b"CANON_EXACT_STOP",
-                    PathMode::ExactPath => b"CANON_EXACT_PATH",
-                    PathMode::Continuous | PathMode::Tolerance => b"CANON_CONTINUOUS",
-                    PathMode::Distance
-                    | PathMode::AxisTolerances
-                    | PathMode::WithinBlocks
-                    | PathMode::Dynamics
-                    | PathMode::Tangential
-                    | PathMode::SlowCorners
-                    | PathMode::Tapping => return Err(here(cannot(&s.op))),
-                });
-                if let Some(within) = within {
-                    out.extend_from_slice(b", ");
-                    self.value(within, "tolerance", s.span, out, diags).map_err(here)?;
-                }
-            }
+            Op::SetMotionControlMode(control) => self.path_mode(s, control, out, diags).map_err(here)?,
             Op::StartCutterRadiusCompensation {
                 side,
                 radius: radius @ (CutterRadius::Entry(_) | CutterRadius::Diameter(_)),
-            } => {
-                let fault = Fault::EntryFactNeeded { fact: ModeName::Plane };
-                let plane = self.at.modes.plane.ok_or_else(|| here(fault))?;
-                self.use_plane(plane, out);
-                let diameter = match radius {
-                    CutterRadius::Diameter(d) => Some(arguments::literal(d).map_err(here)?),
-                    CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce => None,
-                };
-                if let Some(diameter) = diameter {
-                    self.use_units(diameter.unit, out);
-                }
-                self.open(s, out);
-                out.extend_from_slice(match side {
-                    Side::Left => b"CANON_SIDE_LEFT, ",
-                    Side::Right => b"CANON_SIDE_RIGHT, ",
-                });
-                if let Some(diameter) = diameter {
-                    out.extend_from_slice(b"CANON_DIAMETER, ");
-                    self.value(diameter, "diameter", s.span, out, diags).map_err(here)?;
-                } else if let CutterRadius::Entry(entry) = radius {
-                    whole(arguments::count(entry, s.op.name()).map_err(here)?, out);
-                }
-            }
+            } => self.start_compensation(s, *side, radius, out, diags).map_err(here)?,
             Op::SetSpindleMode(mode) => {
                 self.open(s, out);
                 out.extend_from_slice(match mode {
@@ -478,16 +433,6 @@ impl Writer {
         self.offset_waits &= to.get(Axis::Z).is_none() || s.skip.is_some();
     }
 
-    /// Says the plane, if another one is in force.
-    fn use_plane(&mut self, plane: Plane, out: &mut Vec<u8>) {
-        if self.plane != Some(plane) {
-            out.extend_from_slice(b"SELECT_PLANE(");
-            out.extend_from_slice(arguments::plane(plane));
-            self.close(out);
-            self.plane = Some(plane);
-        }
-    }
-
     /// An arc: end, centre, rotation, end along the normal, rotary axes.
     fn arc(
         &mut self,
@@ -545,35 +490,6 @@ impl Writer {
             self.computed(nanos, unit, "centre", s.span, out, diags)?;
         }
         Ok(())
-    }
-
-    /// A statement's unit of length, said first if it is another than that in force.
-    #[inline]
-    fn use_units(&mut self, unit: Unit, out: &mut Vec<u8>) {
-        let units = match unit {
-            Unit::Mm => Units::Mm,
-            Unit::Inch => Units::Inch,
-            Unit::One | Unit::Entry | Unit::Degree | Unit::Second => return,
-        };
-        if self.units != Some(units) {
-            out.extend_from_slice(b"USE_LENGTH_UNITS(");
-            out.extend_from_slice(arguments::units(units));
-            self.close(out);
-            self.units = Some(units);
-        }
-    }
-
-    /// The feed mode that the program takes for granted, said before the first feed.
-    fn feed_mode(&mut self, assumed: &Modes, out: &mut Vec<u8>) {
-        let mode = self.at.modes.feed_mode.or(assumed.feed_mode);
-        if let Some(mode) = mode
-            && self.feed_mode != Some(mode)
-        {
-            out.extend_from_slice(b"SET_FEED_MODE(");
-            out.extend_from_slice(arguments::feed_mode(mode));
-            self.close(out);
-            self.feed_mode = Some(mode);
-        }
     }
 }
 

@@ -12,30 +12,33 @@
 //! its values. Refused is what needs a table (lengths of tools that neither the program nor a profile has stated), and
 //! what this control has no call for.
 
+mod arcs;
 mod feeds;
 mod holes;
 mod moves;
 mod offsets;
+mod order;
 mod switches;
 
 use std::fmt::Write;
 
 use ncc_exec::world::{Tables, World};
 use ncc_exec::{Event, Exec};
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry::beside::Rules;
 use ncc_ir::geometry::round::ArcRule;
-use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::valid::leads_nowhere;
-use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
+use ncc_ir::program::{Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;
 use ncc_passes::arcs::expand_compensation;
 use ncc_passes::arcs::polar_words;
 use ncc_passes::flow::flatten;
 use ncc_passes::{Compensating, Target};
+
+use self::order::{overtakes, rank};
 
 /// How far the interpreter stands before where it takes a probe to have touched: 0.01 inch.
 pub const BACKS_OFF: Nanos = 254 * ONE / 1000;
@@ -171,79 +174,6 @@ fn beside(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program
     match found.into_iter().find(|d| d.fault.gravity() == Gravity::Error) {
         Some(refused) => Err(refused),
         None => Ok(program),
-    }
-}
-
-/// Place of a function in the interpreter's order of a block; `None` if it is none of those that are
-/// brought into order.
-fn rank(op: &Op) -> u8 {
-    match op {
-        Op::Message(_) | Op::Comment(_) | Op::Blank | Op::NoEffect(_) => 0,
-        Op::SetSpindleMode(_) | Op::LimitSpindleSpeed(_) => 1,
-        Op::SetFeedMode(_) => 2,
-        Op::SetFeedRate(_) => 3,
-        Op::SetSpindleSpeed(_) => 4,
-        Op::SelectTool(_) | Op::SelectToolByName(_) => 5,
-        Op::ChangeTool => 6,
-        Op::StartSpindleClockwise
-        | Op::StartSpindleCounterclockwise
-        | Op::StopSpindleTurning
-        | Op::OrientSpindle(_) => 7,
-        Op::FloodOn | Op::MistOn | Op::CoolantOff => 8,
-        Op::MachineFunction(_) | Op::Advise(_) => 9,
-        Op::Dwell(_) => 10,
-        Op::SelectPlane(_) => 11,
-        Op::UseLengthUnits(_) => 12,
-        Op::StartCutterRadiusCompensation { .. } | Op::StopCutterRadiusCompensation => 13,
-        Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => 14,
-        Op::SetOriginOffsets(_) => 15,
-        Op::SetMotionControlMode(_) => 16,
-        Op::SetDistanceMode(_) => 17,
-        Op::SetReturnLevel(_) => 18,
-        Op::ClearFrame(_)
-        | Op::SetFrame(_)
-        | Op::SetSlot(_)
-        | Op::SetPosition(_)
-        | Op::UseOriginShift(_)
-        | Op::UseToolCentrePoint(_)
-        | Op::OrientToolAxis(_)
-        | Op::UseMachineCoordinates { .. }
-        | Op::Probe(_)
-        | Op::Detour(_)
-        | Op::GoToReference(_)
-        | Op::SetData(_)
-        | Op::SetPole(_)
-        | Op::Corner { .. }
-        | Op::TurnRotaryAxes(_)
-        | Op::ExactStop => 19,
-        Op::EndCycle => 20,
-        Op::StraightTraverse(_)
-        | Op::StraightFeed(_)
-        | Op::SynchronisedFeed(_)
-        | Op::ArcFeed(_)
-        | Op::ArcForm(_)
-        | Op::Position(_)
-        | Op::StartCycle(_)
-        | Op::Hole(_)
-        | Op::Polar(_)
-        | Op::Pattern(_) => 21,
-        Op::ProgramStop
-        | Op::OptionalProgramStop
-        | Op::ProgramEnd
-        | Op::BeginAgain
-        | Op::Call(_)
-        | Op::Return
-        | Op::RepeatBlocks(_)
-        | Op::MessageOf(_)
-        | Op::Output(_)
-        | Op::Alarm(_)
-        | Op::Assign(..)
-        | Op::Declare(_)
-        | Op::Leave
-        | Op::NextTurn
-        | Op::Control(_)
-        | Op::Goto(_)
-        | Op::Label(_) => 22,
     }
 }
 
@@ -602,65 +532,6 @@ impl Printer<'_> {
         let [x, y, z, a, b, c]: [f64; AXES] = std::array::from_fn(|axis| self.shown(axis, to[axis]));
         let _ = writeln!(self.out, "{name}({x:.4}, {y:.4}, {z:.4}, {a:.4}, {b:.4}, {c:.4})");
     }
-
-    fn arc(&mut self, arc: &Arc) -> Result<(), Fault> {
-        let plane = self.at.plane(arc.plane).ok_or_else(|| cannot("an arc without a plane"))?;
-        let (first, second, normal) = plane.axes();
-        let (here, to) = (self.here()?, self.target(&arc.to)?);
-        let start = [here[first as usize], here[second as usize]];
-        let end = [to[first as usize], to[second as usize]];
-        let centre = match &arc.centre {
-            Centre::Point { .. } => self.at.centre(arc).ok_or_else(|| cannot("this centre"))?,
-            Centre::Radius(radius) => {
-                let radius = self.at.nanos(radius).ok_or_else(|| cannot("this radius"))?;
-                geometry::centre_by_radius(start, end, radius, arc.turn, self.arcs.short(self.inch()))
-                    .map_err(|fault| match fault {
-                        ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-                        ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
-                        ArcFault::EndOffCircle { radii, allowed } => {
-                            Fault::ArcEndOffCircle { radii, allowed }
-                        }
-                    })?
-            }
-        };
-        self.arcs.check(geometry::radii(start, end, centre), self.inch()).map_err(|fault| match fault {
-            ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },
-            ArcFault::RadiusTooSmall | ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => {
-                Fault::ArcRadiusTooSmall
-            }
-        })?;
-        let turns = i64::from(arc.turns) + 1;
-        let turns = if arc.turn == Turn::Clockwise { -turns } else { turns };
-        self.rate_of_arc([start, end, centre], turns, to[normal as usize] - here[normal as usize])?;
-        let shown = |axis: Axis, nanos| self.shown(axis as usize, nanos);
-        let [e1, e2, c1, c2, n] = [
-            shown(first, end[0]),
-            shown(second, end[1]),
-            shown(first, centre[0]),
-            shown(second, centre[1]),
-            shown(normal, to[normal as usize]),
-        ];
-        let [a, b, c] = [3, 4, 5].map(|axis| self.shown(axis, to[axis]));
-        let _ = writeln!(
-            self.out,
-            "ARC_FEED({e1:.4}, {e2:.4}, {c1:.4}, {c2:.4}, {turns}, {n:.4}, {a:.4}, {b:.4}, {c:.4})"
-        );
-        Ok(())
-    }
-}
-
-/// Calls that do not wait behind a move whose end is not settled.
-fn overtakes(op: &Op) -> bool {
-    matches!(
-        op,
-        Op::Message(_)
-            | Op::SelectTool(_)
-            | Op::SetMotionControlMode(_)
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
-            | Op::UseLengthUnits(_)
-            | Op::SelectPlane(_)
-    )
 }
 
 /// The last comment in brackets of the line at a place; what follows a semicolon is none, and that of a block which

@@ -2,7 +2,9 @@
 
 use ncc_ir::canon::{Axis, Spindle, Turn};
 use ncc_ir::expr::Expr;
-use ncc_ir::program::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
+use ncc_ir::program::cycle::{
+    Along, Approach, Clearance, Cycle, CycleKind, FineBore, First, Pattern, Row, Shift, Tap,
+};
 use ncc_ir::program::{Coord, Pitch};
 
 use super::expr::expr;
@@ -99,48 +101,8 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
             ];
             details(&words, out);
         }
-        CycleKind::Tap(tap) => {
-            put("(", out);
-            put(turn(tap.turn), out);
-            put(", pitch ", out);
-            pitch(&tap.pitch, out);
-            for (word, value) in
-                [(", dwell ", &tap.dwell), (", back ", &tap.back), (", settle ", &tap.settle)]
-            {
-                if let Some(value) = value {
-                    put(word, out);
-                    expr(value, out);
-                }
-            }
-            put(", after ", out);
-            put(spindle(tap.after), out);
-            put(if tap.to_level { ", to-level)" } else { ")" }, out);
-        }
-        CycleKind::FineBore(bore) => {
-            put("(shift ", out);
-            match &bore.shift {
-                Shift::Parameter(amount) => {
-                    put("parameter ", out);
-                    expr(amount, out);
-                }
-                Shift::Stated(words) => {
-                    put("along (", out);
-                    let words = Axis::ALL.into_iter().zip(words);
-                    let words = words.filter_map(|(axis, word)| Some((axis, word.as_ref()?)));
-                    for (place, (axis, value)) in words.enumerate() {
-                        put(if place > 0 { ", " } else { "" }, out);
-                        out.push(axis.letter());
-                        out.push(b' ');
-                        expr(value, out);
-                    }
-                    put(")", out);
-                }
-            }
-            put(", ", out);
-            after(bore.after, out);
-            further_turn(bore.turn, out);
-            details(&[(", dwell ", bore.dwell.as_ref()), (", angle ", bore.angle.as_ref())], out);
-        }
+        CycleKind::Tap(tap) => tapping(tap, out),
+        CycleKind::FineBore(bore) => fine_boring(bore, out),
         CycleKind::BoreStop(bore) => {
             put("(", out);
             after(bore.after, out);
@@ -181,6 +143,48 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
         put(", feed ", out);
         expr(feed, out);
     }
+}
+
+fn tapping(tap: &Tap, out: &mut Vec<u8>) {
+    put("(", out);
+    put(turn(tap.turn), out);
+    put(", pitch ", out);
+    pitch(&tap.pitch, out);
+    for (word, value) in [(", dwell ", &tap.dwell), (", back ", &tap.back), (", settle ", &tap.settle)] {
+        if let Some(value) = value {
+            put(word, out);
+            expr(value, out);
+        }
+    }
+    put(", after ", out);
+    put(spindle(tap.after), out);
+    put(if tap.to_level { ", to-level)" } else { ")" }, out);
+}
+
+fn fine_boring(bore: &FineBore, out: &mut Vec<u8>) {
+    put("(shift ", out);
+    match &bore.shift {
+        Shift::Parameter(amount) => {
+            put("parameter ", out);
+            expr(amount, out);
+        }
+        Shift::Stated(words) => {
+            put("along (", out);
+            let words = Axis::ALL.into_iter().zip(words);
+            let words = words.filter_map(|(axis, word)| Some((axis, word.as_ref()?)));
+            for (place, (axis, value)) in words.enumerate() {
+                put(if place > 0 { ", " } else { "" }, out);
+                out.push(axis.letter());
+                out.push(b' ');
+                expr(value, out);
+            }
+            put(")", out);
+        }
+    }
+    put(", ", out);
+    after(bore.after, out);
+    further_turn(bore.turn, out);
+    details(&[(", dwell ", bore.dwell.as_ref()), (", angle ", bore.angle.as_ref())], out);
 }
 
 pub(super) fn pattern(p: &Pattern, out: &mut Vec<u8>) {

@@ -5,82 +5,11 @@
 
 use logos::Logos;
 use ncc_ir::canon::RotaryWay;
-use ncc_ir::expr::Var;
-use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::{Function, Var};
 use ncc_ir::program::{Attribute, Detour, Op, Output, Text, ToolValue, Type};
 
 use super::scan::{block_number, number, quoted, variable};
-
-/// Why a stretch of text is no word.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum LexFault {
-    /// No word begins like this.
-    #[default]
-    Character,
-    /// More digits than a number holds.
-    Number,
-    /// A text with an escape that there is not.
-    Escape,
-}
-
-/// A number as written, still without a sign.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Literal {
-    pub(super) magnitude: u64,
-    pub(super) scale: u8,
-    pub(super) point: bool,
-    pub(super) unit: Unit,
-}
-
-impl Literal {
-    /// The number, with a sign; `None` if it has too many digits.
-    pub(super) fn signed(self, negative: bool) -> Option<Num> {
-        let mantissa = match negative {
-            true => 0i64.checked_sub_unsigned(self.magnitude),
-            false => i64::try_from(self.magnitude).ok(),
-        }?;
-        Some(Num { mantissa, scale: self.scale, point: self.point, unit: self.unit })
-    }
-
-    /// The value of a plain whole number without unit.
-    pub(super) fn plain(self) -> Option<u64> {
-        (self.unit == Unit::One && !self.point).then_some(self.magnitude)
-    }
-}
-
-/// Name of an arc's function that is not the plain one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Form(pub(crate) &'static str);
-
-/// A function with one number as its argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Valued {
-    SetFeedRate,
-    SetSpindleSpeed,
-    LimitSpindleSpeed,
-    SelectTool,
-    UseToolLengthOffset,
-    UseToolLength,
-    AddToolLength,
-    AddToolLengthOffset,
-    Dwell,
-    RoundCorner,
-    ChamferCorner,
-    ChamferCornerByLength,
-}
-
-/// A function with a text as its argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Worded {
-    Comment,
-    NoEffect,
-    Message,
-    MachineFunction,
-    SelectToolByName,
-}
-
-/// A function of an expression.
-pub(crate) type Function = ncc_ir::expr::Function;
+use super::word::{Form, LexFault, Literal, Valued, Worded};
 
 /// A word.
 #[derive(Clone, Debug, Logos, PartialEq)]

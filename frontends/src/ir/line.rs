@@ -12,7 +12,7 @@ use ncc_ir::program::{
 };
 use ncc_ir::source::Span;
 
-use super::lexer::{LexFault, Literal};
+use super::word::{LexFault, Literal};
 
 /// A line. Spans count from its start.
 #[derive(Debug)]

@@ -32,6 +32,7 @@
 mod lexer;
 mod line;
 mod scan;
+mod word;
 
 use lalrpop_util::ParseError;
 use logos::Logos;
@@ -40,8 +41,9 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 
-use self::lexer::{LexFault, Token};
+use self::lexer::Token;
 use self::line::{Line, Refusal};
+use self::word::LexFault;
 use crate::Batch;
 
 lalrpop_util::lalrpop_mod!(

@@ -6,7 +6,8 @@ use ncc_ir::expr::num::Unit;
 use ncc_ir::expr::system::System;
 use ncc_ir::program::Text;
 
-use super::lexer::{LexFault, Literal, Token};
+use super::lexer::Token;
+use super::word::{LexFault, Literal};
 use crate::common::quoted::unquote;
 
 /// A number with its unit.

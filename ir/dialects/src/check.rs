@@ -209,6 +209,35 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             return Err(wrong("names no source"));
         }
     }
+    cycles(dialect, places)?;
+    names(dialect, places)?;
+    tables(dialect, places)?;
+    for (at, row) in dialect.address.iter().enumerate() {
+        let wrong = |wrong| fault(&row.letter.to_string(), wrong, &places.address, at);
+        let place = row.letter as usize;
+        let slot = index.letter.get_mut(place.wrapping_sub(65)).ok_or_else(|| wrong("is no letter"))?;
+        if slot.replace(at as u8).is_some() {
+            return Err(wrong("stands twice"));
+        }
+        if row.source.is_empty() {
+            return Err(wrong("names no source"));
+        }
+    }
+    for (at, row) in dialect.option.iter().enumerate() {
+        let wrong = |wrong| fault(&row.name, wrong, &places.option, at);
+        let fits = match row.values.is_empty() {
+            true => row.default.parse::<f64>().is_ok_and(f64::is_finite),
+            false => row.values.contains(&row.default),
+        };
+        if !fits {
+            return Err(wrong("has a default that is none of its values"));
+        }
+    }
+    Ok(index)
+}
+
+/// Checks cycles and patterns of holes.
+fn cycles(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
     let means = |code: &str, meaning| dialect.code.iter().any(|c| c.code == code && c.means == Some(meaning));
     for (at, row) in dialect.cycle.iter().enumerate() {
         let wrong = |wrong| fault(&row.code, wrong, &places.cycle, at);
@@ -245,30 +274,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             ));
         }
     }
-    names(dialect, places)?;
-    tables(dialect, places)?;
-    for (at, row) in dialect.address.iter().enumerate() {
-        let wrong = |wrong| fault(&row.letter.to_string(), wrong, &places.address, at);
-        let place = row.letter as usize;
-        let slot = index.letter.get_mut(place.wrapping_sub(65)).ok_or_else(|| wrong("is no letter"))?;
-        if slot.replace(at as u8).is_some() {
-            return Err(wrong("stands twice"));
-        }
-        if row.source.is_empty() {
-            return Err(wrong("names no source"));
-        }
-    }
-    for (at, row) in dialect.option.iter().enumerate() {
-        let wrong = |wrong| fault(&row.name, wrong, &places.option, at);
-        let fits = match row.values.is_empty() {
-            true => row.default.parse::<f64>().is_ok_and(f64::is_finite),
-            false => row.values.contains(&row.default),
-        };
-        if !fits {
-            return Err(wrong("has a default that is none of its values"));
-        }
-    }
-    Ok(index)
+    Ok(())
 }
 
 fn fault(row: &str, wrong: &'static str, places: &[Range<usize>], at: usize) -> Fault {

@@ -8,7 +8,8 @@ use serde::Deserialize;
 use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
 use crate::power_on::FeedModeName;
-use crate::schema::{Dialect, Quantity, yes};
+use crate::schema::Dialect;
+use crate::words::{Quantity, yes};
 
 /// A G or M code.
 #[derive(Clone, Debug, Deserialize, PartialEq)]

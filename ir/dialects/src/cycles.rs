@@ -4,7 +4,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use serde::Deserialize;
 
 use crate::power_on::{ApproachName, ReturnLevelName};
-use crate::schema::{Quantity, yes};
+use crate::words::{Quantity, yes};
 
 /// What all canned cycles of a dialect share.
 #[derive(Clone, Debug, Default, Deserialize)]

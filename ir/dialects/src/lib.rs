@@ -32,6 +32,7 @@ mod schema;
 mod settings;
 mod stored;
 mod variants;
+mod words;
 
 pub use behaviours::{BehaviourRow, Sureness};
 pub use codes::*;
@@ -56,3 +57,4 @@ pub use settings::{
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};
 pub use variants::{VariantBlock, VariantCan, VariantRow};
+pub use words::{Address, Bare, NumberRules, PointRule, Quantity, Role};

@@ -10,7 +10,7 @@ use ncc_ir::canon::RotaryWay;
 use serde::Deserialize;
 
 use crate::meaning::Meaning;
-use crate::schema::Quantity;
+use crate::words::Quantity;
 
 /// A word of several letters: `TRANS`, `SUPA`, `CR`. It has a meaning of its own, or it is an
 /// address with a value behind `=`, or it is refused by a name.
@@ -46,10 +46,10 @@ pub struct NameRow {
     #[serde(default)]
     pub arguments: bool,
     /// Whether it is written when several words mean the same.
-    #[serde(default = "crate::schema::yes")]
+    #[serde(default = "crate::words::yes")]
     pub write: bool,
     /// Whether the row is confirmed.
-    #[serde(default = "crate::schema::yes")]
+    #[serde(default = "crate::words::yes")]
     pub sure: bool,
     /// Who says so.
     pub source: String,
@@ -219,7 +219,7 @@ pub struct CallRow {
     #[serde(default)]
     pub order_by_position: bool,
     /// Whether the row is confirmed.
-    #[serde(default = "crate::schema::yes")]
+    #[serde(default = "crate::words::yes")]
     pub sure: bool,
     /// Who says so.
     pub source: String,
@@ -294,7 +294,7 @@ pub struct Parameter {
     #[serde(default)]
     pub refuse: Option<String>,
     /// Whether it is confirmed what its values mean.
-    #[serde(default = "crate::schema::yes")]
+    #[serde(default = "crate::words::yes")]
     pub sure: bool,
 }
 

@@ -25,8 +25,9 @@ use crate::cycles::{CycleRow, CycleRules};
 use crate::load::renew;
 use crate::merge::same;
 use crate::names::NameRow;
-use crate::schema::{Address, Dialect};
+use crate::schema::Dialect;
 use crate::stored::DataRow;
+use crate::words::Address;
 
 /// Rows that hold where options are chosen so.
 #[derive(Clone, Debug, Deserialize)]

@@ -2,22 +2,15 @@
 //!
 //! Not here: how it spells it, and what only the digits of its words can tell (the back-end's).
 
-use std::collections::HashMap;
+mod refusal;
 
 use crate::alarms::Alarms;
-use crate::computed::call_of::call_of;
 use crate::computed::code_of::code_of;
 use crate::computed::entry_of::{EntryOf, entry_of, is_about_entries};
-use crate::diag::{Diagnostic, Fault};
 use crate::expr::num::{Num, Unit};
 use crate::expr::system::System;
-use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
-use crate::program::arguments;
-use crate::program::{Control, Op, Output, Piece, Procedure, Program, Stmt, Text};
-use crate::source::Span;
-
-/// Most calls without variables of their own, one within another, that are looked into.
-const MOST_SHARED: u32 = 16;
+use crate::expr::{Binary, Expr, Function, Node, Numbers, Scope, Var};
+use crate::program::{Control, Op, Stmt, Text};
 
 /// A statement of programs that compute which not every language has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -309,80 +302,6 @@ impl Computes {
         let plain = Named { reserved: Vec::new(), ..named.clone() };
         (!common || named.common.is_some()) && *plain.adapted(name, common) == *name
     }
-
-    /// The first call with variables of its own that stands within more others than the target takes; what calls
-    /// itself may do so any number of times.
-    pub fn too_deep(&self, program: &Program) -> Option<Diagnostic> {
-        struct Depth<'p> {
-            program: &'p Program,
-            places: HashMap<&'p str, usize>,
-            /// What was found in a procedure with so many calls left of both kinds.
-            known: HashMap<(usize, u32, u32), Option<Span>>,
-        }
-        fn down(depth: &mut Depth, body: &[Stmt], left: u32, shared: u32) -> Option<Span> {
-            body.iter().find_map(|stmt| match &stmt.op {
-                Op::Control(control) => control.bodies().find_map(|body| down(depth, body, left, shared)),
-                Op::Call(call) => {
-                    let own = !call.shared || !call.arguments.is_empty();
-                    let left = left.checked_sub(u32::from(own));
-                    match (left, depth.places.get(&*call.name).copied()) {
-                        (None, _) => Some(stmt.span),
-                        (Some(left), Some(place)) => {
-                            let shared = shared.checked_sub(u32::from(!own))?;
-                            if let Some(found) = depth.known.get(&(place, left, shared)) {
-                                return *found;
-                            }
-                            let program = depth.program;
-                            let found = down(depth, &program.procedures[place].body, left, shared);
-                            depth.known.insert((place, left, shared), found);
-                            found
-                        }
-                        (Some(_), None) => None,
-                    }
-                }
-                _ => None,
-            })
-        }
-        if self.calls == 0 {
-            return None;
-        }
-        let most = u32::from(self.calls);
-        let mut depth = Depth { program, places: program.by_name(), known: HashMap::new() };
-        let at = program
-            .procedures
-            .iter()
-            .find_map(|procedure| down(&mut depth, &procedure.body, most, MOST_SHARED))?;
-        Some(refuse("a call with variables of its own within so many others", at))
-    }
-
-    /// The first place that cannot be said.
-    pub fn refusal<'c>(&'c self, program: &'c Program) -> Option<Diagnostic> {
-        let references = match self.handed {
-            Handed::Names => program.procedures.iter().flat_map(|procedure| &procedure.parameters).collect(),
-            Handed::Letters | Handed::Places => Vec::new(),
-        };
-        let look = Look { computes: self, references };
-        program.procedures.iter().find_map(|procedure| look.procedure(procedure).err())
-    }
-}
-
-fn refuse(what: impl Into<Text>, at: Span) -> Diagnostic {
-    Diagnostic::new(Fault::Computes { what: what.into() }, at)
-}
-
-/// Whether an endless body can be left, as far as its statements tell. What has no end cannot be verified.
-fn ends(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| match &stmt.op {
-        Op::Goto(_)
-        | Op::Return
-        | Op::ProgramEnd
-        | Op::BeginAgain
-        | Op::Call(_)
-        | Op::Alarm(_)
-        | Op::Leave => true,
-        Op::Control(control) => control.bodies().any(|body| ends(body)),
-        _ => false,
-    })
 }
 
 /// Whether statements are a stop of the program, with a message or without.
@@ -394,11 +313,6 @@ fn stops(body: &[Stmt]) -> bool {
         }
         _ => false,
     }
-}
-
-/// The name of an operator or a function, as in the text form.
-fn called(of: &impl std::fmt::Debug) -> String {
-    format!("{of:?}").to_lowercase()
 }
 
 /// What a number of turns is rounded from, and held above none, as the control does by itself.
@@ -413,219 +327,4 @@ pub fn counted(times: &Expr) -> &Expr {
         return inner;
     }
     times
-}
-
-struct Look<'c> {
-    computes: &'c Computes,
-    /// Parameters, where the head of a program can say that one is the caller's variable itself.
-    references: Vec<&'c Var>,
-}
-
-impl Look<'_> {
-    fn procedure(&self, procedure: &Procedure) -> Result<(), Diagnostic> {
-        let at = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
-        procedure.parameters.iter().try_for_each(|parameter| self.variable(parameter, at))?;
-        self.body(&procedure.body, 0)
-    }
-
-    fn body(&self, body: &[Stmt], loops: u8) -> Result<(), Diagnostic> {
-        body.iter().try_for_each(|stmt| self.stmt(stmt, loops))
-    }
-
-    fn stmt(&self, stmt: &Stmt, loops: u8) -> Result<(), Diagnostic> {
-        let at = stmt.span;
-        match &stmt.op {
-            Op::Declare(declare) => {
-                match declare.sizes.is_empty() {
-                    true => self.has(Said::Declare, "a variable that is made known", at)?,
-                    false => self.has(Said::Array, "an array", at)?,
-                }
-                self.variable(&declare.var, at)?;
-                declare.initial.iter().flatten().try_for_each(|value| self.expr(value, at))
-            }
-            Op::Leave => self.has(Said::Leave, "a loop that is left", at),
-            Op::NextTurn => self.has(Said::NextTurn, "a turn of a loop that is left", at),
-            Op::Goto(_) => self.has(Said::Jump, "a jump", at),
-            Op::MessageOf(pieces) => {
-                self.has(Said::Values, "a message with values in it", at)?;
-                self.pieces(pieces, at)
-            }
-            Op::Output(output) => {
-                self.has(Said::Output, "output to a device", at)?;
-                if let Output::Line(pieces) = &**output { self.pieces(pieces, at) } else { Ok(()) }
-            }
-            Op::Alarm(alarm) => {
-                self.has(Said::Alarm, "an alarm", at)?;
-                alarm.number.iter().try_for_each(|number| self.expr(number, at))
-            }
-            Op::Assign(to, value) => {
-                match to {
-                    Target::Var(var) => self.variable(var, at)?,
-                    Target::Element(element) => self.element(element, at)?,
-                }
-                self.expr(value, at)
-            }
-            Op::Control(control) => self.control(control, stmt, loops),
-            Op::Call(call) => {
-                if (!call.arguments.is_empty() || !call.shared) && !self.computes.arguments {
-                    return Err(refuse("a call with variables of its own", at));
-                }
-                let own = !call.arguments.is_empty() || !call.shared;
-                if own && call.times > 1 && !self.computes.arguments_again {
-                    return Err(refuse("a call with variables of its own that is made several times", at));
-                }
-                call.arguments.iter().try_for_each(|argument| self.expr(argument, at))
-            }
-            op if arguments::computed(op) => {
-                arguments::each(&mut op.clone(), &mut |argument, _| match argument.expr() {
-                    Some(expr) => self.expr(expr, at),
-                    None => Ok(()),
-                })
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn control(&self, control: &Control, stmt: &Stmt, loops: u8) -> Result<(), Diagnostic> {
-        let at = stmt.span;
-        let deeper = || match loops < self.computes.loops {
-            true if stmt.skip.is_some() => Err(refuse("a loop that can be skipped", at)),
-            true => Ok(loops + 1),
-            false => Err(refuse("a loop within so many others", at)),
-        };
-        if self.computes.has(Said::CallOf)
-            && let Some(call) = call_of(control)
-        {
-            return call.number.into_iter().chain(call.times).try_for_each(|value| self.expr(value, at));
-        }
-        if self.computes.says_number(control)
-            && let Some(code) = code_of(control)
-        {
-            self.expr(code.number, at)?;
-            // What each of them says is of one form.
-            let first = code.codes.first().filter(|(_, op)| matches!(op, Op::Assign(..) | Op::SetData(_)));
-            return first.map_or(Ok(()), |(_, op)| self.stmt(&Stmt::new(at, (*op).clone()), loops));
-        }
-        match control {
-            Control::While { condition, body } => {
-                self.expr(condition, at)?;
-                self.body(body, deeper()?)
-            }
-            Control::Loop { body } if !ends(body) => Err(refuse("a loop that has no end", at)),
-            Control::Loop { body } => {
-                self.has(Said::Endless, "a loop without a condition", at)?;
-                self.body(body, deeper()?)
-            }
-            Control::Until { condition, body } => {
-                self.has(Said::Until, "a loop that is tested behind each turn", at)?;
-                self.body(body, deeper()?)?;
-                self.expr(condition, at)
-            }
-            Control::If { condition, then, otherwise } => {
-                self.expr(condition, at)?;
-                if self.computes.blocks {
-                    if stmt.skip.is_some() {
-                        return Err(refuse("a decision that can be skipped", at));
-                    }
-                    return control.bodies().try_for_each(|body| self.body(body, loops));
-                }
-                match &otherwise[..] {
-                    [] if self.computes.decides(then) => self.body(then, loops),
-                    _ => Err(refuse("a decision about more than one statement", at)),
-                }
-            }
-            Control::Repeat { times, body } if times.literal().is_some() => self.body(body, loops),
-            Control::Repeat { times, body } => {
-                self.has(Said::Times, "a loop that is repeated a computed number of times", at)?;
-                self.expr(counted(times), at)?;
-                self.body(body, deeper()?)
-            }
-            Control::For { variable, from, to, step, body } => {
-                self.has(Said::Count, "a loop that counts", at)?;
-                self.variable(variable, at)?;
-                [from, to, step].into_iter().try_for_each(|value| self.expr(value, at))?;
-                self.body(body, deeper()?)
-            }
-        }
-    }
-
-    fn has(&self, statement: Said, what: &str, at: Span) -> Result<(), Diagnostic> {
-        if self.computes.has(statement) { Ok(()) } else { Err(refuse(what, at)) }
-    }
-
-    fn element(&self, element: &Element, at: Span) -> Result<(), Diagnostic> {
-        match &element.of {
-            Many::Array { var, .. } => {
-                self.has(Said::Array, "an array", at)?;
-                self.variable(var, at)?;
-            }
-            Many::Numbered(numbers) => {
-                self.has(Said::Numbered, "a variable whose number is computed", at)?;
-                if !numbers.iter().all(|range| self.computes.says_all(range)) {
-                    return Err(refuse("a variable whose number is computed, of other variables", at));
-                }
-            }
-        }
-        element.at.iter().try_for_each(|index| self.expr(index, at))
-    }
-
-    fn variable(&self, var: &Var, at: Span) -> Result<(), Diagnostic> {
-        match var {
-            _ if self.computes.says(var) || self.references.contains(&var) => Ok(()),
-            Var::System(_) => Err(refuse(format!("the system variable {}", var.name()), at)),
-            Var::Local(name) | Var::Common(name) | Var::Retentive(name) => {
-                Err(refuse(format!("the variable {name}"), at))
-            }
-        }
-    }
-
-    fn pieces(&self, pieces: &[Piece], at: Span) -> Result<(), Diagnostic> {
-        pieces.iter().try_for_each(|piece| match piece {
-            Piece::Text(_) => Ok(()),
-            Piece::Value { value, .. } => self.expr(value, at),
-        })
-    }
-
-    fn expr(&self, expr: &Expr, at: Span) -> Result<(), Diagnostic> {
-        let Expr::Node(node) = expr else { return Ok(()) };
-        match &**node {
-            _ if self.computes.values.contains(expr) => Ok(()),
-            Node::Var(var) => self.variable(var, at),
-            Node::Vacant if !self.computes.vacant => Err(refuse("no value at all", at)),
-            Node::Vacant => Ok(()),
-            Node::Element(element) => self.element(element, at),
-            Node::Unary(Unary::Negate, a) => self.expr(a, at),
-            Node::Unary(Unary::Not, a) if self.computes.opposite => self.expr(a, at),
-            Node::Unary(Unary::Not, _) => Err(refuse("the opposite of a condition", at)),
-            Node::Binary(Binary::NotEqual, Expr::Node(a), Expr::Node(b))
-                if self.computes.exists && matches!(**b, Node::Vacant) =>
-            {
-                match &**a {
-                    Node::Var(var @ Var::Local(name)) if self.computes.is_name(name, false) => {
-                        self.variable(var, at)
-                    }
-                    Node::Var(var @ Var::Common(name)) if self.computes.is_name(name, true) => {
-                        self.variable(var, at)
-                    }
-                    _ => Err(refuse("whether a variable without a name has a value", at)),
-                }
-            }
-            Node::Binary(operator, a, b) => {
-                if !self.computes.operators.contains(operator) {
-                    return Err(refuse(format!("the operator {}", called(operator)), at));
-                }
-                self.expr(a, at)?;
-                self.expr(b, at)
-            }
-            Node::Call(function, arguments) => {
-                // What rounds to digits does so for a word, whose own rounding that may be.
-                let own =
-                    *function == Function::RoundTo || *function == Function::NearRatio && self.computes.near;
-                if !own && !self.computes.functions.contains(function) {
-                    return Err(refuse(format!("the function {}", called(function)), at));
-                }
-                arguments.iter().try_for_each(|argument| self.expr(argument, at))
-            }
-        }
-    }
 }

@@ -20,6 +20,8 @@ mod arc;
 mod frame;
 mod lines;
 mod machine;
+mod moves;
+mod op_name;
 mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
@@ -28,13 +30,14 @@ pub use lines::Lines;
 pub use machine::{
     CutterRadius, Data, DataMode, Detour, Probe, Reference, ReferencePoint, ToolLength, ToolValue,
 };
+pub use moves::{Coord, Move, PathControl, Pitch, Point, Synchronised};
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use std::collections::HashMap;
 
 use crate::canon::{
-    AXES, AdviceKind, Axis, CornerShape, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel,
-    RotaryWay, Side, SpindleMode, Turn, Units,
+    AXES, AdviceKind, CornerShape, Distance, FeedMode, Modes, Plane, ReturnLevel, RotaryWay, Side,
+    SpindleMode, Units,
 };
 use crate::expr::{Expr, Target, Var};
 use crate::program::cycle::{Cycle, Pattern};
@@ -125,97 +128,6 @@ impl Stmt {
     /// A statement in a block of its own.
     pub fn new(span: Span, op: Op) -> Stmt {
         Stmt { span, number: None, skip: None, joined: false, comment: None, op }
-    }
-}
-
-/// A coordinate word.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Coord {
-    /// Its value.
-    pub value: Expr,
-    /// From where it is measured.
-    pub distance: Fact<Distance>,
-}
-
-/// The axis words of a move; an axis without a word stays where it is.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Point {
-    /// One place per axis, in the order of [`Axis::ALL`].
-    pub axes: [Option<Coord>; AXES],
-}
-
-impl Point {
-    /// The word of an axis.
-    #[inline]
-    pub fn get(&self, axis: Axis) -> Option<&Coord> {
-        self.axes[axis as usize].as_ref()
-    }
-
-    /// Sets the word of an axis.
-    pub fn set(&mut self, axis: Axis, coord: Coord) {
-        self.axes[axis as usize] = Some(coord);
-    }
-
-    /// Whether no axis has a word.
-    pub fn is_empty(&self) -> bool {
-        self.axes.iter().all(Option::is_none)
-    }
-}
-
-/// A straight move, or hole position.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Move {
-    /// Where to.
-    pub to: Point,
-    /// Whether the block itself says the motion code. A back-end that inherits it need not.
-    pub said: bool,
-}
-
-/// A straight move in step with the spindle, as threads are cut.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Synchronised {
-    /// Where to.
-    pub to: Point,
-    /// How far the axis goes in a turn.
-    pub pitch: Pitch,
-    /// Whether feed and spindle each go on their own, and a compensating chuck makes good what they
-    /// are apart.
-    pub chuck: bool,
-    /// The sense in which the control turns the spindle for this move, to hold it after; without, it
-    /// turns as it does.
-    pub turn: Option<Turn>,
-    /// Whether it comes back to where it began, the spindle turned round for the way back and turning as
-    /// before after it.
-    pub back: bool,
-}
-
-/// How far an axis goes in one turn of the spindle.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pitch {
-    /// So far, positive.
-    Stated(Expr),
-    /// As feed and speed in force say.
-    Feed,
-}
-
-/// How corners are taken from here on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathControl {
-    /// The mode.
-    pub mode: PathMode,
-    /// How far from a corner, or from the path, where the mode says that.
-    pub within: Option<Expr>,
-    /// The same for rapids, where it is another one.
-    pub rapids: Option<Expr>,
-    /// How far from their common line straight moves at one feed may lie that the control makes one, where it
-    /// is another length than `within`; 0 is not at all.
-    pub merged: Option<Expr>,
-}
-
-impl PathControl {
-    /// A mode without lengths of its own.
-    pub fn plain(mode: PathMode) -> PathControl {
-        PathControl { mode, within: None, rapids: None, merged: None }
     }
 }
 
@@ -473,127 +385,6 @@ impl Op {
         match self {
             Op::Polar(polar) => &polar.op,
             op => op,
-        }
-    }
-
-    /// Its upper-case name in text; control has lower-case words.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Op::Comment(_) => "COMMENT",
-            Op::NoEffect(_) => "NO_EFFECT",
-            Op::Blank => "BLANK",
-            Op::UseLengthUnits(_) => "USE_LENGTH_UNITS",
-            Op::SetDistanceMode(_) => "SET_DISTANCE_MODE",
-            Op::SelectPlane(_) => "SELECT_PLANE",
-            Op::SetFeedMode(_) => "SET_FEED_MODE",
-            Op::SetReturnLevel(_) => "SET_RETURN_LEVEL",
-            Op::SetOriginOffsets(_) => "SET_ORIGIN_OFFSETS",
-            Op::ClearFrame(_) => "CLEAR_FRAME",
-            Op::SetFrame(frame) => {
-                if frame.added {
-                    "ADD_FRAME"
-                } else {
-                    "SET_FRAME"
-                }
-            }
-            Op::SetSlot(slot) => slot.name(),
-            Op::SetPosition(_) => "SET_POSITION",
-            Op::UseOriginShift(_) => "USE_ORIGIN_SHIFT",
-            Op::UseToolCentrePoint(_) => "USE_TOOL_CENTRE_POINT",
-            Op::OrientToolAxis(_) => "ORIENT_TOOL_AXIS",
-            Op::UseMachineCoordinates { .. } => "USE_MACHINE_COORDINATES",
-            Op::Probe(_) => "PROBE",
-            Op::Detour(_) => "DETOUR",
-            Op::SetData(data) => match **data {
-                Data::Offset { .. } => "SET_OFFSET_DATA",
-                Data::Tool { .. } => "SET_TOOL_DATA",
-                Data::Measured { .. } => "MEASURE_TOOL",
-                Data::Position(_) => "STORE_POSITION",
-                Data::ToolInSpindle(_) => "SET_TOOL_NUMBER",
-            },
-            Op::GoToReference(_) => "GO_TO_REFERENCE",
-            Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
-            Op::StartCutterRadiusCompensation { .. } => "START_CUTTER_RADIUS_COMPENSATION",
-            Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
-            Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",
-            Op::ExactStop => "EXACT_STOP",
-            Op::TurnRotaryAxes(_) => "TURN_ROTARY_AXES",
-            Op::Corner { shape, .. } => match shape {
-                CornerShape::Round => "ROUND_CORNER",
-                CornerShape::Leg => "CHAMFER_CORNER",
-                CornerShape::Length => "CHAMFER_CORNER_BY_LENGTH",
-            },
-            Op::Advise(_) => "ADVISE",
-            Op::SetFeedRate(_) => "SET_FEED_RATE",
-            Op::SetSpindleSpeed(_) => "SET_SPINDLE_SPEED",
-            Op::SetSpindleMode(_) => "SET_SPINDLE_MODE",
-            Op::LimitSpindleSpeed(_) => "LIMIT_SPINDLE_SPEED",
-            Op::SelectTool(_) => "SELECT_TOOL",
-            Op::SelectToolByName(_) => "SELECT_TOOL_BY_NAME",
-            Op::ChangeTool => "CHANGE_TOOL",
-            Op::UseToolLengthOffset(_) => "USE_TOOL_LENGTH_OFFSET",
-            Op::UseToolLength(length) => match **length {
-                ToolLength::Value(_) => "USE_TOOL_LENGTH",
-                ToolLength::Added(_) => "ADD_TOOL_LENGTH",
-                ToolLength::AddedEntry(_) => "ADD_TOOL_LENGTH_OFFSET",
-                ToolLength::Offsets { added: false, .. } => "USE_TOOL_OFFSETS",
-                ToolLength::Offsets { added: true, .. } => "ADD_TOOL_OFFSETS",
-            },
-            Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
-            Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
-            Op::StopSpindleTurning => "STOP_SPINDLE_TURNING",
-            Op::OrientSpindle(_) => "ORIENT_SPINDLE",
-            Op::MachineFunction(_) => "MACHINE_FUNCTION",
-            Op::FloodOn => "FLOOD_ON",
-            Op::MistOn => "MIST_ON",
-            Op::CoolantOff => "COOLANT_OFF",
-            Op::Dwell(_) => "DWELL",
-            Op::StraightTraverse(_) => "STRAIGHT_TRAVERSE",
-            Op::StraightFeed(_) => "STRAIGHT_FEED",
-            Op::SynchronisedFeed(_) => "SYNCHRONISED_FEED",
-            Op::ArcFeed(_) => "ARC_FEED",
-            Op::ArcForm(arc) => arc.shape.name(),
-            Op::SetPole(_) => "SET_POLE",
-            Op::Polar(_) => "POLAR",
-            Op::Position(_) => "POSITION",
-            Op::StartCycle(_) => "START_CYCLE",
-            Op::Hole(_) => "HOLE",
-            Op::Pattern(pattern) => match **pattern {
-                Pattern::Circle { .. } => "CIRCLE_PATTERN",
-                Pattern::Line { .. } => "LINE_PATTERN",
-                Pattern::Grid { .. } => "RECTANGULAR_LAYOUT",
-                Pattern::List(_) => "POSITION_LIST",
-            },
-            Op::EndCycle => "END_CYCLE",
-            Op::ProgramStop => "PROGRAM_STOP",
-            Op::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
-            Op::ProgramEnd => "PROGRAM_END",
-            Op::BeginAgain => "BEGIN_AGAIN",
-            Op::Message(_) => "MESSAGE",
-            Op::MessageOf(_) => "MESSAGE_OF",
-            Op::Output(output) => match **output {
-                Output::Open => "OPEN_OUTPUT",
-                Output::Line(_) => "OUTPUT",
-                Output::Close => "CLOSE_OUTPUT",
-            },
-            Op::Alarm(_) => "ALARM",
-            Op::Call(_) => "CALL",
-            Op::Return => "RETURN",
-            Op::RepeatBlocks(_) => "REPEAT_BLOCKS",
-            Op::Assign(..) => "assignment",
-            Op::Declare(_) => "DECLARE",
-            Op::Control(control) => match **control {
-                Control::Repeat { .. } => "repeat",
-                Control::Loop { .. } => "loop",
-                Control::While { .. } => "while",
-                Control::Until { .. } => "until",
-                Control::For { .. } => "for",
-                Control::If { .. } => "if",
-            },
-            Op::Goto(_) => "GOTO",
-            Op::Label(_) => "LABEL",
-            Op::Leave => "LEAVE",
-            Op::NextTurn => "NEXT_TURN",
         }
     }
 }

@@ -348,22 +348,7 @@ impl Exec {
             ReturnLevel::Retract => cycle.retract,
             ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
         };
-        if cycle.return_plane.is_none()
-            && level != cycle.retract
-            && cycle.initial_in != self.modes.work_offset
-        {
-            // Whether it is a level of the work or of the machine, no source tells.
-            let what = "a return to the initial level of another work offset".into();
-            return self.fault(Fault::NotExecuted { what }, span);
-        }
-        let to_level = cycle.return_plane.is_none() && level != cycle.retract;
-        if (to_level || cycle.from_level) && normal == self.along {
-            let length = self.length_of(self.waiting.unwrap_or(self.modes.length));
-            if length != cycle.initial_length {
-                // Whether it is a level of the work or of the tool's end, no source tells.
-                return self.not_executed("a hole by the initial level of another length", span);
-            }
-        }
+        self.level_is_known(cycle, level, span)?;
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
         let by_height = matches!(cycle.approach, Approach::RaiseFirst | Approach::ClearFirst);
@@ -388,6 +373,43 @@ impl Exec {
         if let Some(feed) = cycle.feed {
             self.tell(Attribute::FeedRate(feed), span, out)?;
         }
+        self.cut_hole(cycle, out_to, span, out)?;
+        self.go_to_level(normal, out_to, false, span, out)?;
+        self.after_hole(cycle, turned, span, out)
+    }
+
+    /// Refuses a hole of which the level to return to is not known: that of another work offset or length.
+    fn level_is_known(&mut self, cycle: &InForce, level: Nanos, span: Span) -> Result<(), Diagnostic> {
+        let normal = cycle.plane.axes().2 as usize;
+        if cycle.return_plane.is_none()
+            && level != cycle.retract
+            && cycle.initial_in != self.modes.work_offset
+        {
+            // Whether it is a level of the work or of the machine, no source tells.
+            let what = "a return to the initial level of another work offset".into();
+            return self.fault(Fault::NotExecuted { what }, span);
+        }
+        let to_level = cycle.return_plane.is_none() && level != cycle.retract;
+        if (to_level || cycle.from_level) && normal == self.along {
+            let length = self.length_of(self.waiting.unwrap_or(self.modes.length));
+            if length != cycle.initial_length {
+                // Whether it is a level of the work or of the tool's end, no source tells.
+                return self.not_executed("a hole by the initial level of another length", span);
+            }
+        }
+        Ok(())
+    }
+
+    /// From the retract plane to the bottom, and as far back as the cycle itself takes the tool; `out_to` is the level
+    /// to return to.
+    fn cut_hole(
+        &mut self,
+        cycle: &InForce,
+        out_to: Nanos,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let normal = cycle.plane.axes().2 as usize;
         match cycle.way {
             Way::Drill { dwell } => {
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
@@ -479,7 +501,18 @@ impl Exec {
                 }
             }
         }
-        self.go_to_level(normal, out_to, false, span, out)?;
+        Ok(())
+    }
+
+    /// What the spindle does after the hole, at the level to return to; `turned` is what it did before.
+    fn after_hole(
+        &mut self,
+        cycle: &InForce,
+        turned: Spindle,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let normal = cycle.plane.axes().2 as usize;
         match cycle.way {
             Way::Tap { chuck: false, after, .. } => self.turn_spindle(after, span, out),
             Way::Fine { shift, after, .. } => {

@@ -7,6 +7,7 @@
 //!
 //! Not here: what a statement does to the machine (`Exec`).
 
+mod calls;
 pub(crate) mod code;
 pub(crate) mod entry;
 pub(crate) mod go;
@@ -21,11 +22,11 @@ use std::rc::Rc;
 
 use super::{Exec, message};
 use crate::halt;
-use crate::run::code::{Again, At, Called, Code, Declared, Step};
+use crate::run::code::{At, Code, Declared, Step};
 use crate::run::needed::needed;
 use crate::run::nesting::{Blocks, Frame};
 use crate::run::rounds::Rounds;
-use crate::run::term::{Asked, Place, Variables, Why, real};
+use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why, real};
 use ncc_ir::canon::FeedMode;
 use ncc_ir::computed::code_of::is_last;
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -35,9 +36,6 @@ use ncc_ir::expr::{Expr, Var};
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Centre, Coord, Op, Program, Stmt};
 use ncc_ir::source::Span;
-
-/// Deepest nesting of calls and repetitions.
-const DEEPEST: usize = 64;
 
 /// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
 /// end.
@@ -232,15 +230,7 @@ impl<'p> Runner<'p> {
                 return Ok(None);
             };
             let span = stmt.span;
-            if halt::is_asked_at(self.steps) {
-                return Err(Diagnostic::new(Fault::Interrupted { steps: self.steps }, span));
-            }
-            if self.steps > self.most {
-                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most }, span));
-            }
-            if self.steps - before > self.most_idle {
-                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
-            }
+            self.may_go_on(before, span)?;
             if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
                 if let Step::Unskipped(_, to) = step {
                     self.at = *to;
@@ -254,24 +244,8 @@ impl<'p> Runner<'p> {
                         return Ok(Some(&self.now[*at as usize]));
                     }
                 }
-                Step::Assign(_, to) => {
-                    let (place, term) = &**to;
-                    let value = self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?;
-                    let Some(place) = place else {
-                        let what = "a variable of the control's own that is set".into();
-                        return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
-                    };
-                    self.variables.set(*place, value);
-                }
-                Step::AssignElement(_, to) => {
-                    let (element, term) = &**to;
-                    let place = element.as_ref().ok_or(Why::Index).and_then(|e| self.variables.at(e, asked));
-                    let value = self.variables.value(term, asked);
-                    let (place, value) = place
-                        .and_then(|place| Ok((place, value?)))
-                        .map_err(|why| self.no_value(why, span))?;
-                    self.variables.set(place, value);
-                }
+                Step::Assign(_, to) => self.assign(to.0, &to.1, asked, span)?,
+                Step::AssignElement(_, to) => self.assign_element(to.0.as_ref(), &to.1, asked, span)?,
                 Step::Declare(_, declared) => self.declare(declared, asked, span)?,
                 Step::Jump(_, to) => {
                     let from = std::mem::replace(&mut self.at, *to);
@@ -303,15 +277,9 @@ impl<'p> Runner<'p> {
                 }
                 Step::Turns(_, times, to) => {
                     exec.no_open_corner()?;
-                    let times =
-                        self.variables.number(times, asked).map_err(|why| self.no_value(why, span))?;
-                    if times < 0.0 || times != times.trunc() || times > self.most as f64 {
-                        return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
-                    }
-                    if times == 0.0 {
-                        self.at = *to;
-                    } else {
-                        self.turns.push(times as u64 - 1);
+                    match self.times(times, 0, asked, span)? {
+                        0 => self.at = *to,
+                        times => self.turns.push(times - 1),
                     }
                 }
                 Step::Goto(_, to) => {
@@ -333,26 +301,72 @@ impl<'p> Runner<'p> {
                 }
                 Step::Blocks(_, again) => {
                     exec.no_open_corner()?;
-                    let times =
-                        self.variables.number(&again.times, asked).map_err(|why| self.no_value(why, span))?;
-                    let least = f64::from(u8::from(again.computed));
-                    if times < least || times != times.trunc() || times > self.most as f64 {
-                        return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
-                    }
-                    self.again(again, times as u64, stmt)?;
+                    let times = self.times(&again.times, u8::from(again.computed), asked, span)?;
+                    self.again(again, times, stmt)?;
                 }
             }
         }
     }
 
-    /// That a way back leads to where something is different.
+    /// That the run is within its limits, and nobody has stopped it; `before` is how many steps it had before the present
+    /// statement.
     #[inline]
-    fn goes_on(&mut self, from: At, span: Span) -> Result<(), Diagnostic> {
-        let back = self.at < from && !self.asks();
-        if back && self.rounds.again(self.at, &self.variables, &self.calls, &self.turns, &self.blocks) {
-            return Err(Diagnostic::new(Fault::Endless, span));
+    fn may_go_on(&self, before: u64, span: Span) -> Result<(), Diagnostic> {
+        if halt::is_asked_at(self.steps) {
+            return Err(Diagnostic::new(Fault::Interrupted { steps: self.steps }, span));
+        }
+        if self.steps > self.most {
+            return Err(Diagnostic::new(Fault::NoEnd { steps: self.most }, span));
+        }
+        if self.steps - before > self.most_idle {
+            return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
         }
         Ok(())
+    }
+
+    /// Gives a variable a value; without a place it is one of the control's own.
+    #[inline]
+    fn assign(
+        &mut self,
+        place: Option<Place>,
+        term: &Term,
+        asked: Asked,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let value = self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?;
+        let Some(place) = place else {
+            let what = "a variable of the control's own that is set".into();
+            return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
+        };
+        self.variables.set(place, value);
+        Ok(())
+    }
+
+    /// Gives an element of an array, or a variable by its number, a value.
+    #[inline]
+    fn assign_element(
+        &mut self,
+        element: Option<&Indexed>,
+        term: &Term,
+        asked: Asked,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        let place = element.ok_or(Why::Index).and_then(|e| self.variables.at(e, asked));
+        let value = self.variables.value(term, asked);
+        let (place, value) =
+            place.and_then(|place| Ok((place, value?))).map_err(|why| self.no_value(why, span))?;
+        self.variables.set(place, value);
+        Ok(())
+    }
+
+    /// How many times something is repeated: a whole number, `least` or more.
+    #[inline]
+    fn times(&self, times: &Term, least: u8, asked: Asked, span: Span) -> Result<u64, Diagnostic> {
+        let times = self.variables.number(times, asked).map_err(|why| self.no_value(why, span))?;
+        if times < f64::from(least) || times != times.trunc() || times > self.most as f64 {
+            return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
+        }
+        Ok(times as u64)
     }
 
     /// Whether the program asks for values of the control's own.
@@ -381,154 +395,6 @@ impl<'p> Runner<'p> {
     #[cold]
     fn no_value(&self, why: Why, span: Span) -> Diagnostic {
         Diagnostic::new(self.code.names.fault(why), span)
-    }
-
-    fn another_turn(&mut self, to: At) {
-        match self.turns.last_mut() {
-            Some(left) if *left > 0 => {
-                *left -= 1;
-                self.at = to;
-            }
-            Some(_) | None => {
-                self.turns.pop();
-            }
-        }
-    }
-
-    fn deep(&self, name: &str, span: Span) -> Result<(), Diagnostic> {
-        if self.calls.len() + self.blocks.len() + self.turns.len() >= DEEPEST {
-            return Err(Diagnostic::new(
-                Fault::CallsTooDeep { name: name.into(), most: DEEPEST as u32 },
-                span,
-            ));
-        }
-        Ok(())
-    }
-
-    fn call(&mut self, called: &Called, asked: Asked, span: Span) -> Result<(), Diagnostic> {
-        let name = &called.call.name;
-        let Some(entry) = called.entry else {
-            return Err(Diagnostic::new(Fault::CallUnknown { name: name.clone() }, span));
-        };
-        if called.call.times == 0 {
-            return Ok(());
-        }
-        self.deep(name, span)?;
-        let given: Result<Rc<[Value]>, Why> =
-            called.arguments.iter().map(|term| self.variables.value(term, asked)).collect();
-        let given = given.map_err(|why| self.no_value(why, span))?;
-        let frame = Frame {
-            entry,
-            back: self.at,
-            again: called.call.times - 1,
-            turns: self.turns.len(),
-            base: self.variables.base,
-            shared: called.call.shared,
-            parameters: called.parameters.clone(),
-            given,
-        };
-        if !frame.shared {
-            self.variables.base = self.variables.locals.len();
-        }
-        self.enter(&frame);
-        self.calls.push(frame);
-        self.end = NOWHERE;
-        Ok(())
-    }
-
-    /// Gives a call its locals, new ones each time if it has its own, and its parameters.
-    fn enter(&mut self, frame: &Frame) {
-        if !frame.shared {
-            let base = self.variables.base;
-            self.variables.locals.truncate(base);
-            self.variables.locals.resize(base + self.code.names.count as usize, Value::Vacant);
-        }
-        for (place, value) in frame.parameters.iter().zip(&*frame.given) {
-            self.variables.set(*place, *value);
-        }
-        self.at = frame.entry;
-    }
-
-    /// Ends the present call; `false` is the main procedure.
-    fn leave(&mut self) -> bool {
-        let Some(mut frame) = self.calls.pop() else { return false };
-        if frame.back == NOWHERE {
-            self.calls.push(frame);
-            return false;
-        }
-        self.turns.truncate(frame.turns);
-        let depth = self.calls.len();
-        self.blocks.retain(|blocks| blocks.call <= depth);
-        if frame.again > 0 {
-            frame.again -= 1;
-            self.enter(&frame);
-            self.calls.push(frame);
-        } else {
-            if !frame.shared {
-                self.variables.locals.truncate(self.variables.base);
-                self.variables.base = frame.base;
-            }
-            self.at = frame.back;
-        }
-        self.find_end();
-        true
-    }
-
-    fn jump(&mut self, to: Option<(At, u32)>, stmt: &Stmt) -> Result<(), Diagnostic> {
-        let Some((to, counted)) = to else {
-            let Op::Goto(label) = &stmt.op else {
-                let what = "a word that leaves a loop, outside of any".into();
-                return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
-            };
-            return Err(Diagnostic::new(Fault::LabelUnknown { name: label.clone() }, stmt.span));
-        };
-        let inner = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
-        if inner.is_some_and(|blocks| !(blocks.begin..blocks.end).contains(&to)) {
-            let what = "a jump out of blocks that are executed again".into();
-            return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
-        }
-        let open = match (inner, self.calls.last()) {
-            (Some(blocks), _) => blocks.turns + counted.saturating_sub(blocks.counted) as usize,
-            (None, Some(frame)) => frame.turns + counted as usize,
-            (None, None) => 0,
-        };
-        self.turns.truncate(open);
-        self.at = to;
-        Ok(())
-    }
-
-    fn again(&mut self, again: &Again, times: u64, stmt: &Stmt) -> Result<(), Diagnostic> {
-        let Some((begin, end)) = again.steps else {
-            let Op::RepeatBlocks(repeat) = &stmt.op else { return Ok(()) };
-            return Err(Diagnostic::new(Fault::LabelUnknown { name: repeat.from.clone() }, stmt.span));
-        };
-        if times > 0 && begin < end {
-            self.deep("", stmt.span)?;
-            let (call, turns) = (self.calls.len(), self.turns.len());
-            let left = times - 1;
-            let counted = again.counted;
-            self.blocks.push(Blocks { begin, end, back: self.at, again: left, call, turns, counted });
-            self.at = begin;
-            self.end = end;
-        }
-        Ok(())
-    }
-
-    fn end_of_blocks(&mut self) {
-        let Some(blocks) = self.blocks.last_mut() else { return };
-        if blocks.again > 0 {
-            blocks.again -= 1;
-            self.at = blocks.begin;
-        } else {
-            self.at = blocks.back;
-            self.blocks.pop();
-            self.find_end();
-        }
-    }
-
-    fn find_end(&mut self) {
-        let here = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
-        self.end = here.map_or(NOWHERE, |blocks| blocks.end);
     }
 
     /// Computes a statement's arguments; `false` where nothing is left of it.

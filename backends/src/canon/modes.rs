@@ -1,0 +1,115 @@
+//! Calls that set a mode of the path: how corners are taken, and cutter radius compensation; what they need first.
+
+use ncc_ir::canon::{Modes, PathMode, Plane, Side, Units};
+use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::expr::num::Unit;
+use ncc_ir::program::{CutterRadius, PathControl, Stmt};
+
+use super::{Writer, arguments, cannot};
+use crate::common::quoted::whole;
+
+impl Writer {
+    /// The call of a path mode, and its tolerance.
+    pub(super) fn path_mode(
+        &mut self,
+        s: &Stmt,
+        control: &PathControl,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Fault> {
+        let within = control.within.as_ref().map(arguments::literal).transpose()?;
+        if let Some(within) = within {
+            self.use_units(within.unit, out);
+        }
+        self.open(s, out);
+        out.extend_from_slice(match control.mode {
+            PathMode::ExactStop => b"CANON_EXACT_STOP",
+            PathMode::ExactPath => b"CANON_EXACT_PATH",
+            PathMode::Continuous | PathMode::Tolerance => b"CANON_CONTINUOUS",
+            PathMode::Distance
+            | PathMode::AxisTolerances
+            | PathMode::WithinBlocks
+            | PathMode::Dynamics
+            | PathMode::Tangential
+            | PathMode::SlowCorners
+            | PathMode::Tapping => return Err(cannot(&s.op)),
+        });
+        if let Some(within) = within {
+            out.extend_from_slice(b", ");
+            self.value(within, "tolerance", s.span, out, diags)?;
+        }
+        Ok(())
+    }
+
+    /// The call that starts cutter radius compensation, by an entry of the table or a diameter.
+    pub(super) fn start_compensation(
+        &mut self,
+        s: &Stmt,
+        side: Side,
+        radius: &CutterRadius,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Fault> {
+        let fault = Fault::EntryFactNeeded { fact: ModeName::Plane };
+        let plane = self.at.modes.plane.ok_or(fault)?;
+        self.use_plane(plane, out);
+        let diameter = match radius {
+            CutterRadius::Diameter(d) => Some(arguments::literal(d)?),
+            CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce => None,
+        };
+        if let Some(diameter) = diameter {
+            self.use_units(diameter.unit, out);
+        }
+        self.open(s, out);
+        out.extend_from_slice(match side {
+            Side::Left => b"CANON_SIDE_LEFT, ",
+            Side::Right => b"CANON_SIDE_RIGHT, ",
+        });
+        if let Some(diameter) = diameter {
+            out.extend_from_slice(b"CANON_DIAMETER, ");
+            self.value(diameter, "diameter", s.span, out, diags)?;
+        } else if let CutterRadius::Entry(entry) = radius {
+            whole(arguments::count(entry, s.op.name())?, out);
+        }
+        Ok(())
+    }
+
+    /// Says the plane, if another one is in force.
+    pub(super) fn use_plane(&mut self, plane: Plane, out: &mut Vec<u8>) {
+        if self.plane != Some(plane) {
+            out.extend_from_slice(b"SELECT_PLANE(");
+            out.extend_from_slice(arguments::plane(plane));
+            self.close(out);
+            self.plane = Some(plane);
+        }
+    }
+
+    /// A statement's unit of length, said first if it is another than that in force.
+    #[inline]
+    pub(super) fn use_units(&mut self, unit: Unit, out: &mut Vec<u8>) {
+        let units = match unit {
+            Unit::Mm => Units::Mm,
+            Unit::Inch => Units::Inch,
+            Unit::One | Unit::Entry | Unit::Degree | Unit::Second => return,
+        };
+        if self.units != Some(units) {
+            out.extend_from_slice(b"USE_LENGTH_UNITS(");
+            out.extend_from_slice(arguments::units(units));
+            self.close(out);
+            self.units = Some(units);
+        }
+    }
+
+    /// The feed mode that the program takes for granted, said before the first feed.
+    pub(super) fn feed_mode(&mut self, assumed: &Modes, out: &mut Vec<u8>) {
+        let mode = self.at.modes.feed_mode.or(assumed.feed_mode);
+        if let Some(mode) = mode
+            && self.feed_mode != Some(mode)
+        {
+            out.extend_from_slice(b"SET_FEED_MODE(");
+            out.extend_from_slice(arguments::feed_mode(mode));
+            self.close(out);
+            self.feed_mode = Some(mode);
+        }
+    }
+}
