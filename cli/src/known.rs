@@ -22,8 +22,8 @@ use ncc_ir::canon::Units;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
+use crate::args::typed::MCode;
 use crate::project::Projects;
-use crate::typed::MCode;
 
 /// A dictionary that was made of the one at an address, for one side.
 type Derived = (usize, Side, &'static Dialect);

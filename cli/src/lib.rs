@@ -30,7 +30,5 @@ pub mod provenance;
 mod recognised;
 pub mod review;
 pub mod run;
-pub mod setting;
 pub mod sugar;
 pub mod time;
-pub mod typed;

@@ -8,8 +8,8 @@ use ncc_driver::problem::Problem;
 use ncc_driver::render::advice::may_be_stated;
 use ncc_machines::reading::Side;
 
+use crate::args::typed::MCode;
 use crate::known::Known;
-use crate::typed::MCode;
 
 /// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`; or a
 /// code that calls one, `M165=drop`.

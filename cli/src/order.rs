@@ -21,11 +21,11 @@ use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
 use crate::args::Translate;
+use crate::args::typed::Eol;
 use crate::known::Known;
 use crate::machines::agreed;
 use crate::project::{InForce, Settled, Sides, Stated, settle};
 use crate::recognised::INTO_WHAT;
-use crate::typed::Eol;
 use crate::{files, m_codes};
 
 /// What all programs of a command have in common.

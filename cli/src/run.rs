@@ -23,6 +23,7 @@ use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
 
+use crate::args::typed::{Assumed, Color, Eol, Format, Style};
 use crate::args::{Cli, DialectsWhat, Translate, Verb};
 use crate::files::{self, Destination, arrow};
 use crate::known::{self, Known};
@@ -33,7 +34,6 @@ use crate::provenance::why;
 use crate::recognised::recognise_all;
 use crate::sugar::{Said, rewrite};
 use crate::time::running::Running;
-use crate::typed::{Assumed, Color, Eol, Format, Style};
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
 /// Runs `ncc` with its arguments, the program's name first.

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 use codespan_reporting::term::termcolor::NoColor;
+use ncc::args::typed::Color;
 use ncc::args::{Cli, Verb};
 use ncc::known::Known;
-use ncc::typed::Color;
 use ncc_driver::problem::Exit;
 use ncc_tests::corpus::{self, DIALECTS, files};
 use ncc_tests::expect::{self, Failures};

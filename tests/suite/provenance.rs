@@ -318,7 +318,7 @@ fn the_answer_about_a_line_has_a_schema() {
                 from_source: None,
                 from: None,
                 to: None,
-                format: ncc::typed::Format::Json,
+                format: ncc::args::typed::Format::Json,
             };
             let what = format!("{} to {to}, line {line}", program.file);
             match why::document(&args, &known, &mut NoColor::new(Vec::new())) {

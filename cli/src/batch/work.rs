@@ -26,8 +26,8 @@ use super::gather::Item;
 use super::orders::Orders;
 use super::summary::{Missing, Result as Came, Row};
 use crate::args::Translate;
+use crate::args::typed::{Eol, Format};
 use crate::known::Known;
-use crate::typed::{Eol, Format};
 use crate::{files, recognised, run};
 
 /// Highest number of a program.

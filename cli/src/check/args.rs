@@ -6,7 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use ncc_ir::expr::num::Nanos;
 
-use crate::setting::{Holding, Reading, Switches, Telling};
+use crate::args::setting::{Holding, Reading, Switches, Telling};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -21,11 +21,11 @@ use ncc_machines::Profile;
 pub use ncc_driver::check::json::SCHEMA;
 
 use self::args::{Check, Form};
+use crate::args::typed::Color;
 use crate::files::{self, Destination};
 use crate::known::Known;
 use crate::review::side::{Asked, open_one};
 use crate::time::running::Running;
-use crate::typed::Color;
 use ncc_driver::check::told::Graded;
 use ncc_driver::check::told::Program;
 use ncc_driver::guess::better;

@@ -36,14 +36,14 @@ use ncc_machines::reading::{Place, Side, UNNAMED};
 use question::{Question, questions};
 
 use self::args::Doctor;
+use crate::args::setting::Telling;
+use crate::args::typed::Start;
 use crate::known::Known;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::args::Init;
 use crate::project::{self, Sides, Stated};
 use crate::recognised::{INTO_WHAT, recognise};
-use crate::setting::Telling;
-use crate::typed::Start;
 use crate::{files, m_codes};
 
 /// Runs it. Exit code 0 if the program can be translated, whatever is asked; else that of the translation.

@@ -3,8 +3,8 @@
 use clap::Args;
 use ncc_backends::Numbering;
 
-use crate::setting::{Lines, Reading, Standing, Telling};
-use crate::typed::numbering;
+use crate::args::setting::{Lines, Reading, Standing, Telling};
+use crate::args::typed::numbering;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -30,10 +30,10 @@ use ncc_driver::source::{Readable, Source};
 use ncc_machines::schema::BlockNumbers;
 
 use self::args::Fmt;
+use crate::args::typed::Eol;
 use crate::files;
 use crate::known::Known;
 use crate::review::side::{Asked, open_one, operand};
-use crate::typed::Eol;
 
 /// Runs the verb.
 ///

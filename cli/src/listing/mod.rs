@@ -26,8 +26,8 @@ use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
 
 use crate::args::Translate;
+use crate::args::typed::{Format, Style};
 use crate::files::{self, Destination};
-use crate::typed::{Format, Style};
 
 /// What the command line asks for beside a listing that has no meaning there.
 ///

@@ -24,8 +24,8 @@ use ncc_machines::schema::LineEnds;
 use ncc_machines::{Profile, ProfileError, shipped};
 
 use self::args::What;
+use crate::args::typed::Eol;
 use crate::known::Known;
-use crate::typed::Eol;
 use crate::{files, machines};
 
 /// The schema of profiles, as it is documented.

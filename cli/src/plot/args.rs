@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use ncc_plot::{Chart, View};
 
-use crate::setting::{Reading, Setting, Telling};
+use crate::args::setting::{Reading, Setting, Telling};
+use crate::args::typed::pair;
 use crate::time::args::{Form, StageArg, Time};
-use crate::typed::pair;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::typed::pair;
+use crate::args::typed::pair;
 
 const CONFIG_EXAMPLES: &str = "\
 Examples:

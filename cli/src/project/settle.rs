@@ -14,8 +14,8 @@ use ncc_machines::schema::{Effect, MCodeRow};
 use ncc_machines::table::{Stated as Fact, Tell};
 
 use super::load::{InForce, Row};
+use crate::args::typed::MCode;
 use crate::known::Known;
-use crate::typed::MCode;
 
 /// What a call states itself.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::typed::Format;
+use crate::args::typed::Format;
 
 const EXAMPLES: &str = "\
 Examples:

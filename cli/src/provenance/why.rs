@@ -15,9 +15,9 @@ use serde::Serialize;
 use super::args::Why;
 use super::find::{Found, find};
 use super::read::{Events, Place, Row, Side};
+use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
-use crate::typed::Format;
 
 /// The version of the answer's form.
 const VERSION: u32 = 1;

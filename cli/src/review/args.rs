@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::setting::{Holding, Nearness, Standing, Telling};
-use crate::typed::{Format, pair};
+use crate::args::setting::{Holding, Nearness, Standing, Telling};
+use crate::args::typed::{Format, pair};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -16,10 +16,10 @@ use serde_json::Value;
 use super::args::Verify;
 use super::side::{Asked, open};
 use super::verify::{call, cannot_compare, compare, exit, is_stdin};
+use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
 use crate::project::Look;
-use crate::typed::Format;
 
 /// Longest value that is told whole, in characters.
 const LONGEST: usize = 80;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use ncc_driver::time::drive::Stage;
 
-use crate::setting::{Reading, Setting, Telling};
+use crate::args::setting::{Reading, Setting, Telling};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::setting::{Holding, Nearness, Standing, Telling};
-use crate::typed::pair;
+use crate::args::setting::{Holding, Nearness, Standing, Telling};
+use crate::args::typed::pair;
 
 const EXAMPLES: &str = "\
 Examples:

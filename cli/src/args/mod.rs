@@ -2,6 +2,9 @@
 //!
 //! Values are parsed here as far as that needs no file; what they mean together is `run`'s matter.
 
+pub mod setting;
+pub mod typed;
+
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -11,11 +14,11 @@ use ncc_ir::diag::Verdict;
 use ncc_ir::expr::num::Num;
 use ncc_passes::Pass;
 
+use crate::args::setting::{Lines, Standing, Telling};
+use crate::args::typed::Assumed;
+use crate::args::typed::MCode;
+use crate::args::typed::{Color, Format, Style, UnitsArg, numbering, pair};
 use crate::m_codes;
-use crate::setting::{Lines, Standing, Telling};
-use crate::typed::Assumed;
-use crate::typed::MCode;
-use crate::typed::{Color, Format, Style, UnitsArg, numbering, pair};
 
 /// `ncc` and its verbs.
 #[derive(Debug, Parser)]

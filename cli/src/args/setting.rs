@@ -10,8 +10,8 @@ use ncc_driver::render::human::Loudness;
 use ncc_ir::expr::num::Nanos;
 use ncc_time::{Model, ToolChangeOn};
 
+use crate::args::typed::{Eol, Start, pair, start};
 use crate::files;
-use crate::typed::{Eol, Start, pair, start};
 
 /// In which dialect programs are read.
 #[derive(Clone, Debug, Args)]
