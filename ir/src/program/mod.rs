@@ -22,7 +22,7 @@ mod lines;
 mod machine;
 mod polar;
 
-pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
+pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape, Turns};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
 pub use lines::Lines;
 pub use machine::{
