@@ -13,7 +13,7 @@ use ncc_passes::frames::frame_increments;
 use ncc_passes::modes::side_effects::NEEDS_Z;
 
 use super::numbers::{millimetres, signed};
-use super::unsupported::{self, without_radius};
+use super::unsupported::{self, way_out, without_radius, without_tool, without_way};
 use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
 
@@ -280,7 +280,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             what.trim_start_matches("M#")
         )],
         Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
-        Fault::NoToolSelected => own("write the tool number in this block: `T1 M06` for tool 1"),
+        Fault::NoToolSelected => without_tool(at.from),
         Fault::NoFeed => own("say the feed in this block or before it"),
         Fault::NoSpeed => own("say the speed of the spindle before it"),
         Fault::NoValue { .. } => {
@@ -396,9 +396,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         {
             own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
         }
-        Fault::CannotSay { what } if [NOWHERE, STILL].contains(&&**what) => own(
-            "leave out the blocks here that move by less than the target's least increment, or not in the plane",
-        ),
+        Fault::CannotSay { what } if [NOWHERE, STILL].contains(&&**what) => without_way(what, at.from),
+        Fault::CannotSay { what } if let Some(way) = way_out(what) => own(way),
         Fault::CannotSay { what } if what.starts_with("a pitch with so many digits") => {
             own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
         }

@@ -34,7 +34,7 @@ use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Trace};
 use crate::questions::{Policy, Question};
 use crate::translate::rewrite::{self, Folder};
-use crate::verify_run::{Stop, Verifier, fixed};
+use crate::verify_run::{Stop, Verifier};
 
 /// Pass that executes what is computed.
 pub(super) const FLATTEN: &str = "flatten";
@@ -78,6 +78,8 @@ pub(super) struct Translation<'j> {
     pub(super) blocks: u64,
     /// Whether the program says how corners are taken.
     pub(super) sets_path: bool,
+    /// Whether it computes, and keeps that.
+    pub(super) computes: bool,
 }
 
 impl<'j> Translation<'j> {
@@ -91,6 +93,7 @@ impl<'j> Translation<'j> {
         legaliser.set_measures(own);
         legaliser.set_source_arcs(job.from.arc_rule());
         legaliser.set_source_refuses(job.from.dialect.caps.refused_compensated);
+        legaliser.set_source_looks_over(job.looks_over_blocks());
         if job.between_controls() {
             legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }
@@ -134,6 +137,7 @@ impl<'j> Translation<'j> {
             statements: 0,
             blocks: 0,
             sets_path: false,
+            computes: false,
         };
         translation.open_frame();
         translation.take(job.assumed.clone(), Told::Reader);
@@ -277,8 +281,8 @@ impl<'j> Translation<'j> {
         }
         let (mut known, mut renamed, mut stands) = (Known::default(), Renamed::default(), HashMap::new());
         let mut own_distance = BTreeSet::new();
-        let computes = anything(&source).is_some() && !self.executes_computed();
-        if computes {
+        self.computes = anything(&source).is_some() && !self.executes_computed();
+        if self.computes {
             self.renumbering.tool_names(&mut program);
             ran_whole("tool-names", &program);
             let caps = self.job.to.caps();
@@ -335,7 +339,7 @@ impl<'j> Translation<'j> {
         let there = self.taken_there(main, &assumed, &mut found);
         self.renumbering.run(&mut program, &mut found);
         ran_whole("machine-numbers", &program);
-        if computes {
+        if self.computes {
             self.legaliser.run_computing(&mut program, &known, &mut found);
             self.writer.know(&program, &own_distance, stands);
             if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
@@ -455,46 +459,6 @@ impl<'j> Translation<'j> {
     pub(super) fn take_parameters(&mut self, found: &[Diagnostic]) {
         if let Some(verifier) = &mut self.verifier {
             verifier.take(found, self.job);
-        }
-    }
-
-    /// Makes statements of facts that always hold for the source's control, and not for the
-    /// target's, as soon as the program relies on them. (A target with a safe start states them there.)
-    pub(super) fn state_given(&mut self, stmts: &mut Vec<Stmt>) {
-        if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
-            return;
-        }
-        let always = fixed(self.job.from.dialect).without(&fixed(self.job.to.dialect));
-        let relied = self.batch.assumed;
-        let at =
-            stmts.iter().position(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).unwrap_or(stmts.len());
-        let Some(span) = stmts.get(at).map(|s| s.span) else { return };
-        let mut new = Vec::new();
-        if let (Some(d), Some(_), None) = (always.distance, relied.distance, self.given.distance) {
-            self.given.distance = Some(d);
-            new.push(Stmt::new(span, Op::SetDistanceMode(d)));
-        }
-        if let (Some(u), Some(_), None) = (always.units, relied.units, self.given.units) {
-            self.given.units = Some(u);
-            new.push(Stmt::new(span, Op::UseLengthUnits(u)));
-        }
-        if let (Some(p), Some(_), None) = (always.plane, relied.plane, self.given.plane) {
-            self.given.plane = Some(p);
-            new.push(Stmt::new(span, Op::SelectPlane(p)));
-        }
-        stmts.splice(at..at, new);
-    }
-
-    /// Assumed facts that the output does not state itself, in the target machine's numbers, and what
-    /// was taken for granted of the target.
-    pub(super) fn inherited(&self, assumed: &Modes) -> Modes {
-        let there = self.renumbering.modes(assumed);
-        let facts = there.without(&self.writer.stated()).without(&self.given);
-        let taken = self.legaliser.taken();
-        Modes {
-            work_offset: taken.work_offset.or(facts.work_offset),
-            no_origin_shift: taken.no_origin_shift.or(facts.no_origin_shift),
-            ..facts
         }
     }
 
@@ -623,6 +587,7 @@ impl<'j> Translation<'j> {
             renumbered: self.renumbering.used().clone(),
             rests: self.rests,
             questions: self.questions,
+            straight: None,
             verified,
             release,
             output: self.output,
@@ -634,5 +599,6 @@ impl<'j> Translation<'j> {
     }
 }
 
+mod given;
 #[cfg(test)]
 mod tests;

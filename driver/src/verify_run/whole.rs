@@ -17,10 +17,10 @@ use ncc_ir::source::Span;
 use ncc_passes::values::otherwise::{Taken, There, compares_nearly, computes_numbers, otherwise, places};
 use ncc_passes::values::variables::Renamed;
 
-use super::facts::{Other, tries_facts};
+use super::facts::{Other, stopped, tries_facts};
 use super::forks::{Forks, Shown};
 use super::twice::outliving;
-use super::{Run, Stop, Verifier, different, levels, unreadable};
+use super::{Run, Stop, Verifier, different, levels};
 use crate::job::given::Given as Stated;
 
 /// Events that are made on each side before they are compared.
@@ -539,7 +539,7 @@ impl Verifier {
                         (Some(refused), Some(Event { kind: Kind::Arc { .. }, span, .. })) => {
                             Ended::NotSo(Diagnostic::new(refused, *span))
                         }
-                        _ => Ended::target(unreadable(&fault, self.last)),
+                        _ => Ended::target(stopped(&fault, place, self.last)),
                     });
                 }
             }

@@ -15,7 +15,9 @@ use std::rc::Rc;
 
 use crate::PASSES;
 use crate::Target;
-use crate::arcs::{arc_form, compensated_modes, convert_arcs, cutter_radius, expand_corners, polar_words};
+use crate::arcs::{
+    arc_form, compensated_modes, convert_arcs, cutter_radius, expand_corners, polar_words, still_blocks,
+};
 use crate::flow::{
     expand_calls, expand_repeats, number_names, repeat_ends, skip_levels, specialise_procedures,
 };
@@ -58,6 +60,7 @@ pub struct Legaliser {
     pub(crate) measures: bool,
     /// Which arcs the source's control accepts, if the target's has another rule.
     pub(crate) source_arcs: Option<ArcRule>,
+    pub(crate) still_blocks: still_blocks::StillBlocksState,
     /// Whether feeds are said again behind a change of units.
     pub(crate) feed_again: bool,
     /// Whether the target counts F of some moves otherwise than the source.
@@ -113,6 +116,7 @@ impl Legaliser {
             lacks,
             measures: false,
             source_arcs: None,
+            still_blocks: still_blocks::StillBlocksState::default(),
             times_differ: false,
             feed_again: feed_unit::says_again(&Target { caps: caps.clone(), ..Target::default() }),
             follow: lacks

@@ -10,3 +10,4 @@ pub mod expand_compensation;
 pub(crate) mod expand_corners;
 pub mod expand_turns;
 pub mod polar_words;
+pub(crate) mod still_blocks;

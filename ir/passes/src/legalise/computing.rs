@@ -11,6 +11,7 @@ use crate::frames::computed_frames;
 use crate::frames::machine_cuts;
 use crate::frames::origin_shift;
 use crate::legalise::{Legaliser, Target};
+use crate::modes::feed_unit;
 use crate::support::known_facts::{self, Known};
 use crate::threads::taps;
 use crate::watch::ran_whole;
@@ -84,6 +85,11 @@ impl Legaliser {
         }
     }
 
+    /// The feed that has to be said again before a statement of control.
+    fn feed_before(&mut self, control: &Stmt, behind: &[Stmt]) -> Option<Result<Stmt, Diagnostic>> {
+        feed_unit::before_control(&mut self.feed, &self.walk.at, &self.target, control, behind)
+    }
+
     /// The same legaliser where nothing is known of what was before but this.
     fn anew(&self, known: Option<Tracker>, first: Option<&Stmt>) -> Legaliser {
         let Target { caps, decimals, peck_clearance, .. } = &self.target;
@@ -92,6 +98,7 @@ impl Legaliser {
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
         (own.source_arcs, own.feed_again, own.times_differ) =
             (self.source_arcs, self.feed_again, self.times_differ);
+        own.still_blocks = self.still_blocks;
         own.walk = crate::legalise::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.walk.at.z_lost_at_change = self.walk.at.z_lost_at_change;
         own.compensated.refused = self.compensated.refused;
@@ -238,22 +245,30 @@ impl Region<'_> {
     fn body(&mut self, body: &mut Vec<Stmt>, mut start: Option<(Legaliser, Modes)>) {
         let mut out = Vec::with_capacity(body.len());
         let mut stretch = Vec::new();
-        for mut stmt in std::mem::take(body) {
+        let mut rest = std::mem::take(body).into_iter();
+        while let Some(mut stmt) = rest.next() {
             if !matches!(stmt.op, flow!()) {
                 stretch.push(stmt);
                 continue;
             }
-            self.stretch(&mut stretch, start.take(), &mut out);
+            self.stretch(&mut stretch, start.take(), Some((&stmt, rest.as_slice())), &mut out);
             if let Op::Control(control) = &mut stmt.op {
                 control.bodies_mut().for_each(|body| self.body(body, None));
             }
             out.push(stmt);
         }
-        self.stretch(&mut stretch, start.take(), &mut out);
+        self.stretch(&mut stretch, start.take(), None, &mut out);
         *body = out;
     }
 
-    fn stretch(&mut self, stmts: &mut Vec<Stmt>, start: Option<(Legaliser, Modes)>, out: &mut Vec<Stmt>) {
+    /// Blocks without control; `next` is the statement of control behind them, and the rest of the body.
+    fn stretch(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        start: Option<(Legaliser, Modes)>,
+        next: Option<(&Stmt, &[Stmt])>,
+        out: &mut Vec<Stmt>,
+    ) {
         if stmts.is_empty() {
             return;
         }
@@ -264,6 +279,12 @@ impl Region<'_> {
         let mut found = Vec::new();
         own.shift = self.shift;
         own.run(stmts, &assumed, None, &mut found);
+        let again = next.and_then(|(control, behind)| own.feed_before(control, behind));
+        match again {
+            Some(Ok(feed)) => stmts.push(feed),
+            Some(Err(refusal)) => found.push(refusal),
+            None => {}
+        }
         self.shift = own.shift;
         if own.frames.is_worked_in()
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)

@@ -27,6 +27,12 @@ impl Legaliser {
         self.compensated.refused = self.target.caps.refused_compensated.without(source);
     }
 
+    /// Whether the source looks over blocks of a compensated contour that go nowhere. They are left out then.
+    pub fn set_source_looks_over(&mut self, looks_over: bool) {
+        self.still_blocks.looked_over = looks_over;
+        self.follow |= looks_over;
+    }
+
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
     /// another unit than its lengths.
     pub fn set_measures(&mut self, own: bool) {
