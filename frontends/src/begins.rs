@@ -168,12 +168,45 @@ impl Own {
 }
 
 /// Which modes of a text are as the program began, or as its caller left them.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Unsaid(pub(crate) ModeSet);
 
 impl Unsaid {
+    /// Those, and those of another way to the same place.
+    pub(crate) fn and(self, other: Unsaid) -> Unsaid {
+        Unsaid(self.0 | other.0)
+    }
+
+    /// A mode that was lost is open where it is one of them: on one way it is as the text began.
+    pub(crate) fn open<T>(self, mode: ModeName, know: &mut Know<T>, in_sub: bool) {
+        if self.0 & bit(mode) != 0 && matches!(know, Know::Lost) {
+            *know = if in_sub { Know::Callers } else { Know::Open };
+        }
+    }
+
     /// With a mode, as far as it is known.
     pub(crate) fn with<T: PartialEq + Copy>(self, mode: ModeName, know: Know<T>) -> Unsaid {
         Unsaid(if know.unsaid() || know == Know::Callers { self.0 | bit(mode) } else { self.0 })
+    }
+}
+
+/// Which modes control has not said where it goes on at a block with a number.
+#[derive(Debug, Default)]
+pub(crate) struct Jumps {
+    to: HashMap<u32, ModeSet>,
+    /// Jumps to a number that is computed.
+    anywhere: ModeSet,
+}
+
+impl Jumps {
+    /// A jump to a block, or to any.
+    pub(crate) fn jump(&mut self, to: Option<u32>, unsaid: Unsaid) {
+        *to.map_or(&mut self.anywhere, |to| self.to.entry(to).or_default()) |= unsaid.0;
+    }
+
+    /// What the jumps to a block so far have not said.
+    pub(crate) fn unsaid(&self, at: u32) -> Unsaid {
+        Unsaid(self.anywhere | self.to.get(&at).copied().unwrap_or(0))
     }
 }
 

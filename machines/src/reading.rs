@@ -7,7 +7,9 @@
 
 use std::fmt;
 
-use ncc_dialects::{BREAK_LIFT, CallRow, Dialect, PECK_CLEARANCE, Role};
+use ncc_dialects::{
+    BLOCK_WITHOUT_WAY, BREAK_LIFT, CallRow, Dialect, FIRST_TOOL, PECK_CLEARANCE, Role, WAITING_TOOL,
+};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::program::numbered::Numbered;
 
@@ -166,6 +168,10 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedParameter { parameter, .. } => match &**parameter {
             "clearance of peck drilling" => (Side::From, Place::Option(PECK_CLEARANCE.to_owned())),
             "lift of chip-breaking drilling" => (Side::From, Place::Option(BREAK_LIFT.to_owned())),
+            "block of a compensated contour that goes nowhere" => {
+                (Side::From, Place::Option(BLOCK_WITHOUT_WAY.to_owned()))
+            }
+            WAITING_TOOL => (Side::From, Place::Option(FIRST_TOOL.to_owned())),
             other => (side, Place::Confirmed(slug(other))),
         },
         Fault::UnknownCode { code } if is_m_code(code) => (Side::From, Place::Code(code.to_string())),

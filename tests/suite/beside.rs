@@ -15,7 +15,7 @@ use ncc_ir::canon::{AXES, Distance, Fact, Modes, Plane, Side, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::{
-    Arc, Centre, CentreFrom, Coord, CutterRadius, Move, Op, Point, Procedure, Program, Stmt,
+    Arc, Centre, CentreFrom, Coord, CutterRadius, Move, Op, Point, Procedure, Program, Stmt, Turns,
 };
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -168,7 +168,7 @@ fn program(legs: &[Leg], side: Side, diameter: f64) -> Program {
                     turn: if ccw { Turn::Counterclockwise } else { Turn::Clockwise },
                     to: point(leg.to),
                     centre: Centre::Point { words, from: CentreFrom::Zero },
-                    turns: 0,
+                    turns: Turns::NONE,
                     said: true,
                 }))
             }

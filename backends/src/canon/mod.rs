@@ -443,6 +443,7 @@ impl Writer {
     ) -> Result<(), Fault> {
         let plane = self.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
         let (first, second, normal) = plane.axes();
+        let turns = arc.turns.count()?;
         self.prepare(&arc.to, out);
         if let Centre::Point { words, .. } = &arc.centre
             && let Some(Expr::Num(n)) = words[first as usize].as_ref().or(words[second as usize].as_ref())
@@ -457,7 +458,7 @@ impl Writer {
         out.extend_from_slice(b", ");
         self.centre(s, arc, [first, second], out, diags)?;
         out.extend_from_slice(if arc.turn == Turn::Clockwise { b", -" } else { b", " });
-        whole(u64::from(arc.turns) + 1, out);
+        whole(u64::from(turns) + 1, out);
         out.extend_from_slice(b", ");
         self.axis(normal, &arc.to, s, out, diags)?;
         self.rotary(&arc.to, s, out, diags)?;

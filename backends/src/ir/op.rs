@@ -376,9 +376,9 @@ fn arc(a: &Arc, out: &mut Vec<u8>) {
             put(")", out);
         }
     }
-    if a.turns > 0 {
+    if !a.turns.is_none() {
         put(", turns ", out);
-        whole(u64::from(a.turns), out);
+        expr(&a.turns.0, out);
     }
 }
 

@@ -4,7 +4,7 @@ use ncc_dialects::{NameMeaning, NameRole, NameRow, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Turn};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Op, Point, Shape, Stmt};
+use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Op, Point, Shape, Stmt, Turns};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer, digits};
@@ -86,7 +86,7 @@ impl Writer {
                 written
             }
         };
-        self.turns(arc.turns, span, sink, &mut words)?;
+        self.turns(&arc.turns, span, sink, &mut words)?;
         let says = arc.said || self.words.force.motion != Some(motion);
         self.arc_block(says.then_some(code), None, &arc.to, inserted, &words, span, sink)?;
         self.words.force.motion = Some(motion);
@@ -127,7 +127,7 @@ impl Writer {
             }
             Shape::Tangent => (None, Some(NameMeaning::ArcTangent), Vec::new()),
         };
-        self.turns(arc.turns, span, sink, &mut words)?;
+        self.turns(&Turns::from(arc.turns), span, sink, &mut words)?;
         let motion = turn.map(Motion::Arc);
         let code = match turn {
             Some(turn) if arc.said || self.words.force.motion != motion => Some(self.arc_code(turn)?),
@@ -253,9 +253,10 @@ impl Writer {
         Ok(words)
     }
 
-    fn turns(&mut self, turns: u32, span: Span, sink: &mut Sink, words: &mut Words) -> Result<(), Fault> {
-        if turns > 0 {
-            words.push(self.named(NameRole::Turns, &Expr::int(turns.into()), None, span, sink)?);
+    fn turns(&mut self, turns: &Turns, span: Span, sink: &mut Sink, words: &mut Words) -> Result<(), Fault> {
+        // Which number the control makes of a value that is not whole, nobody states: none is computed.
+        if turns.count()? > 0 {
+            words.push(self.named(NameRole::Turns, &turns.0, None, span, sink)?);
         }
         Ok(())
     }

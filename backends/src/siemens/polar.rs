@@ -82,7 +82,7 @@ impl Writer {
             (Motion::Traverse, codes.traverse, false)
         } else if let Op::ArcFeed(arc) = &polar.op
             && matches!(arc.centre, Centre::Point { .. })
-            && arc.turns == 0
+            && arc.turns.is_none()
         {
             // About the pole; a pass has seen to it.
             (Motion::Arc(arc.turn), codes.arcs[arc.turn as usize], arc.said)

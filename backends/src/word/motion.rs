@@ -278,10 +278,12 @@ impl Writer {
         }
         let motion = Motion::Arc(arc.turn);
         let code = self.codes.arcs[arc.turn as usize].ok_or_else(|| cannot("an arc"))?;
-        let turns = match (arc.turns, self.codes.turns) {
-            (0, _) => None,
-            (_, None) => return Err(cannot("an arc of more than one turn")),
-            (turns, Some(letter)) => Some((letter.letter, u64::from(turns) + 1)),
+        let turns = match (arc.turns.is_none(), self.codes.turns) {
+            (true, _) => None,
+            (false, None) => return Err(cannot("an arc of more than one turn")),
+            (false, Some(letter)) => {
+                Some((letter.letter, self.value(&letter, &arc.turns.all(), span, sink)?))
+            }
         };
         let mut inserted = Inserted::default();
         self.need_distance(arc.to.axes.iter().flatten(), &mut inserted)?;
@@ -312,7 +314,7 @@ impl Writer {
             self.block.word(Part::Axes, letter, value);
         }
         if let Some((letter, turns)) = turns {
-            self.block.digits(Part::Axes, letter, &turns.to_string());
+            self.block.word(Part::Axes, letter, turns);
         }
         self.put_corner();
         if full { Ok(()) } else { self.check_vanished(arc, start) }
@@ -523,7 +525,7 @@ impl Writer {
         let end = self.tracker.target(&arc.to);
         let exact = |axis: Axis| Some([self.tracker.position[axis as usize]?, end[axis as usize]?]);
         let ([x, to_x], [y, to_y]) = (exact(first)?, exact(second)?);
-        if (a, c) != (b, d) || (x, y) == (to_x, to_y) || arc.turns > 0 {
+        if (a, c) != (b, d) || (x, y) == (to_x, to_y) || !arc.turns.is_none() {
             return None;
         }
         let centre = self.tracker.centre(arc)?;

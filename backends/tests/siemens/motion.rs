@@ -14,7 +14,7 @@ fn arc(to: &str, centre: Centre, turns: u32) -> Op {
         turn: Turn::Counterclockwise,
         to: point(to),
         centre,
-        turns,
+        turns: turns.into(),
         said: true,
     }))
 }

@@ -2,7 +2,7 @@
 
 use crate::*;
 use ncc_ir::canon::Turn;
-use ncc_ir::program::{Arc, Centre, CentreFrom};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Turns};
 
 fn centre(from: CentreFrom, i: &str, j: &str, k: &str) -> Centre {
     let word = |text: &str| (!text.is_empty()).then(|| mm(text));
@@ -10,7 +10,7 @@ fn centre(from: CentreFrom, i: &str, j: &str, k: &str) -> Centre {
 }
 
 fn arc(turn: Turn, to: &str, centre: Centre) -> Arc {
-    Arc { plane: Fact::Known(Plane::Xy), turn, to: point(to), centre, turns: 0, said: true }
+    Arc { plane: Fact::Known(Plane::Xy), turn, to: point(to), centre, turns: Turns::NONE, said: true }
 }
 
 fn after(start: &str, arc: Arc) -> Vec<Stmt> {
@@ -106,7 +106,7 @@ fn full_circles_and_helices() {
     let helix = after("X0. Y0. Z0.", arc(Clockwise, "X20. Y0. Z-5.", centre(Start, "10.", "0.", "")));
     assert_eq!(clean("fanuc", &helix), "G00 X0. Y0. Z0.\nG02 X20. Y0. Z-5. I10. J0.\n");
     refused("mach9", &helix);
-    let turns = Arc { turns: 2, ..arc(Clockwise, "", centre(Start, "10.", "0.", "")) };
+    let turns = Arc { turns: Turns::from(2), ..arc(Clockwise, "", centre(Start, "10.", "0.", "")) };
     refused("fanuc", &after("X0. Y0.", turns));
 }
 

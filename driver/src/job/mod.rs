@@ -19,7 +19,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::Arc;
 
 use ncc_backends::Layout;
-use ncc_dialects::{Dialect, Settings};
+use ncc_dialects::{BLOCK_WITHOUT_WAY, Dialect, LOOKED_OVER, Settings};
 use ncc_exec::maps::{Maps, Renaming};
 use ncc_exec::named_tool;
 use ncc_frontends::Reader;
@@ -157,6 +157,11 @@ impl Job {
         reader
     }
 
+    /// Whether the source's control looks over a block without a way on a compensated contour.
+    pub fn looks_over_blocks(&self) -> bool {
+        self.from.get(BLOCK_WITHOUT_WAY) == LOOKED_OVER
+    }
+
     /// The target's numbers of what the source calls by its own.
     pub fn maps(&self) -> Maps {
         let mut maps = self.machines.maps(self.to.dialect);
@@ -284,6 +289,8 @@ pub struct Outcome {
     /// Facts that the program does not state and that change its cut, the most dangerous first. They stop the
     /// translation, or were answered with ncc's own readings.
     pub questions: Vec<Question>,
+    /// What a user types so that a refused program that computes goes through as straight blocks, if it does.
+    pub straight: Option<&'static str>,
     /// What the verification covered; `None` if it was not asked for or did not come to its end.
     pub verified: Option<Verified>,
     /// Whether the output may be used, and if not, why.

@@ -13,7 +13,7 @@ use super::cannot;
 use super::numbers::{millimetres, signed};
 use super::spelled::mode;
 use super::text::{plain, plain_upto};
-use super::unsupported::{self, m_code, without_radius};
+use super::unsupported::{self, m_code, without_radius, without_tool};
 use super::unwritable;
 use super::words::Context;
 use crate::review::words::decimal;
@@ -274,7 +274,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             what.trim_start_matches("M#")
         )],
         Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
-        Fault::NoToolSelected => own("write the tool number in this block: `T1 M06` for tool 1"),
+        Fault::NoToolSelected => without_tool(at.from),
         Fault::NoFeed => own("say the feed in this block or before it"),
         Fault::NoSpeed => own("say the speed of the spindle before it"),
         Fault::NoValue { .. } => {

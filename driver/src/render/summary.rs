@@ -230,7 +230,14 @@ fn failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Re
                 .into_iter()
                 .flatten()
                 .collect();
-            writeln!(out, ": {}; nothing was written", reasons.join(", "))
+            writeln!(out, ": {}; nothing was written", reasons.join(", "))?;
+            if let Some(options) = outcome.straight {
+                writeln!(
+                    out,
+                    "  help: with {options} it goes through: ncc executes it, and writes straight blocks"
+                )?;
+            }
+            Ok(())
         }
     }
 }

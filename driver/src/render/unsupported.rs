@@ -1,8 +1,13 @@
 //! What to type where a code is not supported.
 
 use ncc_dialects::{
-    CodeRow, DWELL_REFUSED, Dialect, MACHINE_LENGTH, MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
+    BLOCK_WITHOUT_WAY, CodeRow, DWELL_REFUSED, Dialect, FIRST_TOOL, LOOKED_OVER, MACHINE_LENGTH,
+    MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
 };
+use ncc_exec::NOWHERE;
+use ncc_passes::frames::machine_moves::FROM_MACHINE;
+use ncc_passes::modes::feed_unit::ENDED;
+use ncc_passes::tools::tool_edge::LENGTH_IN_USE;
 
 /// The ways out of a block of which `name` says what is not supported; `code` is its text.
 pub(super) fn help(code: &str, name: &str, from: &Dialect) -> Vec<String> {
@@ -148,3 +153,35 @@ pub(super) fn without_radius() -> String {
 /// Cycles of which the control computes the path.
 const POCKET: &str =
     "the control computes this path by itself: post the pocket as moves, with `G01`, `G02` and `G03`";
+
+/// The way out of a refusal of lengths and feeds, as text to type.
+pub(super) fn way_out(what: &str) -> Option<&'static str> {
+    match what {
+        LENGTH_IN_USE => Some("set this length before the tool change"),
+        FROM_MACHINE => Some("write this Z absolutely: `G90` and the Z of its end point"),
+        ENDED => Some("write F again before this block: `F100.` for 100 a minute"),
+        _ => None,
+    }
+}
+
+/// What to do about blocks of a compensated contour that go nowhere, or not in the plane.
+pub(super) fn without_way(what: &str, from: &Dialect) -> Vec<String> {
+    let leave_out =
+        "leave out the blocks here that move by less than the target's least increment, or not in the plane";
+    let mut ways = vec![leave_out.to_owned()];
+    if what == NOWHERE && from.option.iter().any(|row| row.name == BLOCK_WITHOUT_WAY) {
+        let option = format!("--from-option {BLOCK_WITHOUT_WAY}={LOOKED_OVER}");
+        ways.push(format!("if the control looks over blocks without a way (MD 20252): `{option}`"));
+    }
+    ways
+}
+
+/// What to type for a tool change before which no tool is selected.
+pub(super) fn without_tool(from: &Dialect) -> Vec<String> {
+    let mut ways = vec!["write the tool number in this block: `T1 M06` for tool 1".to_owned()];
+    if from.option.iter().any(|row| row.name == FIRST_TOOL) {
+        let waits = "if a tool waits when the program begins: `--from-option first_tool=1` for tool 1";
+        ways.push(waits.to_owned());
+    }
+    ways
+}

@@ -35,9 +35,8 @@ pub(super) fn help(what: &str, from: &Dialect, to: &Dialect) -> Vec<String> {
         _ if what.starts_with("a rigid thread with something else before its way back") => {
             own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
         }
-        _ if [NOWHERE, STILL].contains(&what) => own(
-            "leave out the blocks here that move by less than the target's least increment, or not in the plane",
-        ),
+        _ if [NOWHERE, STILL].contains(&what) => unsupported::without_way(what, from),
+        _ if let Some(way) = unsupported::way_out(what) => own(way),
         _ if what.starts_with("a pitch with so many digits") => {
             own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
         }

@@ -553,8 +553,7 @@ impl<'d> Drive<'d> {
 /// The plain world: the machine's tables, zero where it states nothing, the dictionary's state at
 /// power-on.
 fn world(plan: &Plan) -> World {
-    let job = plan.job;
-    let fixed = fixed(job.from.dialect);
+    let (job, fixed) = (plan.job, fixed(plan.job.from.dialect));
     let value = |option| parameter(job, option).and_then(|value| value.nanos(false)).unwrap_or(0);
     World {
         external: [0; AXES],
@@ -571,6 +570,7 @@ fn world(plan: &Plan) -> World {
         optional_stop: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         compensation_again: job.from.dialect.caps.compensation.again,
+        looks_over_blocks: job.looks_over_blocks(),
         arcs: job.from.arc_rule(),
         refused_compensated: job.from.dialect.caps.compensation.refused,
         break_lift: value(BREAK_LIFT),

@@ -22,6 +22,7 @@ mod pipeline;
 pub mod rewrite;
 pub mod split;
 pub mod standalone_subprogram;
+mod straight;
 pub mod tools_by_name;
 mod translation;
 mod writing;
@@ -107,9 +108,13 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcom
         }
     };
     translation.answer(questions);
+    let straight = match straight::is_open(&translation) {
+        true => straight::options(job, source)?,
+        false => None,
+    };
     let inherited = translation.inherited(&translation.batch.assumed);
     let record = translation.trace.take();
-    let outcome = translation.outcome(hash, bytes);
+    let outcome = Outcome { straight, ..translation.outcome(hash, bytes) };
     let record = record.filter(|_| outcome.release.is_ok()).map(Trace::finish).transpose()?;
     Ok((outcome, inherited, record))
 }

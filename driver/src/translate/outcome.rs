@@ -69,6 +69,7 @@ impl Translation<'_> {
             renumbered: self.renumbering.used().clone(),
             rests: self.rests,
             questions: self.questions,
+            straight: None,
             verified,
             release,
             output: self.output,

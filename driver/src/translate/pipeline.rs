@@ -230,7 +230,8 @@ impl Translation<'_> {
     /// Says what a kept program computes as the target computes. A piece computes nothing.
     fn say_computed(&mut self, part: &mut Part) -> Result<(), Refused> {
         let Part::Kept(kept) = part else { return Ok(()) };
-        if anything(&kept.source).is_none() || self.executes_computed() {
+        self.computes = anything(&kept.source).is_some() && !self.executes_computed();
+        if !self.computes {
             return Ok(());
         }
         let program = &mut kept.program;

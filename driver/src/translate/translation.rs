@@ -67,6 +67,8 @@ pub(super) struct Translation<'j> {
     pub(super) blocks: u64,
     /// Whether the program says how corners are taken.
     pub(super) sets_path: bool,
+    /// Whether it computes, and keeps that.
+    pub(super) computes: bool,
 }
 
 impl<'j> Translation<'j> {
@@ -80,6 +82,7 @@ impl<'j> Translation<'j> {
         legaliser.set_measures(own);
         legaliser.set_source_arcs(job.from.arc_rule());
         legaliser.set_source_refuses(job.from.dialect.caps.compensation.refused);
+        legaliser.set_source_looks_over(job.looks_over_blocks());
         if job.between_controls() {
             legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }
@@ -122,6 +125,7 @@ impl<'j> Translation<'j> {
             statements: 0,
             blocks: 0,
             sets_path: false,
+            computes: false,
         };
         translation.open_frame();
         translation.take(job.assumed.clone(), Told::Reader);

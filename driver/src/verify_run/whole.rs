@@ -17,10 +17,10 @@ use ncc_passes::values::otherwise::{There, compares_nearly, computes_numbers, ot
 use ncc_passes::values::variables::renamed::Renamed;
 
 use self::values::READINGS;
-use super::facts::{Other, tries_facts};
+use super::facts::{Other, stopped, tries_facts};
 use super::forks::{Forks, Shown};
 use super::twice::outliving;
-use super::{Run, Stop, Verifier, different, levels, unreadable};
+use super::{Run, Stop, Verifier, different, levels};
 
 pub use self::values::Given;
 
@@ -451,7 +451,7 @@ impl Verifier {
                         (Some(refused), Some(Event { kind: Kind::Arc { .. }, span, .. })) => {
                             Ended::NotSo(Diagnostic::new(refused, *span))
                         }
-                        _ => Ended::target(unreadable(&fault, self.last)),
+                        _ => Ended::target(stopped(&fault, place, self.last)),
                     });
                 }
             }

@@ -21,6 +21,7 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     source.compensation_again = job.from.dialect.caps.compensation.again;
+    source.looks_over_blocks = job.looks_over_blocks();
     source.arcs = job.from.arc_rule();
     source.refused_compensated = job.from.dialect.caps.compensation.refused;
     source.tables.edge_entries = own_entries;

@@ -263,5 +263,5 @@ fn arc(args: &mut Arguments<'_>, length: Unit, state: &State) -> Result<Arc, Ref
         }
     }
     let centre = Centre::Point { words, from: CentreFrom::Zero };
-    Ok(Arc { plane: Fact::Known(plane), turn, to, centre, turns, said: false })
+    Ok(Arc { plane: Fact::Known(plane), turn, to, centre, turns: turns.into(), said: false })
 }

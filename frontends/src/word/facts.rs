@@ -224,6 +224,18 @@ impl State {
             .with(ModeName::OriginShift, self.no_shift)
     }
 
+    /// Control comes here on another way as well, on which these modes have not been said.
+    pub(super) fn comes_with(&mut self, unsaid: Unsaid, in_sub: bool) {
+        unsaid.open(ModeName::Distance, &mut self.distance, in_sub);
+        unsaid.open(ModeName::Units, &mut self.units, in_sub);
+        unsaid.open(ModeName::Plane, &mut self.plane, in_sub);
+        unsaid.open(ModeName::FeedMode, &mut self.feed_mode, in_sub);
+        unsaid.open(ModeName::ReturnLevel, &mut self.return_level, in_sub);
+        unsaid.open(ModeName::WorkOffset, &mut self.work_offset, in_sub);
+        unsaid.open(ModeName::LengthOffset, &mut self.length_offset, in_sub);
+        unsaid.open(ModeName::OriginShift, &mut self.no_shift, in_sub);
+    }
+
     /// What is known where control may come from elsewhere, too.
     pub(super) fn met(&self) -> State {
         State {
@@ -377,6 +389,14 @@ impl Lower {
             begins::no_shift(&mut self.state.no_shift, &self.settings.dialect.power_on, at, out);
         }
         self.lose_state(out);
+    }
+
+    /// Facts are lost where ways join; on one of them these modes have not been said.
+    pub(in crate::word) fn join_ways(&mut self, unsaid: Unsaid, at: Span, out: &mut Batch) {
+        self.lose(at, out);
+        if self.assume {
+            self.state.comes_with(unsaid, self.sub.is_some());
+        }
     }
 
     /// What bare axis words do: `None` if that is only known when the program runs.

@@ -3,7 +3,7 @@
 //!
 //! Moves, cycles and calls have files of their own.
 
-use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, Meaning, Quantity};
+use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, FIRST_TOOL, Meaning, Quantity, WAITING_TOOL};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -368,6 +368,22 @@ impl Lower {
         Some(Expr::int(i64::from(whole)))
     }
 
+    /// A tool change where the program has selected no tool: the one that the user states to wait.
+    fn tool_waits(&mut self, at: Span, out: &mut Batch) {
+        if self.state.tool != Know::Unsaid {
+            return;
+        }
+        match self.settings.get(FIRST_TOOL).parse().ok().filter(|first| *first > 0) {
+            Some(first) => {
+                self.state.tool = Know::Said(Some(first));
+                self.push(at, Op::SelectTool(Expr::int(first.into())), out);
+                let (parameter, value) = (WAITING_TOOL.into(), first.to_string().into());
+                out.report(Fault::AssumedParameter { parameter, value }, at);
+            }
+            None => self.fault(Fault::NoToolSelected, at, out),
+        }
+    }
+
     /// A code that stands for itself, before or after the motion.
     fn function(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(other) = code.row.read_as.as_deref()
@@ -379,9 +395,7 @@ impl Lower {
         }
         let op = match code.meaning {
             Meaning::ChangeTool => {
-                if self.state.tool == Know::Unsaid {
-                    self.fault(Fault::NoToolSelected, code.span, out);
-                }
+                self.tool_waits(code.span, out);
                 self.tool_changed();
                 Op::ChangeTool
             }

@@ -127,6 +127,18 @@ pub const NOTHING: &str = "nothing";
 /// Value of these options: the machine's zero.
 pub const AT_ZERO: &str = "zero";
 
+/// Option of a dictionary: number of the tool that waits at the start of the program for the first M06; 0 is none.
+pub const FIRST_TOOL: &str = "first_tool";
+
+/// Option of a dictionary: what a block without a way does to a compensated contour.
+pub const BLOCK_WITHOUT_WAY: &str = "block_without_way";
+
+/// Value of [`BLOCK_WITHOUT_WAY`]: the control looks over it, to the next move in the plane.
+pub const LOOKED_OVER: &str = "looked-over";
+
+/// The name of [`FIRST_TOOL`] in messages.
+pub const WAITING_TOOL: &str = "tool that waits at the start";
+
 /// Option of a dictionary: clearance of its peck cycle.
 pub const PECK_CLEARANCE: &str = "peck_clearance";
 

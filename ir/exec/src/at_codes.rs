@@ -340,7 +340,7 @@ mod tests {
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, Plane, Turn};
     use ncc_ir::expr::num::{Num, Unit};
-    use ncc_ir::program::{Arc, Centre, Point};
+    use ncc_ir::program::{Arc, Centre, Point, Turns};
 
     /// What F counts on an arc is a question under a feed by time alone, stated before or with the arc.
     #[test]
@@ -352,7 +352,7 @@ mod tests {
                 turn: Turn::Clockwise,
                 to: Point::default(),
                 centre: Centre::Radius(Expr::Num(Num::int(5, Unit::Mm))),
-                turns: 0,
+                turns: Turns::NONE,
                 said: true,
             })))
         };

@@ -46,6 +46,8 @@ pub struct World {
     /// Cutter radius compensation of the active side may be switched on again: the next move in the plane goes onto the
     /// contour anew.
     pub compensation_again: bool,
+    /// Under cutter radius compensation a block that goes nowhere is one without a move in the plane, and no more.
+    pub looks_over_blocks: bool,
     /// Which arcs the control accepts.
     pub arcs: ArcRule,
     /// What the control refuses while cutter radius compensation is on.
@@ -194,6 +196,7 @@ impl World {
             zeroed_by_tool: false,
             feed_ends_with_mode: false,
             compensation_again: false,
+            looks_over_blocks: false,
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),
             behaviours: Behaviours::default(),

@@ -194,6 +194,7 @@ pub const PASSES: &[Pass] = &[
     // Behind the lengths, which say what is in force.
     tools::tool_axis::PASS,
     arcs::cutter_radius::PASS,
+    arcs::still_blocks::PASS,
     legalise::refuse::PASS,
     threads::in_step::AS_CYCLES,
     threads::tapped_holes::PASS,

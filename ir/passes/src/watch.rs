@@ -1,5 +1,5 @@
 //! Who looks on while a program is rewritten: each pass says its name when it has run, and shows the statements as they
-//! are then. Tests hold the order by it, and `--print-after` prints it. Trials that are thrown away are seen as well.
+//! are then. Tests hold the order by it, and `--print-after` prints it. Trials of a pass that are thrown away are seen as well.
 
 use std::cell::{Cell, RefCell};
 
@@ -23,6 +23,14 @@ pub fn watch(look: Look) -> Watch {
     LOOK.with_borrow_mut(|own| *own = Some(look));
     SEEN.set(true);
     Watch(())
+}
+
+/// Does something that nobody looks on at: a translation that is thrown away whole.
+pub fn unwatched<T>(work: impl FnOnce() -> T) -> T {
+    let seen = SEEN.replace(false);
+    let done = work();
+    SEEN.set(seen);
+    done
 }
 
 impl Drop for Watch {

@@ -4,7 +4,9 @@
 
 use super::{Coord, Point};
 use crate::canon::{Fact, Plane, Turn};
-use crate::expr::Expr;
+use crate::diag::Fault;
+use crate::expr::num::{Num, Unit};
+use crate::expr::{Binary, Expr, Node};
 
 /// An arc or helix.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,9 +21,61 @@ pub struct Arc {
     /// Its centre.
     pub centre: Centre,
     /// Full turns made beyond the first, partial one.
-    pub turns: u32,
+    pub turns: Turns,
     /// Whether the block itself says the motion code.
     pub said: bool,
+}
+
+/// Full turns of an arc beyond the first, partial one: a number from 0, or what is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turns(pub Expr);
+
+impl From<u32> for Turns {
+    fn from(number: u32) -> Turns {
+        Turns(Expr::int(number.into()))
+    }
+}
+
+impl Turns {
+    /// No turn but the first.
+    pub const NONE: Turns = Turns(Expr::Num(Num { mantissa: 0, scale: 0, point: false, unit: Unit::One }));
+
+    /// Of an arc with so many in all, as computed.
+    pub fn of_all(all: Expr) -> Turns {
+        Turns(Expr::Node(Box::new(Node::Binary(Binary::Subtract, all, Expr::int(1)))))
+    }
+
+    /// The number, unless it is computed or none.
+    pub fn number(&self) -> Option<u32> {
+        self.0.literal().and_then(Num::whole).and_then(|number| u32::try_from(number).ok())
+    }
+
+    /// The number, for those who need it.
+    ///
+    /// # Errors
+    /// Only the run of the program knows it; it is below 0, or not whole.
+    pub fn count(&self) -> Result<u32, Fault> {
+        self.number().ok_or_else(|| match &self.0 {
+            Expr::Num(_) => Fault::OutOfRange { word: "number of turns".into() },
+            Expr::Node(_) => Fault::Computes { what: "an arc with a computed number of turns".into() },
+        })
+    }
+
+    /// Whether the arc surely ends within its first turn.
+    pub fn is_none(&self) -> bool {
+        self.number() == Some(0)
+    }
+
+    /// How many there are in all.
+    pub fn all(&self) -> Expr {
+        match &self.0 {
+            Expr::Node(node) => match &**node {
+                Node::Binary(Binary::Subtract, all, one) if *one == Expr::int(1) => all.clone(),
+                _ => Expr::Node(Box::new(Node::Binary(Binary::Add, self.0.clone(), Expr::int(1)))),
+            },
+            Expr::Num(_) => Expr::int(i64::from(self.number().unwrap_or(0)) + 1),
+        }
+    }
 }
 
 /// How an arc's centre is given.

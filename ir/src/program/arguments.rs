@@ -11,8 +11,8 @@ use crate::expr::{Expr, Target};
 use crate::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Shift};
 use crate::program::kinds::{modes, variables};
 use crate::program::{
-    ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Output, Piece, Pitch, Point, PoleWords,
-    Shape, Slot, ToolLength,
+    Arc, ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Output, Piece, Pitch, Point,
+    PoleWords, Shape, Slot, ToolLength,
 };
 
 /// An argument, to be read or replaced.
@@ -96,13 +96,7 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
             point(&mut m.to, seen)?;
             pitch(&mut m.pitch, seen)
         }
-        Op::ArcFeed(arc) => {
-            point(&mut arc.to, seen)?;
-            match &mut arc.centre {
-                Centre::Point { words, .. } => optional(words, Unit::Entry, seen),
-                Centre::Radius(radius) => seen(Argument::Value(radius), Unit::Entry),
-            }
-        }
+        Op::ArcFeed(arc) => arc_feed(arc, seen),
         Op::ArcForm(arc) => arc_form(arc, seen),
         Op::SetPole(pole) => match &mut pole.at {
             PoleWords::Along(words) => optional(&mut **words, Unit::Entry, seen),
@@ -235,6 +229,15 @@ fn pitch<E>(of: &mut Pitch, seen: &mut Seen<'_, E>) -> Result<(), E> {
         Pitch::Stated(length) => seen(Argument::Value(length), Unit::Entry),
         Pitch::Feed => Ok(()),
     }
+}
+
+fn arc_feed<E>(arc: &mut Arc, seen: &mut Seen<'_, E>) -> Result<(), E> {
+    point(&mut arc.to, seen)?;
+    match &mut arc.centre {
+        Centre::Point { words, .. } => optional(words, Unit::Entry, seen)?,
+        Centre::Radius(radius) => seen(Argument::Value(radius), Unit::Entry)?,
+    }
+    seen(Argument::Value(&mut arc.turns.0), Unit::One)
 }
 
 fn arc_form<E>(arc: &mut ArcForm, seen: &mut Seen<'_, E>) -> Result<(), E> {

@@ -24,7 +24,7 @@ mod moves;
 mod op_name;
 mod polar;
 
-pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
+pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape, Turns};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
 pub use lines::Lines;
 pub use machine::{

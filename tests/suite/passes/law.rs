@@ -173,7 +173,7 @@ fn arc() -> impl Strategy<Value = Op> {
                     words: [Some(mm(radius).into()), None, None],
                     from: CentreFrom::Start,
                 },
-                turns,
+                turns: turns.into(),
                 said: true,
             }))
         },

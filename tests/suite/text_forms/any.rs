@@ -539,7 +539,7 @@ fn simple() -> BoxedStrategy<Op> {
                 turn,
                 to,
                 centre,
-                turns,
+                turns: turns.into(),
                 said
             }))
         ),

@@ -124,14 +124,14 @@ STRAIGHT_FEED(3.0, _, 1.0)
 
 #[test]
 fn arcs_by_start_by_radius_and_in_each_plane() {
-    let arc = |plane, turn, words: &[(Axis, Num)], centre, turns| {
+    let arc = |plane, turn, words: &[(Axis, Num)], centre, turns: u32| {
         let said = true;
         stmt(Op::ArcFeed(Box::new(Arc {
             plane: Fact::Known(plane),
             turn,
             to: to(words),
             centre,
-            turns,
+            turns: turns.into(),
             said,
         })))
     };
@@ -316,7 +316,7 @@ fn statement() -> impl Strategy<Value = Stmt> {
         4 => point().prop_map(|to| Op::StraightFeed(Move { to, said: false })),
         2 => point().prop_map(|to| Op::StraightTraverse(Move { to, said: true })),
         2 => (planes(), turn, point(), centre, 0u32..3).prop_map(|(plane, turn, to, centre, turns)| {
-            Op::ArcFeed(Box::new(Arc { plane: Fact::Known(plane), turn, to, centre, turns, said: true }))
+            Op::ArcFeed(Box::new(Arc { plane: Fact::Known(plane), turn, to, centre, turns: turns.into(), said: true }))
         }),
         1 => planes().prop_map(Op::SelectPlane),
         1 => number(Unit::Mm).prop_map(|n| Op::SetFeedRate(n.into())),

@@ -36,7 +36,7 @@ impl Printer<'_> {
                 Fault::ArcRadiusTooSmall
             }
         })?;
-        let turns = i64::from(arc.turns) + 1;
+        let turns = i64::from(arc.turns.number().unwrap_or(0)) + 1;
         let turns = if arc.turn == Turn::Clockwise { -turns } else { turns };
         self.rate_of_arc([start, end, centre], turns, to[normal as usize] - here[normal as usize])?;
         let shown = |axis: Axis, nanos| self.shown(axis as usize, nanos);

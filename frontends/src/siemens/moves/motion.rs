@@ -12,7 +12,7 @@ use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::ONE;
-use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape};
+use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape, Turns};
 use ncc_ir::source::Span;
 
 use crate::Batch;
@@ -344,7 +344,7 @@ impl Lower {
         if let Some(polar) = polar {
             // The pole is the centre: words of another one are left, and blamed as ones that nothing uses.
             let Some(centre) = self.about_pole(&polar, block, out) else { return };
-            let arc = Arc { plane, turn, to, centre, turns: 0, said };
+            let arc = Arc { plane, turn, to, centre, turns: Turns::NONE, said };
             return self.push_to(Some(polar), block, Op::ArcFeed(Box::new(arc)), out);
         }
         let mut centre: [CentreWord; 3] = [None, None, None];
@@ -395,7 +395,7 @@ impl Lower {
                     return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
                 }
                 let centre = Centre::Radius(radius);
-                Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said }))
+                Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns: Turns::from(turns), said }))
             }
             (_, None, Some(given)) => {
                 let Some(num) = self.number(given, Quantity::Angle, src, out) else {
@@ -441,6 +441,7 @@ impl Lower {
             }
         };
         let words = centre.map(|word| word.map(|(value, _)| value));
+        let turns = Turns::from(turns);
         Op::ArcFeed(Box::new(Arc { plane, turn, to, centre: Centre::Point { words, from }, turns, said }))
     }
 }

@@ -17,6 +17,7 @@ use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::Batch;
+use crate::begins::Jumps;
 use crate::common::Source;
 use crate::common::words::{Value, Word, tenths};
 use crate::word::lower::Lower;
@@ -50,6 +51,8 @@ pub(in crate::word) struct Reach {
     pub(in crate::word) labels: Vec<(u32, u32)>,
     /// Jumps; of one without a number it is computed.
     pub(in crate::word) jumps: Vec<(Option<u32>, u32, Span)>,
+    /// What the program has not said where it jumps.
+    pub(in crate::word) ways: Jumps,
     /// Programs that are called behind moves, and those that have such calls; the main one has no name.
     called: Vec<(Text, Text, Span)>,
 }
@@ -268,6 +271,7 @@ impl Lower {
     /// The end of a program: jumps lead from where the same calls are in force.
     pub(in crate::word) fn calls_over(&mut self, out: &mut Batch) {
         self.computes.at_moves = None;
+        self.computes.reach.ways = Jumps::default();
         let labels = std::mem::take(&mut self.computes.reach.labels);
         let mut by_number: HashMap<u32, BTreeSet<u32>> = HashMap::new();
         for (number, calls) in &labels {

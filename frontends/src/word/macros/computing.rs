@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Dialect, Operator, Quantity, RemainderRule};
+use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Operator, Quantity, RemainderRule};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
@@ -18,7 +18,9 @@ use ncc_ir::source::Span;
 
 use super::formula::{Statement, To};
 use super::jump_of::JumpOf;
+use super::named_blocks::{has_jumps, named_blocks};
 use crate::Batch;
+use crate::begins::Unsaid;
 use crate::common::Source;
 use crate::common::number::{spell, unit_of};
 use crate::common::saved::Saved;
@@ -78,49 +80,8 @@ struct Open {
     label: Option<u32>,
     /// The calls at moves that it began in.
     calls: u32,
-}
-
-/// Whether a text has a word that jumps, or the two letters of it that are enough behind a condition.
-fn has_jumps(text: &[u8]) -> bool {
-    let has = |word: &[u8]| text.windows(word.len()).any(|part| part.eq_ignore_ascii_case(word));
-    has(b"GOTO") || has(b"]GO") || has(b"] GO")
-}
-
-/// Adds the numbers of blocks that a text may name to those known: what stands behind a jump, and in words that name blocks
-/// beside some code. `None` if one is computed.
-fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32>) -> Option<BTreeSet<u32>> {
-    let letters: BTreeSet<u8> = dialect.code.iter().flat_map(|row| row.blocks.bytes()).collect();
-    let number = dialect.block.number.map_or(0, |c| c as u8);
-    let blanks = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_whitespace()).count();
-    for line in text.split(|b| *b == b'\n') {
-        let calls = line.iter().any(|b| b.eq_ignore_ascii_case(&b'M'));
-        for at in 0..line.len() {
-            let rest = &line[at..];
-            let jump = rest.get(..2).is_some_and(|word| word.eq_ignore_ascii_case(b"GO"));
-            let long = rest.get(2..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TO"));
-            let word = letters.contains(&rest[0].to_ascii_uppercase());
-            let behind = match (jump, long) {
-                (true, true) => &rest[4..],
-                (true, false) => &rest[2..],
-                (false, _) if word => &rest[1..],
-                (false, _) => continue,
-            };
-            let behind = &behind[blanks(behind)..];
-            let named = behind.first().filter(|b| jump && b.eq_ignore_ascii_case(&number));
-            let behind = if named.is_some() { &behind[1 + blanks(&behind[1..])..] } else { behind };
-            let digits = behind.iter().take_while(|b| b.is_ascii_digit()).count();
-            match behind.first() {
-                Some(b'#' | b'[') if jump || calls => return None,
-                Some(_) if digits > 0 => {
-                    let number =
-                        std::str::from_utf8(&behind[..digits]).ok().and_then(|text| text.parse().ok());
-                    all.extend::<Option<u32>>(number);
-                }
-                Some(_) | None => {}
-            }
-        }
-    }
-    Some(all)
+    /// What was not said before it.
+    unsaid: Unsaid,
 }
 
 /// The name by which jumps know the block of a number.
@@ -219,7 +180,7 @@ impl Lower {
             self.computes.passed.insert(number);
             return;
         }
-        self.lose(block.span, out);
+        self.join_ways(self.computes.reach.ways.unsaid(number), block.span, out);
         let calls = self.calls_in_force();
         self.computes.reach.labels.push((number, calls));
         let skip = self.now.skip.take();
@@ -309,19 +270,21 @@ impl Lower {
         }
         let calls = self.calls_in_force();
         self.computes.reach.jumps.push((to, calls, span));
+        self.computes.reach.ways.jump(to, self.state.unsaid());
         self.leave_motion(None, out);
         true
     }
 
     fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
         let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
-        let calls = self.calls_in_force();
-        self.computes.loops.push(Open { number, condition, at: None, block, skip, label, calls });
+        let (calls, unsaid) = (self.calls_in_force(), self.state.unsaid());
+        self.computes.loops.push(Open { number, condition, at: None, block, skip, label, calls, unsaid });
     }
 
     fn end_loop(&mut self, number: u32, span: Span, out: &mut Batch) {
         let found = self.computes.loops.pop();
-        let Some(Open { at: Some(at), number: own, condition, block, skip, label, calls }) = found else {
+        let Some(Open { at: Some(at), number: own, condition, block, skip, label, calls, unsaid }) = found
+        else {
             let code = format!("END{number}").into();
             return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);
         };
@@ -353,7 +316,7 @@ impl Lower {
         self.push(block, Op::Control(Box::new(control)), out);
         self.now.number = own;
         self.separate(out);
-        self.lose(span, out);
+        self.join_ways(unsaid, span, out);
     }
 
     /// The end of a program: a loop that is still open has none.

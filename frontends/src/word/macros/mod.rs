@@ -14,4 +14,5 @@ pub(super) mod control_set;
 pub(super) mod entry_of;
 pub(super) mod formula;
 pub(super) mod jump_of;
+pub(super) mod named_blocks;
 pub(super) mod output;

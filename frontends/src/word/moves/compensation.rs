@@ -46,6 +46,8 @@ impl Lower {
         let letter = self.roles.radius_entry;
         let Some((code, side, stated)) = start else { return self.radius_alone(codes, words, src, out) };
         self.set_mode(code.meaning, out);
+        // The contour lies in the plane that is active here.
+        self.plane(code.span, out);
         if let Some(word) = words.get(letter) {
             self.names_radius(&word, src, out);
         }

@@ -6,7 +6,7 @@ use ncc_dialects::{ARC_WITHOUT_CENTRE, Meaning, Quantity, STRAIGHT_LINE};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Function, Node, Unary};
-use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Turns};
 use ncc_ir::source::Span;
 
 use crate::Batch;
@@ -377,15 +377,19 @@ impl Lower {
     }
 
     /// Turns of an arc beyond the first, partial one.
-    fn turns(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> u32 {
-        let Some(word) = words.take(self.roles.turns) else { return 0 };
+    fn turns(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> Turns {
+        let Some(word) = words.take(self.roles.turns) else { return Turns::NONE };
+        if let Value::Computed(_) = word.value {
+            let all = self.amount(&word, Quantity::Integer, words, src, out);
+            return all.map_or(Turns::NONE, Turns::of_all);
+        }
         match self.whole(&word, src, out) {
-            Some(turns @ 1..=MOST_TURNS) => turns - 1,
+            Some(turns @ 1..=MOST_TURNS) => Turns::from(turns - 1),
             Some(_) => {
                 self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
-                0
+                Turns::NONE
             }
-            None => 0,
+            None => Turns::NONE,
         }
     }
 

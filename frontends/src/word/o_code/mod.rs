@@ -12,3 +12,4 @@ pub(super) mod o_subs;
 pub(super) mod o_words;
 pub(super) mod parameters;
 pub(super) mod shown;
+mod ways;

@@ -246,7 +246,7 @@ impl Lower {
         self.found_variables(out);
         self.leave_motion(None, out);
         self.push(span, Op::Call(Box::new(Call { name, times: 1, arguments, shared: false })), out);
-        self.lose_within(self.state.centre_before, span, out);
+        self.lose_all_but_centres(span, out);
     }
 
     /// Whether a structure stands within so many others that no further one is looked at.

@@ -12,11 +12,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::fails;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
-use ncc_ir::program::{CentreFrom, Control, Op, Stmt, Text};
+use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::o_subs::Outer;
 use super::parameters::{Given, Index, Named, asks, constant, numbers};
+use super::ways::Ways;
 use crate::Batch;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
@@ -73,8 +74,7 @@ pub(in crate::word) struct Open {
     block: Span,
     number: Option<u32>,
     given: Given,
-    /// From where the program has said before that centres are measured.
-    centre: Option<CentreFrom>,
+    pub(super) ways: Ways,
     /// Whether a `continue` stands in it.
     turned: bool,
 }
@@ -444,8 +444,7 @@ impl Lower {
                 }
                 open.at = None;
                 self.o.given = open.given.clone();
-                self.lose_within(open.centre, span, out);
-                self.o.open.push(open);
+                self.next_body(open, span, out);
             }
             FlowWord::EndIf | FlowWord::EndWhile | FlowWord::EndRepeat => {
                 let fits = self.o.open.last().is_some_and(|open| {
@@ -461,7 +460,7 @@ impl Lower {
                     return refuse(self, "end of nothing that is open", out);
                 }
                 let Some((mut open, body)) = self.close_body(out) else { return };
-                let control = match std::mem::replace(&mut open.kind, Kind::Do) {
+                let control = match open.close() {
                     Kind::While(condition) => Control::While { condition, body },
                     Kind::Repeat(times) => Control::Repeat { times, body },
                     Kind::If { before, now } => match decision_of(before, now, body, open.block) {
@@ -500,25 +499,10 @@ impl Lower {
             self.o.repeats.get_or_insert(block);
             self.check_continue(block, out);
         }
-        let (number, given) = (self.now.number, self.o.given.clone());
-        let centre = self.state.centre_before;
-        self.o.open.push(Open {
-            label: label.into(),
-            kind,
-            at: None,
-            block,
-            number,
-            given,
-            centre,
-            turned: false,
-        });
-        self.lose_within(centre, block, out);
-    }
-
-    /// Facts are lost, and what the program has said before stays said.
-    pub(in crate::word) fn lose_within(&mut self, centre: Option<CentreFrom>, at: Span, out: &mut Batch) {
-        self.lose(at, out);
-        self.state.centre_before = centre;
+        let (number, given, ways) = (self.now.number, self.o.given.clone(), self.ways());
+        let (label, at, turned) = (label.into(), None, false);
+        self.o.open.push(Open { label, kind, at, block, number, given, ways, turned });
+        self.body_begins(ways, block, out);
     }
 
     /// Takes what was opened last, with its body.
@@ -535,14 +519,15 @@ impl Lower {
     }
 
     /// The statement of a structure stands where its head does.
-    fn closed(&mut self, open: Open, control: Control, out: &mut Batch) {
+    fn closed(&mut self, mut open: Open, control: Control, out: &mut Batch) {
+        self.body_ends(&mut open.ways);
         let at = open.at.unwrap_or(usize::MAX);
         self.now.mark = self.now.mark.min(at).min(self.target(out).len());
         self.now.number = open.number;
         self.o.given = open.given;
         self.push(open.block, Op::Control(Box::new(control)), out);
         self.separate(out);
-        self.lose_within(open.centre, open.block, out);
+        self.ways_join(open.ways, open.block, out);
     }
 
     /// `break` and `continue`.
@@ -582,6 +567,7 @@ impl Lower {
             }
         }
         self.leave_motion(None, out);
+        self.leaves_loop();
         let op = if word == FlowWord::Break { Op::Leave } else { Op::NextTurn };
         self.push(span, op, out);
     }
@@ -623,17 +609,8 @@ impl Lower {
     pub(in crate::word) fn open_sub(&mut self, label: &str, outer: Outer, block: Span) {
         let given = std::mem::take(&mut self.o.given);
         let kind = Kind::Sub(Box::new(outer));
-        let (number, centre) = (None, None);
-        self.o.open.push(Open {
-            label: label.into(),
-            kind,
-            at: Some(0),
-            block,
-            number,
-            given,
-            centre,
-            turned: false,
-        });
+        let (label, at, number, ways, turned) = (label.into(), Some(0), None, Ways::default(), false);
+        self.o.open.push(Open { label, kind, at, block, number, given, ways, turned });
     }
 
     /// The subprogram that is open, if it has this label and nothing in it is.

@@ -73,6 +73,16 @@ impl Block {
             && self.title.is_none()
     }
 
+    /// Whether it says nothing to the control but comments and names.
+    pub(in crate::word) fn is_comment(&self) -> bool {
+        self.words.is_empty()
+            && self.skip == 0
+            && self.faults.is_empty()
+            && self.statement.is_none()
+            && self.settings.is_empty()
+            && self.decision.is_none()
+    }
+
     /// The block where the switch is stated: on, nothing is left of what can be skipped but comments; off, all of it.
     pub(in crate::word) fn with_switch(&mut self, on: bool) {
         self.skip = 0;

@@ -227,7 +227,7 @@ impl Reader {
     /// A block after the program's end: it is never reached.
     pub(in crate::word) fn after_end(&mut self, src: Source, out: &mut Batch) {
         // A comment may stand there.
-        if self.block.words.is_empty() && self.block.faults.is_empty() && self.block.skip == 0 {
+        if self.block.is_comment() {
             return self.lower.block(&self.block, src, out);
         }
         if self.ends_the_file(src) {

@@ -113,7 +113,8 @@ fn arc(a: &Arc) -> String {
         }
     };
     let said = if a.said { "!" } else { "" };
-    let turns = if a.turns > 0 { format!(" turns {}", a.turns) } else { String::new() };
+    let turns =
+        if !a.turns.is_none() { format!(" turns {}", a.turns.number().unwrap_or(0)) } else { String::new() };
     format!("ARC{said} {} {:?}{} {centre}{turns}", fact(&a.plane), a.turn, point(&a.to))
 }
 

@@ -122,7 +122,8 @@ impl Exec {
             }
         };
         let centre = self.shaped(centre, span)?;
-        self.go_round(Way { plane, turn: arc.turn, turns: arc.turns, before, centre }, span, out)
+        let turns = arc.turns.count().map_err(|fault| Diagnostic::new(fault, span))?;
+        self.go_round(Way { plane, turn: arc.turn, turns, before, centre }, span, out)
     }
 
     pub(crate) fn arc_form(

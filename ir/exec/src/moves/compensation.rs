@@ -317,7 +317,9 @@ impl Exec {
         }
         let words = matches!(stmt.op, Op::Polar(_)) || to(&stmt.op).is_some_and(|to| !to.is_empty());
         if !moved && before == self.position && words && !self.contour.lines {
-            self.contour.still = 2;
+            if !self.world.looks_over_blocks {
+                self.contour.still = 2;
+            }
             self.contour.nowhere = Some(span);
         }
         Ok(())

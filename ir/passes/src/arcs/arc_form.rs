@@ -16,7 +16,7 @@ use ncc_ir::geometry::round::{ArcRule, Around, Round, round};
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::kinds::{conduct, miscellaneous};
-use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt};
+use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt, Turns};
 use ncc_ir::track::Tracker;
 
 /// This pass.
@@ -270,7 +270,7 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
         turn,
         to,
         centre: Centre::Point { words, from: CentreFrom::Start },
-        turns: arc.turns,
+        turns: Turns::from(arc.turns),
         said: arc.said,
     };
     Ok((Op::ArcFeed(Box::new(arc)), Some(exactly)))

@@ -97,7 +97,7 @@ pub(crate) fn too_fine(stmts: &mut [Stmt], walk: &mut Walk, target: &Target, dia
 /// By radius, where that says the same.
 pub fn by_radius(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_arc(program, entry, diags, |arc, walk| {
-        if matches!(arc.centre, Centre::Radius(_)) || arc.turns > 0 {
+        if matches!(arc.centre, Centre::Radius(_)) || !arc.turns.is_none() {
             return Ok(());
         }
         let Some((first, second, start, centre)) = round(arc, &walk.at) else {

@@ -332,7 +332,7 @@ impl Expansion<'_> {
                     return cannot("an arc onto the contour", span);
                 }
                 let centre = walk.at.centre(arc).ok_or(refuse(Fault::ArcWithoutCentre))?;
-                Leg::Arc { centre: centre.map(mm), ccw: arc.turn == Turn::Counterclockwise, turns: arc.turns }
+                super::expand_turns::leg(arc, centre.map(mm)).map_err(refuse)?
             }
             _ => Leg::Line { rapid: motion == Motion::Traverse },
         };
@@ -649,7 +649,7 @@ impl Written<'_> {
             turn: if ccw { Turn::Counterclockwise } else { Turn::Clockwise },
             to,
             centre: Centre::Point { words, from: CentreFrom::Zero },
-            turns,
+            turns: turns.into(),
             said: true,
         }))
     }

@@ -16,7 +16,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry::corner::{self, CornerFault, Inserted, Leg};
 use ncc_ir::program::cycle::absolute;
-use ncc_ir::program::{Arc, Centre, CentreFrom, Move, Op, Point, Program, Stmt};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Move, Op, Point, Program, Stmt, Turns};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -355,7 +355,7 @@ impl Corners<'_> {
                 turn,
                 to: end,
                 centre: self.centre(centre, inserted.from, plane, walk),
-                turns: 0,
+                turns: Turns::NONE,
                 said: true,
             })),
         };
@@ -432,7 +432,7 @@ fn leg(stmt: &mut Stmt, walk: &Walk, forms: bool) -> Known {
     }
     let (plane, bend, to) = match &stmt.op {
         Op::StraightFeed(m) => (walk.at.modes.plane?, None, &m.to),
-        Op::ArcFeed(arc) if arc.turns == 0 => {
+        Op::ArcFeed(arc) if arc.turns.is_none() => {
             let centre = walk.at.centre(arc)?;
             (walk.at.plane(arc.plane)?, Some((arc.turn, centre)), &arc.to)
         }

@@ -7,12 +7,13 @@ use crate::support::needs::ARC;
 use crate::support::walk::Walk;
 use crate::support::write::{rebuild, rounded, unit_of};
 use crate::{Target, each_body};
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry;
+use ncc_ir::geometry::beside::{Leg, Spot};
 use ncc_ir::program::cycle::absolute;
-use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt, Turns};
 use ncc_ir::track::Tracker;
 
 /// This pass.
@@ -41,7 +42,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
     rebuild(body, |stmt, made| {
         walk.enter(stmt.skip);
         let arcs = match &stmt.op {
-            Op::ArcFeed(arc) if arc.turns > 0 => Some(split(arc, walk, target)),
+            Op::ArcFeed(arc) if !arc.turns.is_none() => Some(split(arc, walk, target)),
             _ => None,
         };
         walk.step(&stmt);
@@ -65,8 +66,17 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
     });
 }
 
+/// The leg of a path about a centre.
+///
+/// # Errors
+/// As of [`Turns::count`].
+pub(crate) fn leg(arc: &Arc, centre: Spot) -> Result<Leg, Fault> {
+    Ok(Leg::Arc { centre, ccw: arc.turn == Turn::Counterclockwise, turns: arc.turns.count()? })
+}
+
 fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
-    if arc.turns > MOST_TURNS {
+    let turns = arc.turns.count()?;
+    if turns > MOST_TURNS {
         return Err(Fault::OutOfRange { word: "number of turns".into() });
     }
     let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
@@ -80,7 +90,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     crate::arcs::convert_arcs::centre_of(&mut by_centre, walk, target)?;
     let arc = &by_centre;
     let mut turn = arc.clone();
-    turn.turns = 0;
+    turn.turns = Turns::NONE;
     turn.to = Point::default();
     // A whole circle leaves the axes where they are, so that every turn has the same centre words.
     if let Centre::Point { words, from: CentreFrom::Zero } = &mut turn.centre {
@@ -93,14 +103,14 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
         }
     }
     let mut rest = arc.clone();
-    rest.turns = 0;
-    let mut arcs = vec![turn; arc.turns as usize];
+    rest.turns = Turns::NONE;
+    let mut arcs = vec![turn; turns as usize];
     if arc.to.get(normal).is_some() {
         if walk.waiting {
             // The length is taken up on the way, by so much more or less of it.
             return Err(Fault::CannotSay { what: "a helix of several turns that takes a length up".into() });
         }
-        let levels = levels(arc, walk, [first, second, normal])?;
+        let levels = levels((arc, turns), walk, [first, second, normal])?;
         let unit = unit_of(normal, walk.unit());
         for (arc, level) in arcs.iter_mut().zip(levels) {
             arc.to.set(normal, absolute(rounded(level, target.decimals_in(unit), unit)));
@@ -129,7 +139,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
 }
 
 /// Levels of the third axis after each whole turn.
-fn levels(arc: &Arc, walk: &Walk, axes: [Axis; 3]) -> Result<Vec<Nanos>, Fault> {
+fn levels((arc, turns): (&Arc, u32), walk: &Walk, axes: [Axis; 3]) -> Result<Vec<Nanos>, Fault> {
     let [first, second, normal] = axes;
     let to = walk.at.target(&arc.to);
     let known = |axis: Axis, at: &[Option<Nanos>; 6]| {
@@ -140,7 +150,7 @@ fn levels(arc: &Arc, walk: &Walk, axes: [Axis; 3]) -> Result<Vec<Nanos>, Fault> 
     let end = [known(first, &to)?, known(second, &to)?];
     let (low, high) = (known(normal, here)?, known(normal, &to)?);
     let centre = walk.at.centre(arc).ok_or(Fault::PositionUnknown { axis: first.letter() as char })?;
-    let total = geometry::sweep_degrees(start, end, centre, arc.turn, arc.turns).abs();
+    let total = geometry::sweep_degrees(start, end, centre, arc.turn, turns).abs();
     let way = (high - low) as f64;
-    Ok((1..=arc.turns).map(|k| low + (way * 360.0 * f64::from(k) / total).round() as Nanos).collect())
+    Ok((1..=turns).map(|k| low + (way * 360.0 * f64::from(k) / total).round() as Nanos).collect())
 }

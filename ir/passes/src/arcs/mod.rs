@@ -18,3 +18,4 @@ pub(crate) mod expand_corners;
 pub mod expand_turns;
 pub(crate) mod polar_places;
 pub mod polar_words;
+pub(crate) mod still_blocks;

@@ -24,6 +24,9 @@ use ncc_ir::program::valid;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
+/// The refusal of a block that the block-skip switch takes out and that decides what is executed.
+pub const SWITCHED: &str = "a block that can be skipped and decides what is executed, written out";
+
 /// Executes the program; only a main procedure of straight blocks is left.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     if let Err(fault) = program.procedures.iter().try_for_each(|p| no_switch(&p.body)) {
@@ -227,8 +230,7 @@ fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnosti
 fn no_switch(body: &[Stmt]) -> Result<(), Diagnostic> {
     for stmt in body {
         if stmt.skip.is_some() && matches!(stmt.op, flow!() | variables!()) {
-            let what = "a block that can be skipped and decides what is executed, written out".into();
-            return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            return Err(Diagnostic::new(Fault::CannotSay { what: SWITCHED.into() }, stmt.span));
         }
         let Op::Control(control) = &stmt.op else { continue };
         for body in control.bodies() {

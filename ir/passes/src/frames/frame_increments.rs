@@ -6,6 +6,8 @@
 //!
 //! Not here: how the word is written (the back-ends), and what a control does with it ([`ncc_exec`]).
 
+mod pending;
+
 use std::collections::HashMap;
 
 use crate::pass::{Moment, Pass, Step};
@@ -15,13 +17,13 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
 use ncc_ir::computed::code_of::code_of;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::arguments::{words_of, words_of_mut};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{
     Control, Coord, Data, FrameSlot, FrameStep, Lines, Op, Point, Program, Shape, Slot, Stmt, Text,
 };
 use ncc_ir::track::Tracker;
+use pending::Pending;
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -65,59 +67,6 @@ pub struct FrameIncrementsState {
     pending: Pending,
     /// Whether the program, which is kept whole, is done.
     over: bool,
-}
-
-/// Axes without a word since a change, and how words may be measured.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Pending {
-    /// Where the program had put each before it, if that is known.
-    axes: [Option<Option<Nanos>>; AXES],
-    /// Whether words without a distance of their own may be absolute, and whether they may be incremental.
-    measured: [bool; 2],
-    /// Axes of the planes in which rotations may be in force.
-    rotated: [bool; AXES],
-}
-
-impl Pending {
-    fn any(&self) -> bool {
-        self.axes != [None; AXES]
-    }
-
-    /// Which axes, and nothing of where they were.
-    fn bits(&self) -> Pending {
-        Pending { axes: self.axes.map(|axis| axis.map(|_| None)), ..self.clone() }
-    }
-
-    /// Whatever may be.
-    const ANYTHING: Pending = Pending { axes: [Some(None); AXES], measured: [true; 2], rotated: LINEAR };
-
-    /// Notes how words without a distance of their own are measured; `None` is not known.
-    fn measure(&mut self, distance: Option<Distance>, maybe: bool) {
-        let now = match distance {
-            Some(Distance::Absolute) => [true, false],
-            Some(Distance::Incremental) => [false, true],
-            None => [true; 2],
-        };
-        let before = self.measured;
-        self.measured = std::array::from_fn(|way| now[way] || maybe && before[way]);
-    }
-
-    /// Whether a word is incremental on every path. Where that is not the same on all, it stays as it is, and execution
-    /// judges it.
-    fn is_relative(&self, word: &Coord) -> bool {
-        match word.distance.known() {
-            Some(distance) => distance == Distance::Incremental,
-            None => self.measured == [false, true],
-        }
-    }
-
-    /// Whether a word may be incremental.
-    fn may_be_relative(&self, word: &Coord) -> bool {
-        match word.distance.known() {
-            Some(distance) => distance == Distance::Incremental,
-            None => self.measured[1],
-        }
-    }
 }
 
 impl FrameIncrementsState {
@@ -178,7 +127,7 @@ impl FrameIncrementsState {
                     return true;
                 }
             }
-            note(&mut pending, op, skip.is_some());
+            note(&mut pending, op, None, skip.is_some());
         }
         false
     }
@@ -204,7 +153,7 @@ impl FrameIncrementsState {
             return self.over(&mut own, start, &mut Vec::new());
         }
         for stmt in stmts {
-            note(&mut self.pending, &stmt.op, stmt.skip.is_some());
+            note(&mut self.pending, &stmt.op, None, stmt.skip.is_some());
         }
     }
 
@@ -340,7 +289,7 @@ fn pass(
             Op::Return => jumps.grown |= unite(&mut jumps.returns, own),
             Op::Control(control) if is_code(control) => own.measured = [true; 2],
             Op::Control(control) => within_turns(control, own, ends, calls, jumps),
-            op => note(own, op, stmt.skip.is_some()),
+            op => note(own, op, None, stmt.skip.is_some()),
         }
     }
 }
@@ -385,8 +334,8 @@ fn after_call(own: &mut Pending, called: Option<&[Pending; 2]>, skipped: bool) {
     }
 }
 
-/// Notes what a statement changes, and what it moves.
-fn note(pending: &mut Pending, op: &Op, skipped: bool) {
+/// Notes what a statement changes, and what it moves. `plane` is the one in force, if it is known.
+fn note(pending: &mut Pending, op: &Op, plane: Option<Plane>, skipped: bool) {
     if let Op::SetDistanceMode(distance) = op {
         pending.measure(Some(*distance), skipped);
     }
@@ -396,6 +345,17 @@ fn note(pending: &mut Pending, op: &Op, skipped: bool) {
     }
     if let Some(to) = words_of(op) {
         clear(pending, to, skipped);
+    }
+    if let Op::Polar(polar) = op {
+        // Both axes of the plane go to a point, by whatever words.
+        let goes = in_plane(polar.plane.known().or(plane));
+        for (at, pending) in pending.axes.iter_mut().enumerate() {
+            match goes {
+                Some(axes) if axes[at] && !skipped => *pending = None,
+                Some(axes) if !axes[at] => {}
+                Some(_) | None => *pending = pending.map(|_| None),
+            }
+        }
     }
     if let Op::GoToReference(reference) = op
         && !skipped
@@ -436,17 +396,17 @@ pub(crate) fn changes_place(op: &Op) -> bool {
     changes(op, None, &LINEAR).is_some_and(|axes| axes[Axis::Z as usize])
 }
 
+/// The axes of a plane.
+fn in_plane(plane: Option<Plane>) -> Option<[bool; AXES]> {
+    let (first, second, _) = plane?.axes();
+    Some(std::array::from_fn(|axis| axis == first as usize || axis == second as usize))
+}
+
 /// Axes whose coordinates a statement may change without moving them.
 fn changes(op: &Op, plane: Option<Plane>, rotated: &[bool; AXES]) -> Option<[bool; AXES]> {
     let all = [true; AXES];
     let named = |axes: &[Option<ncc_ir::expr::Expr>; AXES]| std::array::from_fn(|axis| axes[axis].is_some());
-    let turning = |own: Fact<Plane>| match own.known().or(plane) {
-        Some(plane) => {
-            let (first, second, _) = plane.axes();
-            std::array::from_fn(|axis| axis == first as usize || axis == second as usize)
-        }
-        None => LINEAR,
-    };
+    let turning = |own: Fact<Plane>| in_plane(own.known().or(plane)).unwrap_or(LINEAR);
     let three = |axes: [bool; 3]| std::array::from_fn(|axis| axis < 3 && axes[axis]);
     match op {
         Op::SetOriginOffsets(_) | Op::UseOriginShift(_) => Some(all),
@@ -536,7 +496,7 @@ impl Way<'_> {
         }
         let axes = changes(op, walk.at.modes.plane, &self.state.pending.rotated);
         let Some(axes) = axes.filter(|_| !self.same_offset(op, walk)) else {
-            return note(&mut self.state.pending, op, skipped);
+            return note(&mut self.state.pending, op, walk.at.modes.plane, skipped);
         };
         turn(&mut self.state.pending, op, axes);
         // Each axis is where the program has put it, until it has a word again.

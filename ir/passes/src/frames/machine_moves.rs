@@ -17,13 +17,14 @@ use crate::frames::origin_shift;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::{EDGE, LENGTH, MACHINE, TABLE};
 use crate::support::walk::Walk;
-use crate::support::write::{Rebuild, at as at_place, traverse, unit_of};
+use crate::support::write::{Rebuild, at as at_place, is_absolute, traverse, unit_of};
 use crate::{Target, each_body};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::caps::{Caps, TiltForm};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::program::arguments::words_of;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{
     Coord, Detour, Move, Op, Point, Probe, Program, Reference, ReferencePoint, Slot, Stmt,
@@ -57,6 +58,8 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct MachineMovesState {
     /// The length that is in force in the source and was put off in the target.
     put_off: Option<u32>,
+    /// Words have cancelled it: the next Z takes it up.
+    cancelled: bool,
     /// A return to a point of the machine that may have left none of the length.
     lost: Option<Span>,
     /// A move in machine coordinates comes next in this block, with the tool's length or without.
@@ -68,6 +71,14 @@ pub(crate) struct MachineMovesState {
 }
 
 impl MachineMovesState {
+    /// The refusal of a statement that moves Z by an increment, and takes up the length which words have cancelled.
+    fn refuses_increment(&self, stmt: &Stmt, walk: &Walk) -> Option<Diagnostic> {
+        let word = words_of(&stmt.op).and_then(|to| to.get(Axis::Z))?;
+        let takes_up = self.put_off.is_some() && self.cancelled;
+        (takes_up && !is_absolute(word, walk.at.modes.distance))
+            .then(|| Diagnostic::new(Fault::CannotSay { what: FROM_MACHINE.into() }, stmt.span))
+    }
+
     /// Whether something waits for the statements that come.
     pub(crate) fn is_busy(&self) -> bool {
         self.put_off.is_some()
@@ -183,7 +194,7 @@ fn take(
             if reference.keeps_length && !keeps && reference.axes[Axis::Z as usize] {
                 match walk.at.modes.length_offset {
                     Some(0) => {}
-                    Some(entry) => state.put_off = Some(entry),
+                    Some(entry) => (state.put_off, state.cancelled) = (Some(entry), false),
                     None => state.lost = state.lost.or(Some(stmt.span)),
                 }
             }
@@ -195,15 +206,15 @@ fn take(
             let what = "a position by the caller's motion, behind a return to a point of the machine".into();
             diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
         }
-        Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
-            state.put_off = None;
-            state.lost = None;
-        }
-        Op::ProgramEnd | Op::BeginAgain => {
-            state.put_off = None;
-            state.lost = None;
+        Op::UseToolLengthOffset(_)
+        | Op::UseToolLength(_)
+        | Op::UseToolEdge { .. }
+        | Op::ProgramEnd
+        | Op::BeginAgain => {
+            (state.put_off, state.lost) = (None, None);
         }
         op if walk.commands_z(op) || matches!(op, Op::StartCycle(_) | Op::Pattern(_) | flow!()) => {
+            diags.extend(state.refuses_increment(&stmt, walk));
             length_again(&mut stmt, state, made);
             if let Some(span) = state.lost.take() {
                 let what = "a return to a point of the machine behind which Z moves by a length that is not \
@@ -217,6 +228,10 @@ fn take(
     walk.step(&stmt);
     made.push(stmt);
 }
+
+/// The refusal of an increment of Z that would take up the length which a move to the machine has cancelled.
+pub const FROM_MACHINE: &str =
+    "an incremental Z behind a move to a place of the machine, with the tool's length";
 
 /// Says the length anew that was put off, before a statement that needs it.
 fn length_again(stmt: &mut Stmt, state: &mut MachineMovesState, made: &mut Rebuild) {
@@ -335,7 +350,7 @@ fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut MachineMovesState, 
     let off = with_z && in_force != Some(0) && state.put_off.is_none();
     if off {
         match in_force {
-            Some(entry) => state.put_off = Some(entry),
+            Some(entry) => (state.put_off, state.cancelled) = (Some(entry), true),
             None => state.lost = state.lost.or(Some(at)),
         }
     }

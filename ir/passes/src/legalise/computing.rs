@@ -5,6 +5,7 @@
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
 use crate::arcs::compensated_modes::CompensatedModesState;
+use crate::arcs::still_blocks::StillBlocksState;
 use crate::frames::expand_frames::ExpandFramesState;
 use crate::frames::frame_increments::FrameIncrementsState;
 use crate::frames::origin_shift::OriginShiftState;
@@ -17,6 +18,8 @@ use crate::flow::number_names;
 use crate::frames::computed_frames;
 use crate::frames::machine_cuts;
 use crate::legalise::{Legaliser, Target};
+use crate::modes::feed_unit;
+use crate::pass::Shared;
 use crate::support::known_facts::{self, Known};
 use crate::threads::taps;
 use crate::watch::ran_whole;
@@ -92,6 +95,12 @@ impl Legaliser {
         }
     }
 
+    /// The feed that has to be said again before a statement of control.
+    fn feed_before(&mut self, control: &Stmt, behind: &[Stmt]) -> Option<Result<Stmt, Diagnostic>> {
+        let Shared { states, walk, target, .. } = &mut self.shared;
+        feed_unit::before_control(states.of(), &walk.at, target, control, behind)
+    }
+
     /// The same legaliser where nothing is known of what was before but this.
     fn anew(&self, known: Option<Tracker>, first: Option<&Stmt>) -> Legaliser {
         let Target { caps, decimals, peck_clearance, .. } = &self.shared.target;
@@ -106,6 +115,7 @@ impl Legaliser {
         own.shared.states.of::<CompensatedModesState>().refused =
             self.shared.states.ask(|here: &CompensatedModesState| here.refused);
         own.shared.entries.clone_from(&self.shared.entries);
+        own.shared.states.put(self.shared.states.ask(StillBlocksState::clone));
         own.enter(first);
         own.shared.states.put(TapsState::entered(&own.shared.walk.at));
         own.shared.states.forget::<AtOnceState>();
@@ -248,22 +258,30 @@ impl Region<'_> {
     fn body(&mut self, body: &mut Vec<Stmt>, mut start: Option<(Legaliser, Modes)>) {
         let mut out = Vec::with_capacity(body.len());
         let mut stretch = Vec::new();
-        for mut stmt in std::mem::take(body) {
+        let mut rest = std::mem::take(body).into_iter();
+        while let Some(mut stmt) = rest.next() {
             if !matches!(stmt.op, flow!()) {
                 stretch.push(stmt);
                 continue;
             }
-            self.stretch(&mut stretch, start.take(), &mut out);
+            self.stretch(&mut stretch, start.take(), Some((&stmt, rest.as_slice())), &mut out);
             if let Op::Control(control) = &mut stmt.op {
                 control.bodies_mut().for_each(|body| self.body(body, None));
             }
             out.push(stmt);
         }
-        self.stretch(&mut stretch, start.take(), &mut out);
+        self.stretch(&mut stretch, start.take(), None, &mut out);
         *body = out;
     }
 
-    fn stretch(&mut self, stmts: &mut Vec<Stmt>, start: Option<(Legaliser, Modes)>, out: &mut Vec<Stmt>) {
+    /// Blocks without control; `next` is the statement of control behind them, and the rest of the body.
+    fn stretch(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        start: Option<(Legaliser, Modes)>,
+        next: Option<(&Stmt, &[Stmt])>,
+        out: &mut Vec<Stmt>,
+    ) {
         if stmts.is_empty() {
             return;
         }
@@ -274,6 +292,12 @@ impl Region<'_> {
         let mut found = Vec::new();
         own.shared.states.put(self.shift);
         own.run(stmts, &assumed, None, &mut found);
+        let again = next.and_then(|(control, behind)| own.feed_before(control, behind));
+        match again {
+            Some(Ok(feed)) => stmts.push(feed),
+            Some(Err(refusal)) => found.push(refusal),
+            None => {}
+        }
         self.shift = *own.shared.states.of();
         if own.shared.states.ask(ExpandFramesState::is_worked_in)
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)

@@ -1,6 +1,7 @@
 //! What the legaliser is told of the two controls before it starts.
 
 use crate::arcs::compensated_modes::CompensatedModesState;
+use crate::arcs::still_blocks::StillBlocksState;
 use crate::frames::frame_increments::FrameIncrementsState;
 use crate::frames::rotary_turns::RotaryTurnsState;
 use crate::tools::length_axis::LengthAxisState;
@@ -27,6 +28,12 @@ impl Legaliser {
     pub fn set_source_refuses(&mut self, source: Refused) {
         self.shared.states.of::<CompensatedModesState>().refused =
             self.shared.target.caps.compensation.refused.without(source);
+    }
+
+    /// Whether the source looks over blocks of a compensated contour that go nowhere. They are left out then.
+    pub fn set_source_looks_over(&mut self, looks_over: bool) {
+        self.shared.states.of::<StillBlocksState>().looked_over = looks_over;
+        self.shared.follow |= looks_over;
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in

@@ -335,7 +335,7 @@ fn by_time(per_minute: f64, target: &Target) -> Result<Num, &'static str> {
 /// Restates F of an arc by time, which stands before it in its block.
 fn arc_by_time(arc: &Arc, at: &Tracker, target: &Target, made: &mut Rebuild) -> Result<(), &'static str> {
     let unknown = "an arc with a feed by time from a place that is not known here";
-    if arc.turns > 0 {
+    if !arc.turns.is_none() {
         return Err("an arc of several turns with a feed by time");
     }
     let plane = at.plane(arc.plane).ok_or(unknown)?;

@@ -152,6 +152,54 @@ impl FeedUnitState {
     }
 }
 
+/// Whether a statement takes up the feed in force.
+fn cuts(op: &Op) -> bool {
+    match op {
+        Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
+        Op::Hole(_) | Op::Pattern(_) => true,
+        Op::StartCycle(cycle) => cycle.feed.is_none(),
+        _ => false,
+    }
+}
+
+/// The refusal of a feed that the target has forgotten.
+pub const ENDED: &str = "a feed that is not known here and holds behind a code of what it counts";
+
+/// What is said between blocks that end the feed and a structure, which is looked at by itself: the feed again, where the
+/// structure or what follows it takes it up.
+pub(crate) fn before_control(
+    state: &mut FeedUnitState,
+    at: &Tracker,
+    target: &Target,
+    control: &Stmt,
+    behind: &[Stmt],
+) -> Option<Result<Stmt, Diagnostic>> {
+    let goes_on = matches!(control.op, Op::Control(_) | Op::Label(_) | Op::Call(_) | Op::RepeatBlocks(_));
+    let taken = || cuts_first(std::slice::from_ref(control)) || goes_on && cuts_first(behind);
+    if !std::mem::take(&mut state.ended) || !taken() {
+        return None;
+    }
+    let (Some(feed), Some(units)) = (state.feed, at.modes.units) else {
+        return Some(Err(Diagnostic::new(Fault::CannotSay { what: ENDED.into() }, control.span)));
+    };
+    let feed = in_unit(feed, units, target).unwrap_or(feed);
+    Some(Ok(Stmt::new(control.span, Op::SetFeedRate(feed.into()))))
+}
+
+/// Whether statements may take up the feed in force before they say one.
+fn cuts_first(body: &[Stmt]) -> bool {
+    let mut before = body.iter().take_while(|stmt| {
+        stmt.skip.is_some()
+            || !matches!(&stmt.op, Op::SetFeedRate(_) | Op::SetFeedMode(_))
+                && !matches!(&stmt.op, Op::StartCycle(cycle) if cycle.feed.is_some())
+    });
+    before.any(|stmt| match &stmt.op {
+        Op::Control(control) => control.bodies().any(|body| cuts_first(body)),
+        Op::Position(_) => true,
+        op => cuts(op.unwrapped()),
+    })
+}
+
 /// Says feeds again after a change of units, and behind codes that end them.
 pub(crate) fn again(
     body: &mut Vec<Stmt>,
@@ -175,16 +223,12 @@ pub(crate) fn again(
             entries.into_iter().for_each(|known| known.feeds(&stmt, &mut walk.at));
         }
         let cuts = match stmt.op.unwrapped() {
-            Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
-            Op::Hole(_) | Op::Pattern(_) => true,
             Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
-            Op::StartCycle(cycle) => cycle.feed.is_none(),
-            _ => false,
+            op => cuts(op),
         };
         let again = state.stale || state.ended;
         if cuts && state.ended && (state.feed.is_none() || walk.at.modes.units.is_none()) {
-            let what = "a feed that is not known here and holds behind a code of what it counts";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::CannotSay { what: ENDED.into() }, stmt.span));
             state.ended = false;
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();

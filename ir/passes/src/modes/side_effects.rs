@@ -442,8 +442,7 @@ impl SideEffects {
             }
             new.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::ClearFrame(slot)) });
         }
-        let at = insertion(made, stmt);
-        insert(made, stmt, at, new);
+        self.insert_after_cycle(stmt, made, new);
     }
 
     /// Whether Z goes to machine zero in words before a tool change.

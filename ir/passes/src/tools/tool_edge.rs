@@ -16,7 +16,7 @@ use ncc_ir::caps::LengthsOf;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::kinds::flow;
-use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::program::{Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -301,10 +301,24 @@ fn to_edges(
             if state.waiting.is_some() && may_command_z(walk, op) {
                 in_force(&mut stmt, walk, state, made, diags);
             }
+            if state.waiting.is_some() && sets_length(&stmt.op, tool(walk)) {
+                diags.push(Diagnostic::new(cannot(LENGTH_IN_USE.into()), stmt.span));
+            }
             walk.step(&stmt);
             made.push(stmt);
         }
     }
+}
+
+/// The refusal of a length that is set between the tool change and its first use.
+pub const LENGTH_IN_USE: &str =
+    "another length of the tool in the spindle, whose edge counts from its change on";
+
+/// Whether a statement sets the length of a tool while it counts.
+fn sets_length(op: &Op, tool: Option<u32>) -> bool {
+    let Op::SetData(data) = op else { return false };
+    matches!(**data, Data::Tool { entry, which, kept: false, .. }
+        if which.is_offset() && tool.is_none_or(|tool| tool == entry))
 }
 
 /// The edge of the tool in the spindle that is an entry of the table.

@@ -106,7 +106,7 @@ impl Frames<'_> {
         }
         let mut out = arc.clone();
         // How a third axis goes with several turns depends on the very angle.
-        let decimals = if arc.turns > 0 { EXACT } else { self.decimals() };
+        let decimals = if !arc.turns.is_none() { EXACT } else { self.decimals() };
         out.to = self.point_to(&arc.to, decimals)?;
         if self.set.chain.turn().is_none() {
             if let Centre::Point { words, from: CentreFrom::Zero } = &mut out.centre {

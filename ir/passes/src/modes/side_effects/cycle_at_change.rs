@@ -1,4 +1,5 @@
-//! A canned cycle that is active at a tool change, for a target that takes Z to machine zero there.
+//! A canned cycle that is active at a tool change, for a target that takes Z to machine zero there; and at the end of the
+//! program, where frames are cancelled in words.
 //!
 //! ```text
 //! G81 X10. Z-5. R3.        G81 X10. Z-5. R3.
@@ -59,6 +60,15 @@ impl SideEffects {
         let end = Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::EndCycle) };
         let at = insertion(made, stmt);
         insert(made, stmt, at, vec![end]);
+    }
+
+    /// Writes frames before the end of the program. No control has to take them while a cycle is active.
+    pub(super) fn insert_after_cycle(&self, stmt: &mut Stmt, made: &mut Vec<Stmt>, mut new: Vec<Stmt>) {
+        if self.cycle.active && !new.is_empty() {
+            new.insert(0, Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::EndCycle) });
+        }
+        let at = insertion(made, stmt);
+        insert(made, stmt, at, new);
     }
 
     /// Refuses a statement that needs the cycle which was cancelled before the tool change.

@@ -1,0 +1,49 @@
+//! Which blocks of a text may be named by a jump: `GOTO 10` names N10. It looks at the bytes alone, before the text is
+//! parsed, and may find more than there are.
+
+use std::collections::BTreeSet;
+
+use ncc_dialects::Dialect;
+
+/// Whether a text has a word that jumps, or the two letters of it that are enough behind a condition.
+pub(super) fn has_jumps(text: &[u8]) -> bool {
+    let has = |word: &[u8]| text.windows(word.len()).any(|part| part.eq_ignore_ascii_case(word));
+    has(b"GOTO") || has(b"]GO") || has(b"] GO")
+}
+
+/// Adds the numbers of blocks that a text may name to those known: what stands behind a jump, and in words that name blocks
+/// beside some code. `None` if one is computed.
+pub(super) fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32>) -> Option<BTreeSet<u32>> {
+    let letters: BTreeSet<u8> = dialect.code.iter().flat_map(|row| row.blocks.bytes()).collect();
+    let number = dialect.block.number.map_or(0, |c| c as u8);
+    let blanks = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_whitespace()).count();
+    for line in text.split(|b| *b == b'\n') {
+        let calls = line.iter().any(|b| b.eq_ignore_ascii_case(&b'M'));
+        for at in 0..line.len() {
+            let rest = &line[at..];
+            let jump = rest.get(..2).is_some_and(|word| word.eq_ignore_ascii_case(b"GO"));
+            let long = rest.get(2..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TO"));
+            let word = letters.contains(&rest[0].to_ascii_uppercase());
+            let behind = match (jump, long) {
+                (true, true) => &rest[4..],
+                (true, false) => &rest[2..],
+                (false, _) if word => &rest[1..],
+                (false, _) => continue,
+            };
+            let behind = &behind[blanks(behind)..];
+            let named = behind.first().filter(|b| jump && b.eq_ignore_ascii_case(&number));
+            let behind = if named.is_some() { &behind[1 + blanks(&behind[1..])..] } else { behind };
+            let digits = behind.iter().take_while(|b| b.is_ascii_digit()).count();
+            match behind.first() {
+                Some(b'#' | b'[') if jump || calls => return None,
+                Some(_) if digits > 0 => {
+                    let number =
+                        std::str::from_utf8(&behind[..digits]).ok().and_then(|text| text.parse().ok());
+                    all.extend::<Option<u32>>(number);
+                }
+                Some(_) | None => {}
+            }
+        }
+    }
+    Some(all)
+}
