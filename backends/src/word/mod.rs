@@ -10,6 +10,7 @@
 //!
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
+mod blocks;
 mod by_hand;
 mod corner;
 mod cycles;
@@ -31,7 +32,7 @@ mod thread;
 use std::collections::BTreeMap;
 
 use ncc_dialects::{Dialect, Role, Settings};
-use ncc_ir::canon::{AXES, Axis, Modes, RotaryWay, Turn, Units};
+use ncc_ir::canon::{AXES, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt, Text};
@@ -42,10 +43,9 @@ use cycles::Held;
 use start::Preamble;
 
 use crate::common::Sink;
-use crate::common::block::{Block, Need};
+use crate::common::block::Block;
 use crate::common::codes::Codes;
 use crate::common::comment::Comments;
-use crate::common::fault::cannot_compute;
 use crate::common::force::InForce;
 use crate::origin::Trace;
 use crate::{Form, Layout, Numbering, ToolChange};
@@ -393,79 +393,6 @@ impl Writer {
         self.close_block(stmts, sink);
     }
 
-    /// Begins a block of the source.
-    pub(crate) fn open_block(&mut self, first: &Stmt) {
-        self.settle();
-        self.split = false;
-        self.block.forget_formulas();
-        self.block.number = first.number;
-        if !self.is_jumped_to(&first.op) {
-            self.number_seen(first);
-        }
-    }
-
-    /// Ends a block of the source.
-    pub(crate) fn close_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
-        self.label_ends();
-        self.number_alone(sink);
-        self.flush(false, sink);
-        if let (true, Some(first)) = (self.split, stmts.first()) {
-            let span = stmts.iter().fold(first.span, |span, s| span.to(s.span));
-            sink.report(Fault::BlockSplit, span);
-        }
-    }
-
-    /// Begins a statement, and gives what was in force before.
-    ///
-    /// # Errors
-    /// Its block cannot be marked to be skipped.
-    pub(crate) fn open(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<InForce, Fault> {
-        if stmt.skip != self.block.skip && !self.block.is_empty() {
-            self.flush(false, sink);
-        }
-        self.block.skip = stmt.skip;
-        self.block.at = stmt.span;
-        if self.forgotten {
-            self.stand(stmt);
-        }
-        let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
-        if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
-            let what = "a block that can be skipped on a switch of its own".into();
-            return Err(Fault::CannotSay { what });
-        }
-        Ok(self.force)
-    }
-
-    /// Ends a statement: tells its fault, writes its comment, and follows it.
-    pub(crate) fn close(
-        &mut self,
-        stmt: &Stmt,
-        before: Option<InForce>,
-        written: Result<(), Fault>,
-        sink: &mut Sink,
-    ) {
-        let before = before.unwrap_or(self.force);
-        if let Err(fault) = written {
-            sink.report(fault, stmt.span);
-        }
-        self.tell_unsure(stmt.span, sink);
-        if let Some(comment) = &stmt.comment {
-            self.comment(comment, stmt.span, sink);
-        }
-        let length = self.tracker.modes.length_offset;
-        self.tracker.step(stmt);
-        if stmt.op.calls_length() && (length.is_none() || self.tracker.modes.length_offset != length) {
-            // Until the next command of Z it is not told by which of the two lengths its place is counted.
-            self.tracker.position[Axis::Z as usize] = None;
-        }
-        if stmt.skip.is_some() {
-            self.force.join(&before);
-            self.lost = true;
-            self.residue = [0; AXES];
-            self.residual = false;
-        }
-    }
-
     /// Reports, once each, the codes written of which no source confirms the meaning.
     fn tell_unsure(&mut self, span: Span, sink: &mut Sink) {
         while let Some(code) = self.block.unsure.pop() {
@@ -491,117 +418,6 @@ impl Writer {
         let block = &mut self.block;
         if self.comments.write(text, &mut block.comment, &mut block.after, self.eol) {
             sink.report(Fault::CommentReformatted, span);
-        }
-    }
-
-    /// Makes room for a statement: in the block at hand, or else in a new one.
-    pub(crate) fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
-        if !self.block.possible(need) {
-            return Err(Fault::CannotSay { what: "these codes in one block".into() });
-        }
-        if !self.block.fits(need) {
-            let feed = self.block.feed_can_wait(need).then(|| self.block.take_feed());
-            if !self.block.is_empty() {
-                self.flush(false, sink);
-                self.split = true;
-            }
-            if let Some(feed) = feed {
-                self.block.put_feed(feed);
-            }
-        }
-        self.block.take(need);
-        Ok(())
-    }
-
-    /// Ends the block; `even_empty` writes the line of an empty one.
-    pub(crate) fn flush(&mut self, even_empty: bool, sink: &mut Sink) {
-        let empty = self.block.is_empty();
-        if empty && self.block.comment.is_empty() && !even_empty {
-            if !self.block.after.is_empty() {
-                let to = self.preamble.as_mut().map_or(&mut *sink.out, |p| &mut p.held);
-                to.append(&mut self.block.after);
-            }
-            return;
-        }
-        if let Some(span) = self.offset_waits.take()
-            && !self.block.has(Axis::Z.letter())
-        {
-            sink.report(crate::common::fault::cannot("a length offset in a block without Z"), span);
-        }
-        self.surface_with_speed(sink);
-        let label = if empty { None } else { self.labels.waiting.take() };
-        self.labels.lines += u32::from(!empty);
-        let number = match self.numbering {
-            _ if self.labels.bare => None,
-            Numbering::Off | Numbering::Keep | Numbering::Every { .. } if label.is_some() => label,
-            Numbering::Off => None,
-            Numbering::Keep => self.block.number,
-            // Beside blocks that are jumped to no other has a number of ours.
-            Numbering::Every { .. } if empty || self.has_jumps() => None,
-            Numbering::Every { first, step } => Some(self.count_number(first, step)),
-        };
-        let mark = self.skip_mark(self.block.skip);
-        let to = self.preamble.as_mut().map_or(&mut *sink.out, |p| &mut p.held);
-        let start = to.len();
-        if let Some((mark, level)) = mark {
-            to.extend_from_slice(mark.as_bytes());
-            if let Some(level) = level {
-                to.push(b'0' + level);
-                if self.dialect.block.blanks {
-                    to.push(b' ');
-                }
-            }
-        }
-        if let (Some(number), Some(letter)) = (number, self.dialect.block.number) {
-            to.push(letter as u8);
-            to.extend_from_slice(number.to_string().as_bytes());
-        }
-        let bare = to.len() - start + self.block.bare_length();
-        self.block.write(to, number.is_some());
-        let length = to.len() - start;
-        to.extend_from_slice(self.eol);
-        to.append(&mut self.block.after);
-        let most = self.dialect.block.longest;
-        if most > 0 && length > most as usize {
-            let fault = cannot_compute(format!("a block of more than {most} characters"));
-            sink.report(fault, self.block.at);
-        }
-        let most = self.dialect.block.longest_bare;
-        if most > 0 && bare > most as usize {
-            sink.report(
-                crate::common::fault::cannot(format!("a block of more than {most} characters")),
-                self.block.at,
-            );
-        }
-    }
-
-    pub(crate) fn count_number(&mut self, first: u32, step: u32) -> u32 {
-        let number = self.next_number;
-        let next = number.saturating_add(step);
-        self.next_number = if next > HIGHEST_NUMBER { first } else { next };
-        number
-    }
-
-    /// The mark of a skip level, and its digit if it needs one; `None` if there is no such mark.
-    pub(crate) fn skip_mark(&self, level: Option<u8>) -> Option<(&'static str, Option<u8>)> {
-        let rules = &self.dialect.block;
-        let level = level?;
-        match (rules.skip.as_str(), level) {
-            ("", _) => None,
-            _ if rules.skip_levels == 0 => None,
-            (mark, 1) => Some((mark, None)),
-            (mark, 2..=9) if level <= rules.skip_levels => Some((mark, Some(level))),
-            // Where the plain mark is the digit 0, the digit 1 is a level of its own.
-            (mark, 10) if level <= rules.skip_levels => Some((mark, Some(1))),
-            _ => None,
-        }
-    }
-
-    /// Notes a block number of the source that is not written.
-    pub(crate) fn number_seen(&mut self, stmt: &Stmt) {
-        if stmt.number.is_some() && self.numbering == Numbering::Off {
-            self.numbers_left = self.numbers_left.saturating_add(1);
-            self.first_left.get_or_insert(stmt.span);
         }
     }
 

@@ -9,7 +9,6 @@ use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
 
-use super::cannot;
 use super::numbers::{millimetres, signed};
 use super::spelled::mode;
 use super::text::{plain, plain_upto};
@@ -98,7 +97,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::WordMissing { code, word } => {
             let mut all = unsupported::missing(code, word, at.from);
-            all.extend(cannot::length_in_force(code, word, at.from));
+            all.extend(unsupported::length_in_force(code, word, at.from));
             all
         }
         Fault::WordTwice { .. } => own("keep one of the two"),
@@ -362,9 +361,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
-        Fault::CannotSay { what } => {
-            cannot::help(what, at).unwrap_or_else(|| unwritable::help(what, at.from, at.to))
-        }
+        Fault::CannotSay { what } => unwritable::help(what, at.from, at.to),
         Fault::RotaryTurnOpen { by, or, .. } => rotary_turn([*by, *or], at),
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
         Fault::FactUnsaid { .. } => own("say it at the head of the program"),

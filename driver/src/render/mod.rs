@@ -8,7 +8,6 @@
 //! ```
 
 pub mod advice;
-mod cannot;
 pub mod dialects;
 pub mod explain;
 pub mod head;

@@ -2,9 +2,10 @@
 
 use ncc_dialects::{
     BLOCK_WITHOUT_WAY, CodeRow, DWELL_REFUSED, Dialect, FIRST_TOOL, LOOKED_OVER, MACHINE_LENGTH,
-    MACHINE_WITHOUT_AXIS, NO_RADIUS, NOTHING, RADIUS_UNSAID,
+    MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, Role,
 };
 use ncc_exec::NOWHERE;
+use ncc_ir::expr::system::System;
 use ncc_passes::frames::machine_moves::FROM_MACHINE;
 use ncc_passes::modes::feed_unit::ENDED;
 use ncc_passes::tools::tool_edge::LENGTH_IN_USE;
@@ -184,4 +185,21 @@ pub(super) fn without_tool(from: &Dialect) -> Vec<String> {
         ways.push(waits.to_owned());
     }
     ways
+}
+
+/// What to type for the entry of a length that is in force at the start, where a code lacks its word.
+pub(super) fn length_in_force(code: &str, word: &str, from: &Dialect) -> Option<String> {
+    let length =
+        from.code.iter().any(|row| row.code == code && row.means == Some(Meaning::UseToolLengthOffset));
+    let letter = from.letter_for(Role::LengthEntry).map(String::from);
+    if !length || letter.as_deref() != Some(word) {
+        return None;
+    }
+    let name = variable(&System::LengthEntry, from)?;
+    Some(format!("or state the {word} code that is in force at the start: `--value '#{name}=NUMBER'`"))
+}
+
+/// The number of the variable by which a program asks this of the control.
+fn variable(asked: &System, from: &Dialect) -> Option<String> {
+    from.system.iter().flat_map(|row| row.says()).find(|(says, _)| says == asked).map(|(_, name)| name)
 }

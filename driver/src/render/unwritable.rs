@@ -1,6 +1,6 @@
 //! What to type where the target has no words for something.
 
-use ncc_dialects::{BLOCK_SKIP, Dialect, FURTHER_POINT, STORED_POSITION};
+use ncc_dialects::{BLOCK_SKIP, Dialect, FURTHER_POINT, LEFT_OUT, STORED_POSITION, TAP_DWELL};
 use ncc_exec::{NOWHERE, STILL};
 use ncc_ir::behaviour::Behaviour;
 use ncc_passes::frames::frame_increments;
@@ -27,16 +27,25 @@ pub(super) fn help(what: &str, from: &Dialect, to: &Dialect) -> Vec<String> {
             vec![format!("{id} has none: post the program again for the axes of the machine")]
         }
         _ if what.starts_with("edge ") && what.ends_with(" of a tool") => {
-            vec![format!("{id} has a number for edge 1 alone: give this edge a tool of its own")]
+            vec![
+                format!("{id} has a number for edge 1 alone: give this edge a tool of its own"),
+                "or state its entry in the profile of the target's machine: `[[edge]]` with `tool`, `edge` and \
+                 `length_entry`"
+                    .into(),
+            ]
         }
         "mist coolant" => {
             own("`--m-code M07=M08` for flood coolant in its place, `--m-code M07=drop` for none")
         }
-        _ if what.starts_with("a rigid thread with something else before its way back") => {
-            own("leave out the dwell of the tapping cycle (P), if the spindle may turn back at once")
-        }
+        _ if what.starts_with("a rigid thread with something else before its way back") => rigid_dwell(from),
         _ if [NOWHERE, STILL].contains(&what) => unsupported::without_way(what, from),
         _ if let Some(way) = unsupported::way_out(what) => own(way),
+        _ if what.starts_with("a feed of linear and rotary axes together from a place that is not known") => {
+            own(
+                "move its axes to a place before, or state where they stand at the start, if no work offset is selected before: \
+             `--start A0` for A at 0 degrees",
+            )
+        }
         _ if what.starts_with("a pitch with so many digits") => {
             own("write the feed by the minute before the cycle: `G94`, and F = pitch × S")
         }
@@ -122,4 +131,16 @@ fn place_option(what: &str, from: &Dialect) -> Option<&'static str> {
         _ => return None,
     };
     from.option.iter().any(|row| row.name == option).then_some(option)
+}
+
+/// The ways out of a rigid tap that dwells.
+fn rigid_dwell(from: &Dialect) -> Vec<String> {
+    let leave = "leave out the dwell of the tapping cycle (P), if the spindle may turn back at once";
+    match from.option.iter().any(|row| row.name == TAP_DWELL) {
+        true => vec![format!(
+            "`--from-option {TAP_DWELL}={LEFT_OUT}`, if the spindle may turn back at once: it stands during P, and cuts \
+             nothing"
+        )],
+        false => vec![leave.to_owned()],
+    }
 }
