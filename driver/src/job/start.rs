@@ -63,6 +63,9 @@ impl Job {
     /// What variables may be given when the program runs: not the T and H code in force at the start, which are read with
     /// the text.
     pub(crate) fn given_to_runs(&self) -> Given {
+        if self.given.names().next().is_none() {
+            return self.given.clone();
+        }
         let with_text = [System::SelectedTool, System::LengthEntry].map(|of| self.from.variable_of(&of));
         with_text.into_iter().flatten().fold(self.given.clone(), |given, name| given.without(&name))
     }
