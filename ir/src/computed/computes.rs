@@ -21,7 +21,7 @@ pub enum Said {
     Declare,
     /// [`Op::Declare`] of an array, and its elements.
     Array,
-    /// Variables whose number is computed ([`Many::Numbered`]).
+    /// Variables whose number is computed ([`Many::Numbered`](crate::expr::Many::Numbered)).
     Numbered,
     /// [`Control::Loop`].
     Endless,

@@ -6,7 +6,7 @@
 //! before, so that a back-end can keep blocks together.
 //!
 //! Coordinates are in the program's own frame; frames are named slots, never baked in. Modal facts
-//! are [`Fact`]s: a statement says what it means as far as its own procedure knows it.
+//! are [`Fact`](crate::canon::Fact)s: a statement says what it means as far as its own procedure knows it.
 //!
 //! Not here: block layout, number formats, the spelling of any control.
 
