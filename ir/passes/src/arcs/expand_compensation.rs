@@ -10,22 +10,24 @@
 //! Where F counts along the contour on arcs ([`ncc_ir::geometry::arc_feed`]), each arc gets the F of the tool centre that takes the
 //! same time.
 
+mod contour;
+mod written;
+
 use std::collections::BTreeMap;
 
+use self::contour::{Contour, contour};
+use self::written::Written;
 use crate::support::walk::Walk;
-use crate::support::write::{Rebuild, at, exact, rebuild, rounded, unit_of};
+use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_exec::world::Tables;
-use ncc_ir::canon::{AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Motion, Plane, Side, Turn};
+use ncc_ir::canon::{AdviceKind, FeedMode, Motion, Plane, Side};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE};
-use ncc_ir::geometry;
-use ncc_ir::geometry::arc_feed::{ArcFeed, centre_speed, is_inner};
-use ncc_ir::geometry::beside::{Beside, Corner, Leg, Rules, Spot, Unreachable};
-use ncc_ir::program::cycle::absolute;
+use ncc_ir::geometry::arc_feed::ArcFeed;
+use ncc_ir::geometry::beside::{Beside, Leg, Rules, Unreachable};
 use ncc_ir::program::kinds::flow;
-use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, CutterRadius, Data, Move, Op, Point, Program, Stmt};
+use ncc_ir::program::{CutterRadius, Data, Move, Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -115,18 +117,6 @@ fn only_meaning(body: &[Stmt], one: &mut Option<ArcFeed>) {
             _ => {}
         }
     }
-}
-
-/// A contour beside which the tool goes.
-struct Contour {
-    plane: Plane,
-    /// mm; 0 is along the contour itself.
-    radius: f64,
-    left: bool,
-    path: Option<Beside>,
-    /// Index of the held move among the statements made.
-    held: usize,
-    start: Span,
 }
 
 fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
@@ -286,19 +276,7 @@ impl Expansion<'_> {
         }
         let rules = self.how.rules;
         let writer = Written { walk, decimals: self.decimals, plane: contour.plane };
-        let words = match &stmt.op {
-            Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => &m.to,
-            Op::ArcFeed(arc) => {
-                if arc.plane.known().or(walk.at.modes.plane) != Some(contour.plane) {
-                    return cannot("an arc in another plane", span);
-                }
-                &arc.to
-            }
-            _ => return cannot(stmt.op.name(), span),
-        };
-        if words.axes[Axis::A as usize..].iter().any(Option::is_some) {
-            return cannot("a rotary axis", span);
-        }
+        let words = contour.words(&stmt, walk)?;
         let refuse = |fault| Diagnostic::new(fault, span);
         let unreachable = |why: Unreachable| refuse(Fault::ContourUnreachable { why });
         let (from, to) = (
@@ -337,45 +315,21 @@ impl Expansion<'_> {
             _ => Leg::Line { rapid: motion == Motion::Traverse },
         };
         let part = match leg {
-            Leg::Arc { centre, ccw, turns } => {
+            Leg::Arc { .. } => {
                 let feed = self.arc_feed.ok_or_else(|| {
                     refuse(Fault::CannotSay {
                         what: "an arc under cutter radius compensation that is worked out, where what F counts on it is not known"
                             .into(),
                     })
                 })?;
-                let side = if contour.left { Side::Left } else { Side::Right };
-                let turn = if ccw { Turn::Counterclockwise } else { Turn::Clockwise };
-                let radius = (from[0] - centre[0]).hypot(from[1] - centre[1]);
-                match feed.on_contour(side, turn) {
-                    true => {
-                        let arc = (centre, turn, turns);
-                        let (angle, along) = writer.climb(words, from, to, arc).map_err(refuse)?;
-                        Some(centre_speed(radius, contour.radius, is_inner(side, turn), angle, along))
-                    }
-                    false => None,
-                }
+                contour.part_of_feed(feed, leg, [from, to], words, &writer).map_err(refuse)?
             }
             Leg::Line { .. } => None,
         };
-        let mut before = None;
-        match &mut contour.path {
-            None => {
-                let path = Beside::enter(contour.radius, contour.left, rules, from, to);
-                contour.path = Some(path.map_err(unreachable)?);
-                self.leaving = None;
-            }
-            Some(path) => {
-                let Corner { end, round } = path.go_on(leg, to).map_err(unreachable)?;
-                writer.settle(&mut made.out[contour.held], end);
-                before = round.map(|round| match round.straight {
-                    true => straight(Motion::Traverse, writer.spot(round.to, Point::default())),
-                    false => {
-                        let to = writer.spot(round.to, Point::default());
-                        writer.arc(to, round.centre, round.ccw, 0)
-                    }
-                });
-            }
+        let enters = contour.path.is_none();
+        let before = contour.go_on(leg, [from, to], rules, &writer, made).map_err(unreachable)?;
+        if enters {
+            self.leaving = None;
         }
         let now = contour.path.as_ref().map_or(to, Beside::now);
         let words = writer.spot(now, writer.others(words).map_err(refuse)?);
@@ -383,7 +337,6 @@ impl Expansion<'_> {
             Leg::Arc { centre, ccw, turns } => writer.arc(words, centre, ccw, turns),
             Leg::Line { .. } => straight(motion, words),
         };
-        let mut stmt = stmt;
         let arc_feed = match part {
             Some(part) => Some(self.feed_of_centre(walk, part, span)?),
             None => None,
@@ -391,6 +344,21 @@ impl Expansion<'_> {
         let source_feed = (motion != Motion::Traverse && (arc_feed.is_none() || before.is_some()))
             .then(|| self.source_feed(walk))
             .flatten();
+        self.put(stmt, op, [source_feed, before], arc_feed, walk, made);
+        Ok(())
+    }
+
+    /// Puts a move on the contour in the place of its statement, behind the source's F and an arc before it, where there
+    /// are such.
+    fn put(
+        &mut self,
+        mut stmt: Stmt,
+        op: Op,
+        [source_feed, before]: [Option<Op>; 2],
+        arc_feed: Option<Num>,
+        walk: &mut Walk,
+        made: &mut Rebuild,
+    ) {
         if arc_feed.is_some()
             && before.is_none()
             && let Some(stated) = made.out.pop_if(|last| stmt.joined && matches!(last.op, Op::SetFeedRate(_)))
@@ -419,7 +387,6 @@ impl Expansion<'_> {
         if let Some(contour) = &mut self.on {
             contour.held = made.out.len() - 1;
         }
-        Ok(())
     }
 
     /// The source's F, where the output has another one in force.
@@ -503,11 +470,6 @@ impl Expansion<'_> {
     }
 }
 
-fn contour(plane: Plane, side: Side, radius: f64, start: Span) -> Contour {
-    let left = (side == Side::Left) == (radius >= 0.0);
-    Contour { plane, radius: radius.abs(), left, path: None, held: 0, start }
-}
-
 fn straight(motion: Motion, to: Point) -> Op {
     let to = Move { to, said: true };
     match motion {
@@ -548,119 +510,5 @@ fn stays(op: &Op, walk: &Walk) -> bool {
         Op::UseLengthUnits(units) => walk.at.modes.units == Some(*units),
         Op::SetOriginOffsets(offset) => walk.at.modes.work_offset == Some(*offset),
         _ => false,
-    }
-}
-
-/// How points of a plane are written.
-struct Written<'w> {
-    walk: &'w Walk,
-    decimals: u8,
-    plane: Plane,
-}
-
-impl Written<'_> {
-    fn plane_of(&self, point: &[Option<Nanos>; AXES]) -> Result<[Nanos; 2], Fault> {
-        let (first, second, _) = self.plane.axes();
-        let at = |axis: Axis| {
-            point[axis as usize].ok_or(Fault::PositionUnknown { axis: char::from(axis.letter()) })
-        };
-        Ok([at(first)?, at(second)?])
-    }
-
-    /// Angle of an arc of the contour, radians, and how far it goes along the third axis, mm.
-    fn climb(
-        &self,
-        words: &Point,
-        from: Spot,
-        to: Spot,
-        (centre, turn, turns): (Spot, Turn, u32),
-    ) -> Result<(f64, f64), Fault> {
-        let normal = self.plane.axes().2;
-        let along = match words.get(normal) {
-            None => 0.0,
-            Some(_) => {
-                let (at, end) = (&self.walk.at.position, self.walk.at.target(words));
-                let fault = || Fault::PositionUnknown { axis: char::from(normal.letter()) };
-                let climb = at[normal as usize].zip(end[normal as usize]).map(|(here, end)| end - here);
-                mm(climb.ok_or_else(fault)?)
-            }
-        };
-        let of = |spot: Spot| spot.map(nanos);
-        let angle = geometry::sweep_degrees(of(from), of(to), of(centre), turn, turns);
-        Ok((angle.abs().to_radians(), along))
-    }
-
-    fn coordinate(&self, axis: Axis, mm: f64) -> Coord {
-        let unit = unit_of(axis, self.walk.unit());
-        let decimals = if unit == ncc_ir::expr::num::Unit::Inch {
-            self.decimals.saturating_add(1)
-        } else {
-            self.decimals
-        };
-        absolute(rounded(nanos(mm), decimals, unit))
-    }
-
-    /// The same words with coordinates of the plane.
-    fn spot(&self, spot: Spot, mut to: Point) -> Point {
-        let (first, second, _) = self.plane.axes();
-        for (axis, mm) in [first, second].into_iter().zip(spot) {
-            to.set(axis, self.coordinate(axis, mm));
-        }
-        to
-    }
-
-    /// The words that are none of the plane, from program zero.
-    fn others(&self, words: &Point) -> Result<Point, Fault> {
-        let (first, second, _) = self.plane.axes();
-        self.absolute_words(words, |axis| axis != first && axis != second && words.get(axis).is_some())
-    }
-
-    /// All words from program zero, and those of both axes of the plane among them.
-    fn whole(&self, words: &Point) -> Result<Point, Fault> {
-        let (first, second, _) = self.plane.axes();
-        self.absolute_words(words, |axis| axis == first || axis == second || words.get(axis).is_some())
-    }
-
-    /// Where words lead along some axes; an absolute word stays as it is written.
-    fn absolute_words(&self, words: &Point, along: impl Fn(Axis) -> bool) -> Result<Point, Fault> {
-        let target = self.walk.at.target(words);
-        let mut point = Point::default();
-        for axis in Axis::ALL.into_iter().filter(|axis| along(*axis)) {
-            let fault = Fault::PositionUnknown { axis: char::from(axis.letter()) };
-            let to = target[axis as usize].ok_or(fault)?;
-            let own = |word: &Coord| word.distance.known().or(self.walk.at.modes.distance);
-            let absolute = words.get(axis).filter(|word| own(word) == Some(Distance::Absolute));
-            point.set(
-                axis,
-                absolute.map_or_else(|| at(to, axis, self.walk.unit()), crate::support::write::as_absolute),
-            );
-        }
-        Ok(point)
-    }
-
-    fn arc(&self, to: Point, centre: Spot, ccw: bool, turns: u32) -> Op {
-        let (first, second, _) = self.plane.axes();
-        let mut words: [Option<Expr>; 3] = [None, None, None];
-        for (axis, mm) in [first, second].into_iter().zip(centre) {
-            words[axis as usize] = Some(exact(nanos(mm), unit_of(axis, self.walk.unit())).into());
-        }
-        Op::ArcFeed(Box::new(Arc {
-            plane: Fact::Known(self.plane),
-            turn: if ccw { Turn::Counterclockwise } else { Turn::Clockwise },
-            to,
-            centre: Centre::Point { words, from: CentreFrom::Zero },
-            turns: turns.into(),
-            said: true,
-        }))
-    }
-
-    /// Puts the end of a held move where it is now known to be.
-    fn settle(&self, held: &mut Stmt, end: Spot) {
-        let to = match &mut held.op {
-            Op::StraightTraverse(m) | Op::StraightFeed(m) => &mut m.to,
-            Op::ArcFeed(arc) => &mut arc.to,
-            _ => return,
-        };
-        *to = self.spot(end, std::mem::take(to));
     }
 }

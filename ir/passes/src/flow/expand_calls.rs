@@ -250,48 +250,9 @@ pub(crate) fn settle(op: &mut Op, here: &Tracker) {
             settle_coord(&mut cycle.depth, here);
             cycle.reference.iter_mut().chain(&mut cycle.return_plane).for_each(|c| settle_coord(c, here));
             cycle.feed.iter_mut().for_each(|f| settle_expr(f, here));
-            match &mut cycle.kind {
-                CycleKind::DrillPeck { peck, first, less, clearance, .. }
-                | CycleKind::DrillBreak { peck, first, less, lift: clearance, .. } => {
-                    settle_expr(peck, here);
-                    first.iter_mut().chain(less).for_each(|f| settle_expr(f, here));
-                    if let Clearance::Stated(clearance) = clearance {
-                        settle_expr(clearance, here);
-                    }
-                }
-                CycleKind::Bore { feed_out, .. } => {
-                    feed_out.iter_mut().for_each(|f| settle_expr(f, here));
-                }
-                kind @ (CycleKind::Tap(_) | CycleKind::FineBore(_)) => {
-                    let settled: Result<(), std::convert::Infallible> = kind.each_length(|e| {
-                        settle_expr(e, here);
-                        Ok(())
-                    });
-                    settled.unwrap_or_else(|never| match never {});
-                }
-                CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::BoreStop(_) => {}
-            }
+            settle_kind(&mut cycle.kind, here);
         }
-        Op::Pattern(pattern) => match &mut **pattern {
-            Pattern::Circle { centre, first, .. } => {
-                centre.iter_mut().flatten().for_each(|c| settle_coord(c, here));
-                match first {
-                    First::At(first) => first.iter_mut().for_each(|c| settle_coord(c, here)),
-                    First::Polar { radius, .. } => settle_expr(radius, here),
-                }
-            }
-            Pattern::Line { start, offset, pitch, .. } => {
-                start.iter_mut().flatten().for_each(|c| settle_coord(c, here));
-                settle_expr(offset, here);
-                settle_expr(pitch, here);
-            }
-            Pattern::List(points) => points.iter_mut().for_each(|p| settle_point(p, here)),
-            Pattern::Grid { start, columns, rows, .. } => {
-                start.iter_mut().flatten().for_each(|c| settle_coord(c, here));
-                settle_expr(&mut columns.pitch, here);
-                settle_expr(&mut rows.pitch, here);
-            }
-        },
+        Op::Pattern(pattern) => settle_pattern(pattern, here),
         Op::ArcForm(arc) => {
             settle_fact(&mut arc.plane, here.modes.plane);
             settle_point(&mut arc.to, here);
@@ -361,6 +322,55 @@ pub(crate) fn settle(op: &mut Op, here: &Tracker) {
             if let Op::Corner { size, .. } = op {
                 settle_expr(size, here);
             }
+        }
+    }
+}
+
+/// The lengths of a kind of cycle.
+fn settle_kind(kind: &mut CycleKind, here: &Tracker) {
+    match kind {
+        CycleKind::DrillPeck { peck, first, less, clearance, .. }
+        | CycleKind::DrillBreak { peck, first, less, lift: clearance, .. } => {
+            settle_expr(peck, here);
+            first.iter_mut().chain(less).for_each(|f| settle_expr(f, here));
+            if let Clearance::Stated(clearance) = clearance {
+                settle_expr(clearance, here);
+            }
+        }
+        CycleKind::Bore { feed_out, .. } => {
+            feed_out.iter_mut().for_each(|f| settle_expr(f, here));
+        }
+        kind @ (CycleKind::Tap(_) | CycleKind::FineBore(_)) => {
+            let settled: Result<(), std::convert::Infallible> = kind.each_length(|e| {
+                settle_expr(e, here);
+                Ok(())
+            });
+            settled.unwrap_or_else(|never| match never {});
+        }
+        CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::BoreStop(_) => {}
+    }
+}
+
+/// The words of a pattern of holes.
+fn settle_pattern(pattern: &mut Pattern, here: &Tracker) {
+    match pattern {
+        Pattern::Circle { centre, first, .. } => {
+            centre.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+            match first {
+                First::At(first) => first.iter_mut().for_each(|c| settle_coord(c, here)),
+                First::Polar { radius, .. } => settle_expr(radius, here),
+            }
+        }
+        Pattern::Line { start, offset, pitch, .. } => {
+            start.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+            settle_expr(offset, here);
+            settle_expr(pitch, here);
+        }
+        Pattern::List(points) => points.iter_mut().for_each(|p| settle_point(p, here)),
+        Pattern::Grid { start, columns, rows, .. } => {
+            start.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+            settle_expr(&mut columns.pitch, here);
+            settle_expr(&mut rows.pitch, here);
         }
     }
 }

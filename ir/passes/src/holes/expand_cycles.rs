@@ -93,32 +93,7 @@ pub(crate) fn over(
         match &stmt.op {
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
-                let [kept, doubt] = in_force_before(walk).map(|is| is && !state.expanding);
-                walk.step(&stmt);
-                let must = match &walk.at.cycle {
-                    // Cycles called up one after another share the initial level.
-                    Some(_) if state.expanding => true,
-                    Some(now) => must_expand(walk, now, kept || doubt, target, stmt.span, diags),
-                    None => false,
-                };
-                if !must {
-                    state.pay(&mut stmt, made);
-                    state.expanding = false;
-                    return made.push(stmt);
-                }
-                told(&stmt, target, diags);
-                state.expanding = true;
-                if stmt.skip.is_some() || feed.is_none() {
-                    state.pay(&mut stmt, made);
-                }
-                let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
-                state.owed = feed.clone().map(owed);
-                state.feed = feed;
-                if kept {
-                    made.replace(stmt, [(true, Op::EndCycle)]);
-                } else {
-                    made.leave_out(stmt);
-                }
+                state.start(stmt, feed, walk, target, made, diags);
             }
             Op::Polar(polar) if state.expanding && matches!(polar.op, Op::Hole(_) | Op::Position(_)) => {
                 match polar_places::by_coordinates(polar, walk, target) {
@@ -210,6 +185,44 @@ impl ExpandCyclesState {
             stmt.skip = owed.skip;
             made.push(stmt);
             next.joined = false;
+        }
+    }
+
+    /// A cycle that is called up: told and expanded from here on, if the target cannot say it.
+    fn start(
+        &mut self,
+        mut stmt: Stmt,
+        feed: Option<Expr>,
+        walk: &mut Walk,
+        target: &Target,
+        made: &mut Rebuild,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let [kept, doubt] = in_force_before(walk).map(|is| is && !self.expanding);
+        walk.step(&stmt);
+        let must = match &walk.at.cycle {
+            // Cycles called up one after another share the initial level.
+            Some(_) if self.expanding => true,
+            Some(now) => must_expand(walk, now, kept || doubt, target, stmt.span, diags),
+            None => false,
+        };
+        if !must {
+            self.pay(&mut stmt, made);
+            self.expanding = false;
+            return made.push(stmt);
+        }
+        told(&stmt, target, diags);
+        self.expanding = true;
+        if stmt.skip.is_some() || feed.is_none() {
+            self.pay(&mut stmt, made);
+        }
+        let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
+        self.owed = feed.clone().map(owed);
+        self.feed = feed;
+        if kept {
+            made.replace(stmt, [(true, Op::EndCycle)]);
+        } else {
+            made.leave_out(stmt);
         }
     }
 
@@ -346,23 +359,7 @@ pub(crate) fn hole(
     {
         return Err(Fault::CycleUpsideDown);
     }
-    let out = match cycle.return_level.known().or(here.modes.return_level) {
-        _ if let Some(plane) = &cycle.return_plane => {
-            let same = in_force.return_plane.is_some() && in_force.return_plane == in_force.retract;
-            let word = level(walk, plane, in_force.return_plane, normal)?;
-            (!same).then(|| only(normal, word))
-        }
-        Some(ReturnLevel::Retract) => None,
-        Some(ReturnLevel::Initial) => {
-            let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
-            let initial = match (cycle.approach, in_force.retract) {
-                (Approach::RaiseFirst | Approach::ClearFirst, None) => return Err(unknown.clone()),
-                (way, retract) => way.initial(initial, retract.unwrap_or(initial)),
-            };
-            (in_force.retract != Some(initial)).then(|| only(normal, at(initial, normal, walk.unit())))
-        }
-        None => return Err(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }),
-    };
+    let out = way_out(walk, in_force, normal)?;
 
     // 1. To the retract plane above the hole.
     let mut aside = to.clone();
@@ -452,7 +449,37 @@ pub(crate) fn hole(
     }
 
     // 3. Out.
-    match (&cycle.kind, out) {
+    leave(&cycle.kind, retract, out, moves);
+    Ok(())
+}
+
+/// Where the tool is left above the hole, if that is not the retract plane.
+fn way_out(walk: &Walk, in_force: &InForce, normal: Axis) -> Result<Option<Point>, Fault> {
+    let cycle = &in_force.cycle;
+    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
+    match cycle.return_level.known().or(walk.at.modes.return_level) {
+        _ if let Some(plane) = &cycle.return_plane => {
+            let same = in_force.return_plane.is_some() && in_force.return_plane == in_force.retract;
+            let word = level(walk, plane, in_force.return_plane, normal)?;
+            Ok((!same).then(|| only(normal, word)))
+        }
+        Some(ReturnLevel::Retract) => Ok(None),
+        Some(ReturnLevel::Initial) => {
+            let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
+            let initial = match (cycle.approach, in_force.retract) {
+                (Approach::RaiseFirst | Approach::ClearFirst, None) => return Err(unknown),
+                (way, retract) => way.initial(initial, retract.unwrap_or(initial)),
+            };
+            let differs = in_force.retract != Some(initial);
+            Ok(differs.then(|| only(normal, at(initial, normal, walk.unit()))))
+        }
+        None => Err(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }),
+    }
+}
+
+/// Out of the hole, to the retract plane or where the tool is left.
+fn leave(kind: &CycleKind, retract: Point, out: Option<Point>, moves: &mut Vec<(bool, Op)>) {
+    match (kind, out) {
         (CycleKind::Bore { feed_out, to_level, .. }, out) => {
             if let Some(feed) = feed_out {
                 moves.push((false, Op::SetFeedRate(feed.clone())));
@@ -467,5 +494,4 @@ pub(crate) fn hole(
         }
         (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),
     }
-    Ok(())
 }

@@ -11,14 +11,27 @@ use crate::Target;
 use crate::holes::sayable::lasts;
 use crate::support::walk::Walk;
 use crate::support::write::{cut, exact, traverse, unit_of};
-use ncc_ir::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle};
+use ncc_ir::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn};
 use ncc_ir::caps::{CycleCap, CycleForm};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
-use ncc_ir::program::cycle::{Cycle, CycleKind, Shift, Tap, absolute};
+use ncc_ir::program::cycle::{BoreStop, Cycle, CycleKind, FineBore, Shift, Tap, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Synchronised};
 use ncc_ir::track::InForce;
+
+/// A hole in which the cycle drives the spindle, from the retract plane on.
+struct Driven<'h> {
+    walk: &'h Walk,
+    in_force: &'h InForce,
+    to: &'h Point,
+    retract: Point,
+    depth: Point,
+    /// Where the tool is left, if that is not the retract plane.
+    out: Option<Point>,
+    plane: Plane,
+    target: &'h Target,
+}
 
 /// The moves of a hole in which the cycle drives the spindle, from the retract plane on.
 pub(crate) fn with_spindle(
@@ -32,168 +45,201 @@ pub(crate) fn with_spindle(
 ) -> Result<(), Fault> {
     let plane =
         walk.at.plane(in_force.cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
-    let normal = plane.axes().2;
-    let dwell = |seconds: &Option<Expr>, moves: &mut Vec<(bool, Op)>| {
-        if let Some(seconds) = seconds.as_ref().filter(|seconds| lasts(seconds)) {
-            moves.push((false, Op::Dwell(seconds.clone())));
-        }
-    };
-    let turn_it = |to: Spindle| {
-        (
-            false,
-            match to {
-                Spindle::Stopped => Op::StopSpindleTurning,
-                Spindle::Clockwise => Op::StartSpindleClockwise,
-                Spindle::Counterclockwise => Op::StartSpindleCounterclockwise,
-            },
-        )
-    };
-    let turned = |after: Option<Spindle>| match after.or(walk.at.spindle) {
-        Some(spindle) => Ok(turn_it(spindle)),
-        None => {
-            let what = "a cycle after which the spindle turns as before, which is not known";
-            Err(Fault::CannotSay { what: what.into() })
-        }
-    };
+    let hole = Driven { walk, in_force, to, retract, depth, out, plane, target };
     match &in_force.cycle.kind {
-        CycleKind::Tap(tap) => {
-            let ends = [&retract, &depth];
-            let own = out.as_ref().and_then(|_| own_tap(in_force, &in_force.cycle.kind, plane, ends, target));
-            // A dwell at the retract plane follows a cycle that has none there.
-            let settle = tap.settle.as_ref().filter(|_| !tap.chuck);
-            let alone = Tap { settle: None, after: Spindle::Stopped, ..(**tap).clone() };
-            let settled = || own_tap(in_force, &CycleKind::Tap(Box::new(alone)), plane, ends, target);
-            let (own, settle) = match (own, settle) {
-                (Some(own), _) => (Some(own), None),
-                (None, Some(settle)) => (settled(), Some(settle.clone())),
-                (None, None) => (None, None),
-            };
-            if let Some(own) = own {
-                moves.push((false, Op::StartCycle(Box::new(own))));
-                moves.push((true, Op::Hole(Move { to: Point::default(), said: true })));
-                moves.push((false, Op::EndCycle));
-                let starts = settle.is_some() && tap.after != Spindle::Stopped;
-                dwell(&settle, moves);
-                moves.extend(out.map(|out| (false, traverse(out))));
-                if starts {
-                    moves.push(turn_it(tap.after));
-                }
-                return Ok(());
+        CycleKind::Tap(tap) => match hole.own_cycle(tap) {
+            Some((own, settle)) => {
+                hole.in_one_call(tap, own, settle, moves);
+                Ok(())
             }
-            let threads = target.caps.moves.threads;
-            let says = if tap.chuck { threads.chuck } else { threads.turned || threads.back };
-            if !threads.any && !says {
-                let what = match tap.settle == tap.dwell && tap.back.is_none() {
-                    true => format!("the cycle {} in this form", in_force.cycle.kind.name()),
-                    false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
-                };
-                return Err(Fault::CannotSay { what: what.into() });
-            }
-            let step = |to: &Point, turn| {
-                let (to, pitch) = (to.clone(), tap.pitch.clone());
-                let turn = (!tap.chuck).then_some(turn);
-                (
-                    false,
-                    Op::SynchronisedFeed(Box::new(Synchronised {
-                        to,
-                        pitch,
-                        chuck: tap.chuck,
-                        turn,
-                        back: false,
-                    })),
-                )
-            };
-            moves.push(step(&depth, tap.turn));
-            dwell(&tap.dwell, moves);
-            if tap.chuck {
-                moves.push(turn_it(tap.turn.back().spindle()));
-                dwell(&tap.back, moves);
-            } else if tap.back.as_ref().is_some_and(lasts) {
-                let what = "a rigid tap that dwells when the spindle has turned round".into();
-                return Err(Fault::CannotSay { what });
-            }
-            let (end, out) = match out {
-                Some(out) if tap.to_level => (out, None),
-                out => (retract, out),
-            };
-            moves.push(step(&end, tap.turn.back()));
-            dwell(&tap.settle, moves);
-            if tap.chuck {
-                moves.push(turn_it(tap.after));
-            }
-            moves.extend(out.map(|out| (false, traverse(out))));
-            if !tap.chuck && tap.after != Spindle::Stopped {
-                moves.push(turn_it(tap.after));
-            }
-        }
-        CycleKind::FineBore(bore) => {
-            moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
-            moves.push((false, cut(depth)));
-            dwell(&bore.dwell, moves);
-            let angle = bore.angle.clone().or_else(|| target.orientation.map(Expr::Num));
-            moves.push((false, Op::OrientSpindle(angle)));
-            let by = off_the_wall(&bore.shift, plane, target)?;
-            let (mut aside, mut back) = (Point::default(), Point::default());
-            for axis in [Axis::X, Axis::Y, Axis::Z] {
-                let Some(by) = &by[axis as usize] else { continue };
-                let (Some(by), Expr::Num(num)) = (walk.at.nanos(by), by) else {
-                    return Err(Fault::CannotSay { what: "a computed shift".into() });
-                };
-                if by == 0 {
-                    continue;
-                }
-                let word =
-                    |num: Num| Coord { value: num.into(), distance: Fact::Known(Distance::Incremental) };
-                let unit = unit_of(axis, walk.unit());
-                let foot = match (axis == normal, to.get(axis)) {
-                    (true, _) => in_force.depth,
-                    (false, Some(word)) => walk.at.resolve(word, walk.at.position[axis as usize]),
-                    (false, None) => walk.at.position[axis as usize],
-                };
-                aside.set(
-                    axis,
-                    match foot.and_then(|foot| foot.checked_add(by)) {
-                        Some(place) => absolute(exact(place, unit)),
-                        None => word(*num),
-                    },
-                );
-                if axis != normal {
-                    back.set(
-                        axis,
-                        match foot {
-                            Some(foot) => absolute(exact(foot, unit)),
-                            None => word(Num { mantissa: -num.mantissa, ..*num }),
-                        },
-                    );
-                }
-            }
-            if !aside.is_empty() {
-                moves.push((false, traverse(aside)));
-            }
-            moves.push((false, traverse(out.unwrap_or(retract))));
-            if !back.is_empty() {
-                moves.push((false, traverse(back)));
-            }
-            moves.push(turned(bore.after)?);
-        }
-        CycleKind::BoreStop(bore) => {
-            moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
-            moves.push((false, cut(depth)));
-            dwell(&bore.dwell, moves);
-            moves.push((false, Op::StopSpindleTurning));
-            if bore.stop {
-                moves.push((false, Op::ProgramStop));
-            }
-            moves.push((false, traverse(out.unwrap_or(retract))));
-            moves.push(turned(bore.after)?);
-        }
+            None => hole.tap(tap, moves),
+        },
+        CycleKind::FineBore(bore) => hole.fine_bore(bore, moves),
+        CycleKind::BoreStop(bore) => hole.bore_stop(bore, moves),
         CycleKind::Drill
         | CycleKind::DrillDwell { .. }
         | CycleKind::DrillPeck { .. }
         | CycleKind::DrillBreak { .. }
-        | CycleKind::Bore { .. } => {}
+        | CycleKind::Bore { .. } => Ok(()),
     }
-    Ok(())
+}
+
+/// A dwell that is one.
+fn dwell(seconds: &Option<Expr>, moves: &mut Vec<(bool, Op)>) {
+    if let Some(seconds) = seconds.as_ref().filter(|seconds| lasts(seconds)) {
+        moves.push((false, Op::Dwell(seconds.clone())));
+    }
+}
+
+/// The spindle switched.
+fn turn_it(to: Spindle) -> (bool, Op) {
+    let op = match to {
+        Spindle::Stopped => Op::StopSpindleTurning,
+        Spindle::Clockwise => Op::StartSpindleClockwise,
+        Spindle::Counterclockwise => Op::StartSpindleCounterclockwise,
+    };
+    (false, op)
+}
+
+/// A move of a tap in step with the spindle.
+fn in_step(tap: &Tap, to: Point, turn: Turn) -> Op {
+    Op::SynchronisedFeed(Box::new(Synchronised {
+        to,
+        pitch: tap.pitch.clone(),
+        chuck: tap.chuck,
+        turn: (!tap.chuck).then_some(turn),
+        back: false,
+    }))
+}
+
+impl Driven<'_> {
+    /// The spindle after the hole, which may turn as before.
+    fn turned(&self, after: Option<Spindle>) -> Result<(bool, Op), Fault> {
+        match after.or(self.walk.at.spindle) {
+            Some(spindle) => Ok(turn_it(spindle)),
+            None => {
+                let what = "a cycle after which the spindle turns as before, which is not known";
+                Err(Fault::CannotSay { what: what.into() })
+            }
+        }
+    }
+
+    /// The cycle with which the target taps the hole, and a dwell that follows it.
+    fn own_cycle(&self, tap: &Tap) -> Option<(Cycle, Option<Expr>)> {
+        let ends = [&self.retract, &self.depth];
+        let own = self
+            .out
+            .as_ref()
+            .and_then(|_| own_tap(self.in_force, &self.in_force.cycle.kind, self.plane, ends, self.target));
+        // A dwell at the retract plane follows a cycle that has none there.
+        let settle = tap.settle.as_ref().filter(|_| !tap.chuck);
+        let alone = Tap { settle: None, after: Spindle::Stopped, ..tap.clone() };
+        let settled =
+            || own_tap(self.in_force, &CycleKind::Tap(Box::new(alone)), self.plane, ends, self.target);
+        match (own, settle) {
+            (Some(own), _) => Some((own, None)),
+            (None, Some(settle)) => settled().map(|own| (own, Some(settle.clone()))),
+            (None, None) => None,
+        }
+    }
+
+    /// The target's own cycle, called once, and what follows it.
+    fn in_one_call(self, tap: &Tap, own: Cycle, settle: Option<Expr>, moves: &mut Vec<(bool, Op)>) {
+        moves.push((false, Op::StartCycle(Box::new(own))));
+        moves.push((true, Op::Hole(Move { to: Point::default(), said: true })));
+        moves.push((false, Op::EndCycle));
+        let starts = settle.is_some() && tap.after != Spindle::Stopped;
+        dwell(&settle, moves);
+        moves.extend(self.out.map(|out| (false, traverse(out))));
+        if starts {
+            moves.push(turn_it(tap.after));
+        }
+    }
+
+    /// A tap by moves in step with the spindle.
+    fn tap(self, tap: &Tap, moves: &mut Vec<(bool, Op)>) -> Result<(), Fault> {
+        let threads = self.target.caps.moves.threads;
+        let says = if tap.chuck { threads.chuck } else { threads.turned || threads.back };
+        if !threads.any && !says {
+            let what = match tap.settle == tap.dwell && tap.back.is_none() {
+                true => format!("the cycle {} in this form", self.in_force.cycle.kind.name()),
+                false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
+            };
+            return Err(Fault::CannotSay { what: what.into() });
+        }
+        moves.push((false, in_step(tap, self.depth, tap.turn)));
+        dwell(&tap.dwell, moves);
+        if tap.chuck {
+            moves.push(turn_it(tap.turn.back().spindle()));
+            dwell(&tap.back, moves);
+        } else if tap.back.as_ref().is_some_and(lasts) {
+            let what = "a rigid tap that dwells when the spindle has turned round".into();
+            return Err(Fault::CannotSay { what });
+        }
+        let (end, out) = match self.out {
+            Some(out) if tap.to_level => (out, None),
+            out => (self.retract, out),
+        };
+        moves.push((false, in_step(tap, end, tap.turn.back())));
+        dwell(&tap.settle, moves);
+        if tap.chuck {
+            moves.push(turn_it(tap.after));
+        }
+        moves.extend(out.map(|out| (false, traverse(out))));
+        if !tap.chuck && tap.after != Spindle::Stopped {
+            moves.push(turn_it(tap.after));
+        }
+        Ok(())
+    }
+
+    /// Boring that is left off the wall, with the spindle turned to an angle.
+    fn fine_bore(self, bore: &FineBore, moves: &mut Vec<(bool, Op)>) -> Result<(), Fault> {
+        let normal = self.plane.axes().2;
+        let turned = self.turned(bore.after);
+        moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
+        moves.push((false, cut(self.depth)));
+        dwell(&bore.dwell, moves);
+        let angle = bore.angle.clone().or_else(|| self.target.orientation.map(Expr::Num));
+        moves.push((false, Op::OrientSpindle(angle)));
+        let by = off_the_wall(&bore.shift, self.plane, self.target)?;
+        let (mut aside, mut back) = (Point::default(), Point::default());
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let Some(by) = &by[axis as usize] else { continue };
+            let (Some(by), Expr::Num(num)) = (self.walk.at.nanos(by), by) else {
+                return Err(Fault::CannotSay { what: "a computed shift".into() });
+            };
+            if by == 0 {
+                continue;
+            }
+            let word = |num: Num| Coord { value: num.into(), distance: Fact::Known(Distance::Incremental) };
+            let unit = unit_of(axis, self.walk.unit());
+            let foot = match (axis == normal, self.to.get(axis)) {
+                (true, _) => self.in_force.depth,
+                (false, Some(word)) => self.walk.at.resolve(word, self.walk.at.position[axis as usize]),
+                (false, None) => self.walk.at.position[axis as usize],
+            };
+            aside.set(
+                axis,
+                match foot.and_then(|foot| foot.checked_add(by)) {
+                    Some(place) => absolute(exact(place, unit)),
+                    None => word(*num),
+                },
+            );
+            if axis != normal {
+                back.set(
+                    axis,
+                    match foot {
+                        Some(foot) => absolute(exact(foot, unit)),
+                        None => word(Num { mantissa: -num.mantissa, ..*num }),
+                    },
+                );
+            }
+        }
+        if !aside.is_empty() {
+            moves.push((false, traverse(aside)));
+        }
+        moves.push((false, traverse(self.out.unwrap_or(self.retract))));
+        if !back.is_empty() {
+            moves.push((false, traverse(back)));
+        }
+        moves.push(turned?);
+        Ok(())
+    }
+
+    /// Boring that is left with a stopped spindle.
+    fn bore_stop(self, bore: &BoreStop, moves: &mut Vec<(bool, Op)>) -> Result<(), Fault> {
+        let turned = self.turned(bore.after);
+        moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
+        moves.push((false, cut(self.depth)));
+        dwell(&bore.dwell, moves);
+        moves.push((false, Op::StopSpindleTurning));
+        if bore.stop {
+            moves.push((false, Op::ProgramStop));
+        }
+        moves.push((false, traverse(self.out.unwrap_or(self.retract))));
+        moves.push(turned?);
+        Ok(())
+    }
 }
 
 /// The cycle with which a target taps one hole over which the tool stands at the retract plane, to leave it

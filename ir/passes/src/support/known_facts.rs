@@ -11,19 +11,23 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use self::called_up::call_up_all;
+use self::held::Held;
 use crate::flow::expand_calls::{settle, settle_point};
-use crate::values::known_answers::{self, Saved};
-use ncc_ir::canon::{AXES, Modes, Motion};
+use crate::values::known_answers;
+use ncc_ir::canon::Modes;
 use ncc_ir::computed::computes::Computes;
 use ncc_ir::expr::Target;
-use ncc_ir::program::arguments;
-use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::kinds::flow;
-use ncc_ir::program::{Attribute, Control, Op, PathControl, Procedure, Program, Stmt, Text};
+use ncc_ir::program::{Attribute, Call, Control, Op, PathControl, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
 
 mod active_cycles;
-pub use active_cycles::ActiveCycles;
+mod called_up;
+mod held;
+
+pub use self::active_cycles::ActiveCycles;
+pub use self::called_up::has_bare_holes;
 
 /// Most times that a program is gone through; one that needs more keeps what it says.
 const MOST_ROUNDS: u32 = 24;
@@ -74,39 +78,6 @@ impl Known {
 /// the program with its facts put in.
 pub(crate) fn holes(program: &mut Program, known: &Known) {
     call_up_all(program, &known.cycles, false);
-}
-
-/// Has holes call up their cycles. Where all of them do, in whatever program, what has called them up is left out.
-fn call_up_all(program: &mut Program, cycles: &HashMap<u32, Option<Called>>, bare: bool) {
-    let calls = calls_of(program);
-    let (mut any, mut all) = (false, true);
-    for Procedure { body, .. } in &mut program.procedures {
-        let served = call_up(body, (cycles, &calls), bare);
-        any |= served;
-        all &= served || !has_bare_holes(body);
-    }
-    if any && all {
-        program.procedures.iter_mut().for_each(|procedure| without_holes(&mut procedure.body));
-    }
-}
-
-/// The calls of cycles, by their places.
-fn calls_of(program: &Program) -> HashMap<u32, Cycle> {
-    fn over(body: &[Stmt], out: &mut HashMap<u32, Cycle>) {
-        for stmt in body {
-            match &stmt.op {
-                Op::StartCycle(cycle) => out.insert(stmt.span.start, (**cycle).clone()),
-                Op::Control(control) => {
-                    control.bodies().for_each(|body| over(body, out));
-                    None
-                }
-                _ => None,
-            };
-        }
-    }
-    let mut out = HashMap::new();
-    program.procedures.iter().for_each(|procedure| over(&procedure.body, &mut out));
-    out
 }
 
 /// Leaves such holes to what is in force, for a target that keeps it in loops as the source does. Tells whether there
@@ -213,195 +184,6 @@ fn places(program: &Program) -> HashMap<Text, usize> {
         places.entry(procedure.name.clone()).or_insert(at);
     }
     places
-}
-
-/// What holds at a place.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Held {
-    at: Tracker,
-    /// How corners are taken, if the program has said it.
-    path: Option<Box<PathControl>>,
-    /// Whether the cycle in force is as its block has called it up: the same words would call up the same.
-    as_called: bool,
-    /// The place of that block, and what holds there.
-    called_at: (u32, Modes),
-    /// Variables that have whole numbers, such as saved codes in force.
-    saved: Saved,
-}
-
-impl Held {
-    fn join(&mut self, other: &Held) {
-        self.at.join(&other.at);
-        if self.path != other.path {
-            self.path = None;
-        }
-        self.as_called &= other.as_called && self.called_at == other.called_at;
-        self.saved.join(&other.saved);
-    }
-
-    /// The cycle in force, if it is known and as it was called up.
-    fn cycle(&self) -> Option<Called> {
-        let in_force = self.at.cycle.is_some() && !self.at.cycle_in_doubt;
-        let sure = self.as_called && self.at.modes.motion == Some(Motion::Cycle);
-        let (at, with) = self.called_at;
-        (sure && in_force).then_some(Called { at, with, modes: self.at.modes })
-    }
-
-    /// Behind a call that gives back what its caller had.
-    fn given_back(mut self, caller: &Held) -> Held {
-        let (own, before) = (&mut self.at, &caller.at);
-        let (modes, had) = (&mut own.modes, &before.modes);
-        modes.motion = had.motion;
-        modes.distance = had.distance;
-        modes.units = had.units;
-        modes.plane = had.plane;
-        modes.feed_mode = had.feed_mode;
-        modes.work_offset = had.work_offset;
-        (own.framed, own.chained, own.turned) = (before.framed, before.chained, before.turned);
-        own.turning = before.turning;
-        (own.chain, own.chain_turned) = (before.chain, before.chain_turned);
-        own.compensated = before.compensated;
-        // They were those of its own frames.
-        own.position = [None; AXES];
-        self.path.clone_from(&caller.path);
-        self
-    }
-
-    /// A variable gets another value.
-    fn sets(&mut self, to: &Target) {
-        self.saved.set(to, None);
-        let Some(in_force) = &self.at.cycle else { return };
-        self.as_called &= !arguments::reads(&Op::StartCycle(Box::new(in_force.cycle.clone())), to);
-    }
-
-    fn apply(&mut self, op: &Op, at: u32) {
-        if let Op::Assign(to, value) = op {
-            self.sets(to);
-            self.saved.set(to, known_answers::worth(value, &self.at.modes));
-        } else if let Op::Declare(_) = op {
-            self.saved.forget();
-        } else if matches!(op, Op::StartCycle(_)) {
-            (self.as_called, self.called_at) = (true, (at, self.at.modes));
-        } else if let Op::SetMotionControlMode(control) = op {
-            self.path = Some(control.clone());
-            self.as_called = false;
-        } else if !matches!(
-            op,
-            Op::Hole(_)
-                | Op::Position(_)
-                | Op::Pattern(_)
-                | Op::SetDistanceMode(_)
-                | Op::Comment(_)
-                | Op::NoEffect(_)
-                | Op::Blank
-                | Op::Message(_)
-                | Op::MessageOf(_)
-                | Op::Output(_)
-                | Op::FloodOn
-                | Op::MistOn
-                | Op::CoolantOff
-        ) {
-            self.as_called = false;
-        }
-        self.at.apply(op);
-    }
-}
-
-/// Which cycles are in force at holes, and their calls.
-type Calls<'c> = (&'c HashMap<u32, Option<Called>>, &'c HashMap<u32, Cycle>);
-
-/// Holes at which a cycle is in force call it up by themselves; with `bare`, words too of which only the run knows
-/// that they are holes. Tells whether there are any, and all of them do.
-fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
-    let mut out = Vec::with_capacity(body.len());
-    let (mut any, mut all, mut called) = (false, true, false);
-    for mut stmt in std::mem::take(body) {
-        called &= !matches!(stmt.op, flow!());
-        called |= matches!(stmt.op, Op::StartCycle(_));
-        if let Op::Control(control) = &mut stmt.op {
-            for body in control.bodies_mut() {
-                let (served, holes) = (call_up(body, from, bare), has_bare_holes(body));
-                any |= served;
-                all &= served || !holes;
-            }
-        }
-        let hole = match &stmt.op {
-            Op::Position(to) if bare => Some(Op::Hole(to.clone())),
-            Op::Position(_) => {
-                all = false;
-                None
-            }
-            Op::Hole(_) | Op::Pattern(_) if !called => Some(stmt.op.clone()),
-            _ => None,
-        };
-        let called = from.0.get(&stmt.span.start).copied().flatten();
-        match (hole, called.and_then(|called| Some((called, from.1.get(&called.at)?)))) {
-            (Some(mut hole), Some((called, cycle))) => {
-                any = true;
-                let mut cycle = Op::StartCycle(Box::new(cycle.clone()));
-                settle(&mut cycle, &Tracker::new(called.with));
-                settle(&mut hole, &Tracker::new(called.modes));
-                let hole = Stmt { op: hole, joined: true, number: None, ..stmt.clone() };
-                out.push(Stmt { op: cycle, comment: None, ..stmt });
-                out.push(hole);
-            }
-            (hole, _) => {
-                all &= hole.is_none();
-                out.push(stmt);
-            }
-        }
-    }
-    *body = out;
-    any && all
-}
-
-/// Whether holes stand in a stretch before any cycle has been called up there.
-pub fn has_bare_holes(body: &[Stmt]) -> bool {
-    let mut called = false;
-    body.iter().any(|stmt| {
-        called &= !matches!(stmt.op, flow!());
-        match &stmt.op {
-            Op::StartCycle(_) => {
-                called = true;
-                false
-            }
-            Op::Hole(_) | Op::Pattern(_) => !called,
-            Op::Position(_) => true,
-            Op::Control(control) => control.bodies().any(|body| has_bare_holes(body)),
-            _ => false,
-        }
-    })
-}
-
-/// Whether programs are called here, or blocks repeated.
-fn has_calls(stmt: &Stmt) -> bool {
-    match &stmt.op {
-        Op::Call(_) | Op::RepeatBlocks(_) => true,
-        Op::Control(control) => control.bodies().flatten().any(has_calls),
-        _ => false,
-    }
-}
-
-/// Calls of cycles that make no hole before control goes another way leave their feed alone behind.
-fn without_holes(body: &mut [Stmt]) {
-    let mut idle = None;
-    for at in 0..body.len() {
-        match &mut body[at].op {
-            Op::StartCycle(_) => idle = Some(at),
-            Op::Hole(_) | Op::Pattern(_) | Op::Position(_) => idle = None,
-            op if matches!(op, flow!()) => {
-                if let Op::Control(control) = op {
-                    control.bodies_mut().for_each(|body| without_holes(body));
-                }
-                if let Some(call) = idle.take().filter(|_| !has_calls(&body[at]))
-                    && let Op::StartCycle(cycle) = &mut body[call].op
-                {
-                    body[call].op = cycle.feed.take().map_or(Op::Blank, Op::SetFeedRate);
-                }
-            }
-            _ => {}
-        }
-    }
 }
 
 /// Ways into and out of a procedure.
@@ -551,34 +333,7 @@ impl Flow<'_> {
                 None
             }
             Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_) => None,
-            Op::Call(call) => {
-                let found = *self.names.get(&call.name)?;
-                let called = &mut self.ways[found];
-                // A cycle in force is its caller's, which says it once.
-                let shared = call.shared;
-                let enters =
-                    |held: Held| Held { as_called: false, saved: held.saved.entered(shared), ..held };
-                let entered = state.clone().map(enters);
-                self.changed |= meet(&mut called.entry, entered.as_ref());
-                // What is called more than once begins again with what it has left.
-                let again = called.exit.clone().filter(|_| call.times > 1 && state.is_some()).map(enters);
-                self.changed |= meet(&mut called.entry, again.as_ref());
-                // Where it leads is known after it has been gone through.
-                let caller = state?;
-                let behind = called.exit.clone();
-                if self.settles {
-                    let at = At {
-                        before: caller.at.clone(),
-                        path: caller.path.clone(),
-                        behind: behind.as_ref().map(|behind| behind.at.clone()),
-                    };
-                    self.calls.insert(stmt.span.start, at);
-                }
-                let gives = self.gives.get(found) == Some(&true);
-                let behind =
-                    behind.map(|behind| Held { saved: behind.saved.left(&caller.saved, shared), ..behind });
-                behind.map(|behind| if gives { behind.given_back(&caller) } else { behind })
-            }
+            Op::Call(call) => self.call(call, stmt.span.start, state),
             Op::RepeatBlocks(_) => state.map(|mut state| {
                 state.at.forget();
                 state.path = None;
@@ -632,6 +387,34 @@ impl Flow<'_> {
                 reached.then_some(state)
             }
         }
+    }
+
+    /// A call that stands at a place: what holds enters what is called, and what that has left goes on.
+    fn call(&mut self, call: &Call, place: u32, state: Option<Held>) -> Option<Held> {
+        let found = *self.names.get(&call.name)?;
+        let called = &mut self.ways[found];
+        // A cycle in force is its caller's, which says it once.
+        let shared = call.shared;
+        let enters = |held: Held| Held { as_called: false, saved: held.saved.entered(shared), ..held };
+        let entered = state.clone().map(enters);
+        self.changed |= meet(&mut called.entry, entered.as_ref());
+        // What is called more than once begins again with what it has left.
+        let again = called.exit.clone().filter(|_| call.times > 1 && state.is_some()).map(enters);
+        self.changed |= meet(&mut called.entry, again.as_ref());
+        // Where it leads is known after it has been gone through.
+        let caller = state?;
+        let behind = called.exit.clone();
+        if self.settles {
+            let at = At {
+                before: caller.at.clone(),
+                path: caller.path.clone(),
+                behind: behind.as_ref().map(|behind| behind.at.clone()),
+            };
+            self.calls.insert(place, at);
+        }
+        let gives = self.gives.get(found) == Some(&true);
+        let behind = behind.map(|behind| Held { saved: behind.saved.left(&caller.saved, shared), ..behind });
+        behind.map(|behind| if gives { behind.given_back(&caller) } else { behind })
     }
 
     fn control(&mut self, control: &mut Control, mut state: Option<Held>) -> Option<Held> {

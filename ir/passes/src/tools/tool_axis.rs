@@ -75,10 +75,10 @@ impl Known {
         self.now == Now::On
     }
 
-    fn set(&mut self, on: bool, skipped: bool) {
-        let to = if on { Now::On } else { Now::Off };
+    /// Notes that it is switched, in a block that may be skipped or not.
+    fn set(&mut self, to: Now, skipped: bool) {
         self.now = if skipped && self.now != to { Now::Unknown } else { to };
-        self.met |= on;
+        self.met |= to == Now::On;
     }
 
     /// After a call, or at the start of what is called.
@@ -103,6 +103,87 @@ impl ToolAxisState {
         let said = self.pair > 0;
         self.pair = self.pair.saturating_sub(1);
         said
+    }
+
+    /// Control of the tip is switched on or off.
+    fn switch_tip(
+        &mut self,
+        stmt: Stmt,
+        behind: Behind,
+        before: &Modes,
+        target: &Target,
+        made: &mut Rebuild,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), &'static str> {
+        let Op::UseToolCentrePoint(on) = stmt.op else { return Ok(()) };
+        let form = target.caps.tools.tip;
+        if on && form == TipForm::None {
+            return Err("control of the tool's tip");
+        }
+        if on && self.tip.left_out {
+            return Err("control of the tool's tip behind an end of it that may have none");
+        }
+        let needless = match (form, on) {
+            (TipForm::None, _) => true,
+            (TipForm::WithLength, true) => self.tip.is_on(),
+            // Where no program before has switched it on, none can be on.
+            (TipForm::WithLength, false) => self.tip.is_off() || !self.tip.met,
+            (TipForm::Apart | TipForm::Any, _) => false,
+        };
+        if needless && !on {
+            self.tip.leave_out();
+        }
+        if on && target.other_control && !std::mem::replace(&mut self.told[0], true) {
+            diags.push(Diagnostic::new(Fault::AssumedTip, stmt.span));
+        }
+        self.tip.set(if on { Now::On } else { Now::Off }, stmt.skip.is_some());
+        if needless {
+            made.leave_out(stmt);
+        } else if form == TipForm::WithLength {
+            with_length(stmt, on, behind, before, self, made)?;
+        } else {
+            made.push(stmt);
+        }
+        Ok(())
+    }
+
+    /// A tilted plane is set, where the tool is turned onto it at a place behind or is not.
+    fn set_tilt(
+        &mut self,
+        stmt: Stmt,
+        oriented: Option<Oriented>,
+        target: &Target,
+        made: &mut Rebuild,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), &'static str> {
+        let form = target.caps.frames.tilt;
+        let said = match &stmt.op {
+            Op::SetSlot(slot) if let Slot::Tilt(tilt) = &**slot => {
+                if form == TiltForm::None {
+                    return Err("a tilted plane");
+                }
+                if self.tilt.left_out {
+                    return Err("a tilted plane behind an end of one that may be none");
+                }
+                said_as(tilt, form)?
+            }
+            _ => {
+                made.push(stmt);
+                return Ok(());
+            }
+        };
+        self.tilt.set(Now::On, stmt.skip.is_some());
+        if target.other_control && !std::mem::replace(&mut self.told[1], true) {
+            diags.push(Diagnostic::new(Fault::AssumedTilt, stmt.span));
+        }
+        let set = Op::SetSlot(Box::new(Slot::Tilt(Box::new(said))));
+        match oriented {
+            Some(at) if form == TiltForm::AxisByAxis => {
+                made.replace(stmt, [(true, set), (true, at.op())]);
+            }
+            Some(_) | None => made.push(Stmt { op: set, ..stmt }),
+        }
+        Ok(())
     }
 
     /// At the start of another body.
@@ -154,40 +235,11 @@ pub(crate) fn over(
         };
         let skipped = stmt.skip.is_some();
         match &stmt.op {
-            Op::UseToolCentrePoint(on) => {
-                let on = *on;
-                if on && caps.tools.tip == TipForm::None {
-                    return refuse("control of the tool's tip");
+            Op::UseToolCentrePoint(_) => {
+                let behind = said_behind.get(place).copied().unwrap_or_default();
+                if let Err(what) = state.switch_tip(stmt, behind, &before, target, made, diags) {
+                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
                 }
-                if on && state.tip.left_out {
-                    return refuse("control of the tool's tip behind an end of it that may have none");
-                }
-                let needless = match (caps.tools.tip, on) {
-                    (TipForm::None, _) => true,
-                    (TipForm::WithLength, true) => state.tip.is_on(),
-                    // Where no program before has switched it on, none can be on.
-                    (TipForm::WithLength, false) => state.tip.is_off() || !state.tip.met,
-                    (TipForm::Apart | TipForm::Any, _) => false,
-                };
-                if needless && !on {
-                    state.tip.leave_out();
-                }
-                let told = &mut state.told[0];
-                if on && target.other_control && !std::mem::replace(told, true) {
-                    diags.push(Diagnostic::new(Fault::AssumedTip, span));
-                }
-                state.tip.set(on, skipped);
-                if needless {
-                    return made.leave_out(stmt);
-                }
-                if caps.tools.tip == TipForm::WithLength {
-                    let behind = said_behind.get(place).copied().unwrap_or_default();
-                    if let Err(what) = with_length(stmt, on, behind, &before, state, made) {
-                        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
-                    }
-                    return;
-                }
-                made.push(stmt);
             }
             Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
                 let entry = number(entry);
@@ -210,28 +262,10 @@ pub(crate) fn over(
                     false => made.push(stmt),
                 }
             }
-            Op::SetSlot(slot) => {
-                let Slot::Tilt(tilt) = &**slot else { return made.push(stmt) };
-                if caps.frames.tilt == TiltForm::None {
-                    return refuse("a tilted plane");
-                }
-                if state.tilt.left_out {
-                    return refuse("a tilted plane behind an end of one that may be none");
-                }
-                let said = match said_as(tilt, caps.frames.tilt) {
-                    Ok(said) => said,
-                    Err(what) => return refuse(what),
-                };
-                state.tilt.set(true, skipped);
-                if target.other_control && !std::mem::replace(&mut state.told[1], true) {
-                    diags.push(Diagnostic::new(Fault::AssumedTilt, span));
-                }
-                let set = Op::SetSlot(Box::new(Slot::Tilt(Box::new(said))));
-                match oriented.get(place).copied().flatten() {
-                    Some(at) if caps.frames.tilt == TiltForm::AxisByAxis => {
-                        made.replace(stmt, [(true, set), (true, at.op())]);
-                    }
-                    Some(_) | None => made.push(Stmt { op: set, ..stmt }),
+            Op::SetSlot(_) => {
+                let oriented = oriented.get(place).copied().flatten();
+                if let Err(what) = state.set_tilt(stmt, oriented, target, made, diags) {
+                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
                 }
             }
             Op::ClearFrame(FrameSlot::Tilt) => {
@@ -243,7 +277,7 @@ pub(crate) fn over(
                 if needless {
                     state.tilt.leave_out();
                 }
-                state.tilt.set(false, skipped);
+                state.tilt.set(Now::Off, skipped);
                 if needless { made.leave_out(stmt) } else { made.push(stmt) }
             }
             Op::OrientToolAxis(_) => match caps.frames.tilt {

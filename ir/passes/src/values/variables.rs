@@ -27,6 +27,7 @@ use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::{Control, Op, Program, Stmt};
 
 use self::renamed::{Digits, Renamed};
+use self::vacancy::Vacant;
 use crate::pass::Pass;
 pub use vacancy::{Question, questions};
 pub use words::Fineness;
@@ -55,9 +56,10 @@ pub fn run(
     if !own || computes.handed != Handed::Names {
         references::copied(program);
     }
+    let vacant = Vacant { there: computes.vacant, here: from.vacant };
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
-        && let Err(refused) = vacancy::resolve(program, computes.vacant, from.vacant, diags)
+        && let Err(refused) = vacancy::resolve(program, vacant, diags)
     {
         diags.push(refused);
         return Renamed::default();

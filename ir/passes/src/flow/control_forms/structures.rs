@@ -5,8 +5,11 @@
 //! branch, a variable of its own says so, and behind the loop or the decision the jump is made by that. Nothing is
 //! executed in another order, or twice. A jump into the middle of a loop goes to its head, and on from there. One that a switch may skip stays.
 
+mod labels;
+
 use std::collections::{BTreeMap, BTreeSet};
 
+use self::labels::{at_place, labels, of_stmt, position, position_from, targets, times, without_labels};
 use crate::flow::control_forms::conditions::opposite;
 use crate::flow::control_forms::ends_elsewhere;
 use crate::flow::control_forms::names::Names;
@@ -28,69 +31,6 @@ pub(super) fn over(procedure: &mut Procedure, names: &mut Names, word: bool) {
     let left = targets(&procedure.body);
     without_labels(&mut procedure.body, &left);
     turn_round(&mut procedure.body, word);
-}
-
-/// Labels to which jumps go from anywhere within.
-fn targets(body: &[Stmt]) -> BTreeSet<Text> {
-    fn look(body: &[Stmt], found: &mut BTreeSet<Text>) {
-        for stmt in body {
-            match &stmt.op {
-                Op::Goto(name) => {
-                    found.insert(name.clone());
-                }
-                Op::Control(control) => control.bodies().for_each(|body| look(body, found)),
-                _ => {}
-            }
-        }
-    }
-    let mut found = BTreeSet::new();
-    look(body, &mut found);
-    found
-}
-
-/// How many jumps to a label there are in a statement.
-fn times(stmt: &Stmt, name: &Text) -> usize {
-    match &stmt.op {
-        Op::Goto(own) => {
-            usize::from(own == name && stmt.skip.is_none()) + 2 * usize::from(stmt.skip.is_some())
-        }
-        Op::Control(control) => control.bodies().flatten().map(|stmt| times(stmt, name)).sum(),
-        _ => 0,
-    }
-}
-
-fn of_stmt(stmt: &Stmt) -> BTreeSet<Text> {
-    targets(std::slice::from_ref(stmt))
-}
-
-/// Labels that stand in a list itself.
-fn labels(body: &[Stmt]) -> BTreeSet<Text> {
-    let label = |stmt: &Stmt| match &stmt.op {
-        Op::Label(name) => Some(name.clone()),
-        _ => None,
-    };
-    body.iter().filter_map(label).collect()
-}
-
-fn position(body: &[Stmt], name: &str) -> Option<usize> {
-    body.iter().position(|stmt| matches!(&stmt.op, Op::Label(own) if **own == *name))
-}
-
-/// The place of a label, of which there is one: looked for from a place on, as a rule it is near.
-fn position_from(body: &[Stmt], from: usize, name: &str) -> Option<usize> {
-    let (before, rest) = body.split_at(from.min(body.len()));
-    position(rest, name).map(|at| before.len() + at).or_else(|| position(before, name))
-}
-
-/// Labels that stand where a place of a list is, and those behind the list if it is its end.
-fn at_place(body: &[Stmt], place: usize, behind: &BTreeSet<Text>) -> BTreeSet<Text> {
-    let rest = &body[place.min(body.len())..];
-    let here = rest.iter().take_while(|stmt| matches!(stmt.op, Op::Label(_))).count();
-    let mut found = labels(&rest[..here]);
-    if here == rest.len() {
-        found.extend(behind.iter().cloned());
-    }
-    found
 }
 
 /// Puts statements in the place of jumps that are in no loop within, by their labels.
@@ -651,33 +591,4 @@ fn with_condition(mut body: Vec<Stmt>, word: bool) -> Control {
         body.push(Stmt::new(span, Op::Control(Box::new(leave))));
     }
     Control::Loop { body }
-}
-
-/// Takes labels away to which nothing goes any more; their numbers and comments stay.
-fn without_labels(body: &mut Vec<Stmt>, targets: &BTreeSet<Text>) {
-    if body.iter().any(|stmt| matches!(stmt.op, Op::RepeatBlocks(_))) {
-        return;
-    }
-    let mut out: Vec<Stmt> = Vec::with_capacity(body.len());
-    let mut begins: Option<Option<u32>> = None;
-    for mut stmt in std::mem::take(body) {
-        if let Some(number) = begins.take() {
-            stmt.joined = false;
-            stmt.number = stmt.number.or(number);
-        }
-        if let Op::Control(control) = &mut stmt.op {
-            control.bodies_mut().for_each(|body| without_labels(body, targets));
-        }
-        match &stmt.op {
-            Op::Label(name) if !targets.contains(name) => {
-                if let Some(comment) = stmt.comment.take() {
-                    out.push(Stmt { op: Op::Comment(*comment), ..stmt });
-                } else if !stmt.joined {
-                    begins = Some(stmt.number);
-                }
-            }
-            _ => out.push(stmt),
-        }
-    }
-    *body = out;
 }

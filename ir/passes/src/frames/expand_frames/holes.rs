@@ -3,7 +3,8 @@
 //!
 //! Refused by name: cycles whose drilling axis the frame turns, mirrors or scales.
 
-use crate::frames::expand_frames::{Frames, NOTHING, cannot, leaves_alone, value_of};
+use crate::frames::expand_frames::now::value_of;
+use crate::frames::expand_frames::{Frames, NOTHING, cannot, leaves_alone};
 use crate::holes::pattern_forms;
 use crate::support::write::{exact, rounded, unit_of};
 use ncc_ir::canon::{Axis, Fact, Plane};

@@ -9,11 +9,17 @@
 //! Refused by name: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
 //! mirrors or scales, frames but local shifts that may be skipped, and frames under calls, jumps and repetitions.
 
+mod concerns;
 mod holes;
+mod now;
 mod shut;
 mod skipped;
 mod words;
 
+pub(crate) use self::concerns::{concerns, has_frames, shifts_origin_in_calls};
+
+use self::concerns::tilts;
+use self::now::Now;
 use crate::arcs::arc_form;
 use crate::frames::frame_forms::{self, shifted};
 use crate::pass::{Moment, Pass, Step};
@@ -22,15 +28,14 @@ use crate::support::walk::Walk;
 use crate::support::write::{EXACT, Rebuild, exact, rebuild, unit_of};
 use crate::{Target, each_body};
 use ncc_exec::{Chain, Frames as Slots, Present};
-use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
-use ncc_ir::caps::Caps;
+use ncc_ir::canon::{AXES, Axis, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::kinds::{
     conduct, flow, frames, machine, miscellaneous, modes, polar, tooling, variables,
 };
-use ncc_ir::program::{Coord, Data, DataMode, FrameSlot, Op, Program, Reference, Slot, Stmt, Synchronised};
+use ncc_ir::program::{Data, DataMode, FrameSlot, Op, Program, Reference, Slot, Stmt, Synchronised};
 use ncc_ir::track::Tracker;
 
 /// This pass.
@@ -95,66 +100,6 @@ impl ExpandFramesState {
         if let Some(framed) = &mut self.framed {
             framed.1.assume(assumed);
         }
-    }
-}
-
-/// Whether a statement is this pass's business: a change of frames, unless all that the target has is a
-/// chain and this is one of its steps.
-pub(crate) fn concerns(op: &Op, caps: &Caps) -> bool {
-    match op {
-        _ if tilts(op) => false,
-        Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => !caps.frames.chain,
-        Op::SetSlot(_) | Op::SetPosition(_) => true,
-        Op::UseOriginShift(_) => !caps.frames.suspends_shift,
-        Op::ClearFrame(slot) => *slot != FrameSlot::Shift,
-        _ => false,
-    }
-}
-
-/// Whether a statement is about a tilted plane, which is another pass's business.
-fn tilts(op: &Op) -> bool {
-    match op {
-        Op::SetSlot(slot) => matches!(**slot, Slot::Tilt(_)),
-        Op::ClearFrame(slot) => *slot == FrameSlot::Tilt,
-        _ => false,
-    }
-}
-
-/// Whether any procedure of a program sets a frame that the target cannot say as it is.
-pub(crate) fn has_frames(program: &Program, caps: &Caps) -> bool {
-    let sets = |op: &Op| {
-        let frame = matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_));
-        frame && !tilts(op) || *op == Op::UseOriginShift(true)
-    };
-    let unsaid = |s: &Stmt| sets(&s.op) && !caps.says_frame(&s.op);
-    program.procedures.iter().flat_map(|p| &p.body).any(unsaid) || takes_origin_back(program, caps)
-}
-
-/// Whether a subprogram sets or ends a shift of the origin that the target ends by the present point only:
-/// where that is, and whether a shift is in force, is known without calls.
-pub(crate) fn shifts_origin_in_calls(program: &Program, caps: &Caps) -> bool {
-    let shifts = |op: &Op| sets_origin(op) || ends_origin(op);
-    takes_origin_back(program, caps)
-        && program.procedures.iter().skip(1).flat_map(|p| &p.body).any(|s| shifts(&s.op))
-}
-
-/// Whether a program ends a shift of the origin for which the target has no word.
-fn takes_origin_back(program: &Program, caps: &Caps) -> bool {
-    let any = |of: fn(&Op) -> bool| program.procedures.iter().flat_map(|p| &p.body).any(|s| of(&s.op));
-    caps.frames.origin_shift && !caps.frames.clears_shift && any(sets_origin) && any(ends_origin)
-}
-
-/// Whether there is no shift of the origin behind a statement.
-fn ends_origin(op: &Op) -> bool {
-    matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(false))
-}
-
-/// Whether a statement shifts the origin.
-fn sets_origin(op: &Op) -> bool {
-    match op {
-        Op::SetPosition(_) | Op::UseOriginShift(true) => true,
-        Op::SetSlot(slot) => matches!(**slot, Slot::Shift { origin: true, .. }),
-        _ => false,
     }
 }
 
@@ -615,40 +560,6 @@ impl Frames<'_> {
     }
 }
 
-/// What is known where a frame changes.
-struct Now<'t> {
-    at: &'t Tracker,
-    /// Where the tool stands in the work offset.
-    work: [Option<Nanos>; AXES],
-    shift: [Nanos; AXES],
-}
-
-impl Present for Now<'_> {
-    type Unknown = Fault;
-
-    fn plane(&self, plane: Fact<Plane>) -> Result<Plane, Fault> {
-        self.at.plane(plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })
-    }
-
-    fn value(&self, value: &Expr) -> Result<Nanos, Fault> {
-        value_of(self.at, value)
-    }
-
-    fn distance(&self, word: &Coord) -> Result<Distance, Fault> {
-        let distance = word.distance.known().or(self.at.modes.distance);
-        distance.ok_or(Fault::EntryFactNeeded { fact: ModeName::Distance })
-    }
-
-    fn work(&self, axis: usize) -> Result<Nanos, Fault> {
-        let at = self.work[axis].ok_or(Fault::PositionUnknown { axis: Axis::ALL[axis].letter() as char })?;
-        Ok(at.wrapping_sub(self.shift[axis]))
-    }
-
-    fn out_of_range(&self) -> Fault {
-        Fault::OutOfRange { word: "factor".into() }
-    }
-}
-
 /// Whether a statement moves along an axis of a plane.
 fn moves_in(op: &Op, plane: Plane) -> bool {
     let (first, second, _) = plane.axes();
@@ -672,12 +583,4 @@ fn leaves_alone(chain: &Chain, axis: usize) -> bool {
 
 fn cannot(what: &str) -> Fault {
     Fault::CannotSay { what: what.into() }
-}
-
-/// A literal's value.
-fn value_of(at: &Tracker, value: &Expr) -> Result<Nanos, Fault> {
-    at.nanos(value).ok_or_else(|| match value.literal() {
-        Some(n) if n.unit == Unit::Entry => Fault::EntryFactNeeded { fact: ModeName::Units },
-        Some(_) | None => cannot("a computed word in a frame"),
-    })
 }

@@ -2,7 +2,8 @@
 //!
 //! Refused by name: arcs that the frame does not leave arcs, and places that are not known.
 
-use crate::frames::expand_frames::{Frames, NOTHING, cannot, value_of};
+use crate::frames::expand_frames::now::value_of;
+use crate::frames::expand_frames::{Frames, NOTHING, cannot};
 use crate::support::write::{EXACT, exact, rounded, unit_of};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
 use ncc_ir::diag::{Fault, ModeName};

@@ -19,6 +19,8 @@
 //! Refused: a variable for which there is no room; variables of a caller that is itself called with its own; variables
 //! by computed numbers of which not all stay, or move by 100.
 
+mod told;
+
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use crate::values::variables::look::{Look, Seen, leave_out_results};
@@ -32,9 +34,6 @@ use ncc_ir::source::Span;
 
 /// By how much a number moves that the target does not have.
 const FURTHER: u32 = 100;
-
-/// Most variables that are told.
-const MOST_TOLD: usize = 40;
 
 /// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
 /// source's and the target's.
@@ -523,45 +522,6 @@ impl<'c> Plan<'c> {
             }
         }
         procedure.body.splice(0..0, head);
-    }
-
-    /// Tells which variables are called otherwise, once.
-    fn tell(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
-        let mut told: Vec<String> = Vec::new();
-        let (from, to) = (&self.from.mark, &self.computes.mark);
-        let mut done: HashSet<(usize, &Var)> = HashSet::new();
-        for (at, look) in self.looks.iter().enumerate() {
-            let parameters = self.parameters[at].iter();
-            for old in parameters.chain(look.seen.iter().map(|seen| &seen.var)) {
-                let root = self.roots[at];
-                let (new, of) = match (self.locals[root].get(old), self.common.get(old)) {
-                    (Some(new), _) => (new, root),
-                    (None, Some(new)) => (new, 0),
-                    (None, None) => continue,
-                };
-                let other = match number_of(old, self.from) {
-                    Some(n) => number_of(new, self.computes) != Some(n),
-                    None => !old.name().eq_ignore_ascii_case(&new.name()),
-                };
-                if other && done.insert((of, old)) {
-                    let whose =
-                        if of == 0 { String::new() } else { format!(" of {}", program.procedures[of].name) };
-                    told.push(format!("{from}{}{whose} is {to}{}", old.name(), new.name()));
-                }
-            }
-        }
-        if told.is_empty() {
-            return;
-        }
-        let more = told.len().saturating_sub(MOST_TOLD);
-        told.truncate(MOST_TOLD);
-        if more > 0 {
-            told.push(format!("and {more} more"));
-        }
-        let first =
-            self.looks.iter().flat_map(|look| &look.seen).map(|seen| seen.at).min_by_key(|at| at.start);
-        let map = told.join(", ").into();
-        diags.push(Diagnostic::new(Fault::VariablesRenamed { map }, first.unwrap_or_default()));
     }
 }
 

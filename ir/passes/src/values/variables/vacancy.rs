@@ -81,26 +81,33 @@ fn either(a: Way, b: Way) -> Way {
     }
 }
 
-/// Decides what a program decides by whether variables have a value. For a target that knows such variables
-/// (`vacant`), only what must have a value is looked at. Where the source's control knows them (`given`), the main
-/// program's own variables that it reads unset may have been given values, and may not: a macro is called with arguments.
+/// Which controls know variables without a value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vacant {
+    /// The target's does: only what must have a value is looked at.
+    pub(super) there: bool,
+    /// The source's does: the main program's own variables that it reads unset may have been given values, and may
+    /// not, as a macro is called with arguments.
+    pub(super) here: bool,
+}
+
+/// Decides what a program decides by whether variables have a value.
 ///
 /// # Errors
 /// A variable that may or may not have a value where it is read.
 pub(super) fn resolve(
     program: &mut Program,
-    vacant: bool,
-    given: bool,
+    vacant: Vacant,
     diags: &mut Vec<Diagnostic>,
 ) -> Result<(), Diagnostic> {
-    if vacant {
-        return settled(program, true, given).map_err(|unsure| unsure.refused);
+    if vacant.there {
+        return settled(program, vacant).map_err(|unsure| unsure.refused);
     }
     defaults::hand_over(program);
     let mut first = None;
     let mut told = Vec::new();
     loop {
-        let Err(unsure) = settled(program, false, given) else {
+        let Err(unsure) = settled(program, vacant) else {
             diags.append(&mut told);
             return Ok(());
         };
@@ -122,13 +129,13 @@ struct Unsure {
 ///
 /// # Errors
 /// A variable that may or may not have a value where it is read.
-fn settled(program: &mut Program, vacant: bool, given: bool) -> Result<(), Box<Unsure>> {
+fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
     let before = program.clone();
-    let open = if given { open_variables(program) } else { Vec::new() };
+    let open = if vacant.here { open_variables(program) } else { Vec::new() };
     let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
     let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
     let mut entries = BTreeMap::from([(0, Known { vars, lost: false })]);
-    if given {
+    if vacant.here {
         // What no call of this program leads to, other programs call, with values or without.
         let theirs = not_called(program).into_iter();
         entries.extend(theirs.map(|at| (at, elsewhere::begins(&program.procedures[at]))));
@@ -145,7 +152,7 @@ fn settled(program: &mut Program, vacant: bool, given: bool) -> Result<(), Box<U
     let mut refused = BTreeMap::new();
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         let was = &before.procedures[at].body;
-        let mut settle = Settle { facts: &facts, vacant, decided: false };
+        let mut settle = Settle { facts: &facts, vacant: vacant.there, decided: false };
         match settle.body(was, std::mem::take(&mut procedure.body)) {
             Ok(body) => procedure.body = body,
             Err(fault) => drop(refused.insert(at, fault)),
@@ -155,7 +162,7 @@ fn settled(program: &mut Program, vacant: bool, given: bool) -> Result<(), Box<U
     if let Some((_, refused)) = refused.pop_first() {
         return Err(Box::new(Unsure { refused, apart: apart::by_arguments(&before, &facts, unsure) }));
     }
-    if !vacant {
+    if !vacant.there {
         let handed = |procedure: &Procedure, at: usize| -> Vec<bool> {
             let entry = entries.get(&at);
             let has = |var: &Var| entry.is_none_or(|entry| entry.of(&var.name()) != May::Nothing);

@@ -90,55 +90,10 @@ impl Settle<'_> {
             Op::Call(call) => call.arguments.iter_mut().try_for_each(|value| values.handed(value))?,
             Op::Control(control) => {
                 let Op::Control(before) = &was.op else { return Ok(Kept::As(stmt)) };
-                if let Control::If { condition, then, otherwise } = &mut **control {
-                    let decided = holds(condition, known).filter(|_| !self.vacant);
-                    self.decided |= decided.is_some();
-                    let mut bodies = before.bodies();
-                    for (place, body) in [then, otherwise].into_iter().enumerate() {
-                        let Some(was) = bodies.next() else { continue };
-                        let own = std::mem::take(body);
-                        if decided.is_none_or(|holds| holds == (place == 0)) {
-                            *body = self.body(was, own)?;
-                        }
-                    }
-                    return match decided {
-                        None => {
-                            values.number(condition)?;
-                            Ok(Kept::As(stmt))
-                        }
-                        Some(_) => {
-                            let comment = stmt.comment.take();
-                            let Op::Control(control) = stmt.op else { return Ok(Kept::Instead(Vec::new())) };
-                            let Control::If { then, otherwise, .. } = *control else {
-                                return Ok(Kept::Instead(Vec::new()));
-                            };
-                            let mut all: Vec<Stmt> = then.into_iter().chain(otherwise).collect();
-                            match (all.last_mut(), comment) {
-                                (Some(last), Some(comment)) => {
-                                    last.comment.get_or_insert(comment);
-                                }
-                                (None, Some(comment)) => all.push(Stmt::new(at, Op::Comment(*comment))),
-                                (_, None) => {}
-                            }
-                            Ok(Kept::Instead(all))
-                        }
-                    };
+                if matches!(**control, Control::If { .. }) {
+                    return self.decision(before, stmt, values);
                 }
-                match &mut **control {
-                    Control::While { condition: value, .. } | Control::Until { condition: value, .. } => {
-                        let known = self.facts.get(&place(&**before)).unwrap_or(known);
-                        Values { known, ..values }.number(value)?;
-                    }
-                    Control::Repeat { times: value, .. } => values.number(value)?,
-                    Control::For { from, to, step, .. } => {
-                        [from, to, step].into_iter().try_for_each(|value| values.number(value))?;
-                    }
-                    Control::Loop { .. } | Control::If { .. } => {}
-                }
-                for (was, body) in before.bodies().zip(control.bodies_mut()) {
-                    let own = std::mem::take(body);
-                    *body = self.body(was, own)?;
-                }
+                self.turns(before, control, values)?;
             }
             Op::MessageOf(pieces) => {
                 let mut all = std::mem::take(pieces).into_vec();
@@ -153,32 +108,7 @@ impl Settle<'_> {
                 *pieces = all.into();
             }
             op if arguments::computed(op) => {
-                let droppable = matches!(op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
-                let mut left = true;
-                arguments::each(op, &mut |argument, _| {
-                    let takes = |value: &mut Expr| {
-                        values.whole(value)?;
-                        Ok(!self.vacant && is_nothing(value))
-                    };
-                    match argument {
-                        Argument::Word(word) => {
-                            if let Some(own) = word
-                                && takes(&mut own.value)?
-                            {
-                                *word = None;
-                            }
-                        }
-                        Argument::Optional(place) => {
-                            if let Some(own) = place
-                                && takes(own)?
-                            {
-                                *place = None;
-                            }
-                        }
-                        Argument::Value(value) => left &= !takes(value)? || !droppable,
-                    }
-                    Ok(())
-                })?;
+                let left = values.arguments(op)?;
                 if !left {
                     return Ok(gone(stmt));
                 }
@@ -186,6 +116,64 @@ impl Settle<'_> {
             _ => {}
         }
         Ok(Kept::As(stmt))
+    }
+
+    /// A decision, or what it leads to where that is known.
+    fn decision(&mut self, before: &Control, mut stmt: Stmt, values: Values) -> Result<Kept, Diagnostic> {
+        let Op::Control(control) = &mut stmt.op else { return Ok(Kept::As(stmt)) };
+        let Control::If { condition, then, otherwise } = &mut **control else { return Ok(Kept::As(stmt)) };
+        let decided = holds(condition, values.known).filter(|_| !self.vacant);
+        self.decided |= decided.is_some();
+        let mut bodies = before.bodies();
+        for (place, body) in [then, otherwise].into_iter().enumerate() {
+            let Some(was) = bodies.next() else { continue };
+            let own = std::mem::take(body);
+            if decided.is_none_or(|holds| holds == (place == 0)) {
+                *body = self.body(was, own)?;
+            }
+        }
+        match decided {
+            None => {
+                values.number(condition)?;
+                Ok(Kept::As(stmt))
+            }
+            Some(_) => {
+                let comment = stmt.comment.take();
+                let Op::Control(control) = stmt.op else { return Ok(Kept::Instead(Vec::new())) };
+                let Control::If { then, otherwise, .. } = *control else {
+                    return Ok(Kept::Instead(Vec::new()));
+                };
+                let mut all: Vec<Stmt> = then.into_iter().chain(otherwise).collect();
+                match (all.last_mut(), comment) {
+                    (Some(last), Some(comment)) => {
+                        last.comment.get_or_insert(comment);
+                    }
+                    (None, Some(comment)) => all.push(Stmt::new(stmt.span, Op::Comment(*comment))),
+                    (_, None) => {}
+                }
+                Ok(Kept::Instead(all))
+            }
+        }
+    }
+
+    /// A loop.
+    fn turns(&mut self, before: &Control, control: &mut Control, values: Values) -> Result<(), Diagnostic> {
+        match control {
+            Control::While { condition: value, .. } | Control::Until { condition: value, .. } => {
+                let known = self.facts.get(&place(before)).unwrap_or(values.known);
+                Values { known, ..values }.number(value)?;
+            }
+            Control::Repeat { times: value, .. } => values.number(value)?,
+            Control::For { from, to, step, .. } => {
+                [from, to, step].into_iter().try_for_each(|value| values.number(value))?;
+            }
+            Control::Loop { .. } | Control::If { .. } => {}
+        }
+        for (was, body) in before.bodies().zip(control.bodies_mut()) {
+            let own = std::mem::take(body);
+            *body = self.body(was, own)?;
+        }
+        Ok(())
     }
 }
 
@@ -271,6 +259,37 @@ impl Values<'_> {
             May::Either => Err(self.unsure(e)),
             May::Number => self.inner(e),
         }
+    }
+
+    /// The words of a statement. False if one has no value without which the statement says nothing.
+    fn arguments(&self, op: &mut Op) -> Result<bool, Diagnostic> {
+        let droppable = matches!(op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
+        let mut left = true;
+        arguments::each(op, &mut |argument, _| {
+            let takes = |value: &mut Expr| {
+                self.whole(value)?;
+                Ok(!self.vacant && is_nothing(value))
+            };
+            match argument {
+                Argument::Word(word) => {
+                    if let Some(own) = word
+                        && takes(&mut own.value)?
+                    {
+                        *word = None;
+                    }
+                }
+                Argument::Optional(place) => {
+                    if let Some(own) = place
+                        && takes(own)?
+                    {
+                        *place = None;
+                    }
+                }
+                Argument::Value(value) => left &= !takes(value)? || !droppable,
+            }
+            Ok(())
+        })?;
+        Ok(left)
     }
 
     /// The parts of an expression.

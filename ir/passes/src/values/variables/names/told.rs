@@ -1,0 +1,52 @@
+//! Tells which variables are called otherwise in the target.
+
+use std::collections::HashSet;
+
+use super::{Plan, number_of};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Var;
+use ncc_ir::program::Program;
+
+/// Most variables that are told.
+const MOST_TOLD: usize = 40;
+
+impl<'c> Plan<'c> {
+    /// Tells which variables are called otherwise, once.
+    pub(super) fn tell(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
+        let mut told: Vec<String> = Vec::new();
+        let (from, to) = (&self.from.mark, &self.computes.mark);
+        let mut done: HashSet<(usize, &Var)> = HashSet::new();
+        for (at, look) in self.looks.iter().enumerate() {
+            let parameters = self.parameters[at].iter();
+            for old in parameters.chain(look.seen.iter().map(|seen| &seen.var)) {
+                let root = self.roots[at];
+                let (new, of) = match (self.locals[root].get(old), self.common.get(old)) {
+                    (Some(new), _) => (new, root),
+                    (None, Some(new)) => (new, 0),
+                    (None, None) => continue,
+                };
+                let other = match number_of(old, self.from) {
+                    Some(n) => number_of(new, self.computes) != Some(n),
+                    None => !old.name().eq_ignore_ascii_case(&new.name()),
+                };
+                if other && done.insert((of, old)) {
+                    let whose =
+                        if of == 0 { String::new() } else { format!(" of {}", program.procedures[of].name) };
+                    told.push(format!("{from}{}{whose} is {to}{}", old.name(), new.name()));
+                }
+            }
+        }
+        if told.is_empty() {
+            return;
+        }
+        let more = told.len().saturating_sub(MOST_TOLD);
+        told.truncate(MOST_TOLD);
+        if more > 0 {
+            told.push(format!("and {more} more"));
+        }
+        let first =
+            self.looks.iter().flat_map(|look| &look.seen).map(|seen| seen.at).min_by_key(|at| at.start);
+        let map = told.join(", ").into();
+        diags.push(Diagnostic::new(Fault::VariablesRenamed { map }, first.unwrap_or_default()));
+    }
+}
