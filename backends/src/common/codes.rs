@@ -5,14 +5,15 @@
 
 mod call;
 mod cycle;
+mod finder;
 
 pub(crate) use call::CallCode;
 pub(crate) use cycle::{CircleCode, CycleCode, GridCode};
-use ncc_dialects::{Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread};
+use finder::Finder;
+use ncc_dialects::{Meaning, OrientWords, Quantity, Role, Settings, Thread};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
-use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{CentreFrom, Detour, FrameSlot, Probe, ReferencePoint};
 
 use super::data::DataCode;
@@ -224,262 +225,6 @@ pub(crate) struct Codes {
     pub corrector: Option<Letter>,
 }
 
-/// Looks rows up, and gives every modal group a bit.
-struct Finder {
-    dialect: &'static Dialect,
-    groups: Vec<&'static str>,
-}
-
-impl Finder {
-    fn code(&self, meaning: Meaning) -> Option<Code> {
-        self.row(&self.dialect.code_for(meaning)?.code, meaning)
-    }
-
-    /// The code of a row, if its number reads back to the meaning.
-    fn row(&self, code: &str, meaning: Meaning) -> Option<Code> {
-        let letter = *code.as_bytes().first()?;
-        let (whole, tenth) = code.get(1..)?.split_once('.').unwrap_or((&code[1..], "0"));
-        let tenths = whole.parse::<u32>().ok()? * 10 + tenth.parse::<u32>().ok()?;
-        let row = self.dialect.code_row(letter, tenths)?;
-        if row.means != Some(meaning) || !row.write || code.len() > 8 {
-            return None;
-        }
-        let group = self.groups.iter().position(|g| *g == row.group).filter(|_| !row.group.is_empty());
-        let mut text = [0; LONGEST];
-        text[..code.len()].copy_from_slice(code.as_bytes());
-        Some(Code {
-            text,
-            len: code.len() as u8,
-            letter: 0,
-            group: group.map_or(0, |g| 1 << g.min(63)),
-            unsure: (!row.sure).then_some(meaning),
-        })
-    }
-
-    /// The code of a work offset; one of several that share a code has a word that says which.
-    fn origin(&self, number: u16) -> Option<Code> {
-        if let Some(code) = self.code(Meaning::SetOriginOffsets(number)).filter(|code| code.letter == 0)
-            && self.dialect.counted_offsets().is_none_or(|row| row.code.as_bytes() != code.text())
-        {
-            return Some(code);
-        }
-        let row = self.dialect.counted_offsets()?;
-        let Some(first @ Meaning::SetOriginOffsets(from)) = row.means else { return None };
-        let which = number.checked_sub(from).filter(|n| *n < row.count.unwrap_or(0))? + 1;
-        let letter = row.words.bytes().next()?;
-        let mut code = self.row(&row.code, first)?;
-        let blank = if self.dialect.block.blanks { " " } else { "" };
-        let word = format!("{blank}{}{which}", letter as char);
-        let len = usize::from(code.len);
-        code.text.get_mut(len..len + word.len())?.copy_from_slice(word.as_bytes());
-        (code.len, code.letter) = ((len + word.len()) as u8, letter);
-        Some(code)
-    }
-
-    fn format(&self, quantity: Quantity) -> Format {
-        let counts = matches!(quantity, Quantity::Integer);
-        let rules = self.dialect.numbers(quantity);
-        Format::new(rules, counts).rounding(rules, quantity)
-    }
-
-    fn letter(&self, letter: char, quantity: Quantity) -> Option<Letter> {
-        let letter = u8::try_from(letter).ok().filter(u8::is_ascii_uppercase)?;
-        Some(Letter { letter, format: self.format(quantity) })
-    }
-
-    fn role(&self, role: Role) -> Option<Letter> {
-        let row = self.dialect.address.iter().find(|a| a.role == role)?;
-        self.letter(row.letter, row.quantity)
-    }
-
-    fn dwell(&self, word: DwellWord) -> Option<Dwell> {
-        let milliseconds = word.quantity == Quantity::Milliseconds;
-        Some(Dwell { word: self.letter(word.letter, word.quantity)?, milliseconds })
-    }
-
-    fn cycles(&self, settings: &Settings) -> Vec<CycleCode> {
-        let rows = self.dialect.cycle.iter();
-        rows.filter_map(|row| {
-            Some(CycleCode {
-                kind: row.kind.clone(),
-                code: self.row(&row.code, Meaning::StartCycle)?,
-                depth: self.letter(row.depth, Quantity::Length)?,
-                retract: self.letter(row.retract, Quantity::Length)?,
-                dwell: match settings.dwell(row) {
-                    Some(word) => Some(self.dwell(word)?),
-                    None => None,
-                },
-                shrinking: match row.shrinking {
-                    Some([first, less, least]) => Some([
-                        self.letter(first, Quantity::Length)?,
-                        self.letter(less, Quantity::Length)?,
-                        self.letter(least, Quantity::Length)?,
-                    ]),
-                    None => None,
-                },
-                asked: row.dwell_by.as_ref().map(|by| by.option.as_str()),
-                hand: row.hand.map(ncc_dialects::Hand::turn),
-                form: CycleForm::Control(row.own()),
-                to_level: row.feed_to_level,
-                dwell_needed: row.dwell_needed,
-                own_pause: row.pause.is_some(),
-                from_return: row.from_return,
-                peck: match row.peck.or(row.shift) {
-                    Some(letter) => Some(self.letter(letter, Quantity::Length)?),
-                    None => None,
-                },
-            })
-        })
-        .collect()
-    }
-
-    fn circle(&self) -> Option<CircleCode> {
-        self.dialect.pattern.iter().find_map(|row| match row {
-            PatternRow::Circle { code, first, centre, step, count, .. } => Some(CircleCode {
-                code: self.row(code, Meaning::Pattern)?,
-                first: self.pair(*first, Quantity::Length)?,
-                centre: self.pair(*centre, Quantity::Length)?,
-                step: self.letter(*step, Quantity::Angle)?,
-                count: self.letter(*count, Quantity::Integer)?,
-            }),
-            PatternRow::Grid { .. } => None,
-        })
-    }
-
-    fn grid(&self) -> Option<GridCode> {
-        self.dialect.pattern.iter().find_map(|row| match row {
-            PatternRow::Grid { code, pitch, counts, serpentine, .. } => Some(GridCode {
-                code: self.row(code, Meaning::Pattern)?,
-                pitch: self.pair(*pitch, Quantity::Length)?,
-                counts: self.pair(*counts, Quantity::Integer)?,
-                serpentine: *serpentine,
-            }),
-            PatternRow::Circle { .. } => None,
-        })
-    }
-
-    fn threads(&self) -> Vec<(Thread, Code, Vec<Letter>)> {
-        let feed = self.dialect.letter_for(Role::Feed);
-        let lead = |letter: char| {
-            let mut rules = self.dialect.numbers(Quantity::Length);
-            // Fractions of an inch as leads in millimetres, and both as fine as pitches are compared.
-            rules.decimals += 3;
-            rules.decimals_inch = rules.decimals_inch.map(|decimals| decimals + 4);
-            match Some(letter) == feed {
-                true => self.letter(letter, Quantity::Feed),
-                false => Some(Letter {
-                    format: Format::new(rules, false),
-                    ..self.letter(letter, Quantity::Length)?
-                }),
-            }
-        };
-        let rows = self.dialect.code.iter();
-        rows.filter_map(|row| {
-            let Some(meaning @ Meaning::SynchronisedFeed(thread)) = row.means else { return None };
-            let letters = row.words.chars().filter_map(lead).collect();
-            Some((thread, self.row(&row.code, meaning)?, letters))
-        })
-        .collect()
-    }
-
-    fn spindle_modes(&self) -> Vec<(SpindleMode, Option<FeedMode>, Code)> {
-        let rows = self.dialect.code.iter();
-        rows.filter_map(|row| {
-            let Some(meaning @ Meaning::SetSpindleMode(mode)) = row.means else { return None };
-            Some((mode, row.feed_mode.map(FeedMode::from), self.row(&row.code, meaning)?))
-        })
-        .collect()
-    }
-
-    fn speed_limit(&self) -> Option<Code> {
-        let row = self
-            .dialect
-            .code
-            .iter()
-            .find(|row| row.limits_speed && row.means == Some(Meaning::SetPosition))?;
-        self.row(&row.code, row.means?)
-    }
-
-    fn orient_words(&self) -> Option<&'static OrientWords> {
-        self.dialect.code_for(Meaning::OrientSpindle)?.orient.as_ref()
-    }
-
-    fn orient_angles(&self) -> Vec<Letter> {
-        let words = self.orient_words().map_or(&[][..], |words| &words.angle);
-        words.iter().filter_map(|word| self.letter(word.letter, word.quantity)).collect()
-    }
-
-    fn surface_limit(&self) -> Option<Letter> {
-        let letter = self.dialect.code_for(Meaning::SetSpindleMode(SpindleMode::Surface))?.limit?;
-        self.letter(letter, Quantity::Speed)
-    }
-
-    fn frames(&self) -> FrameCodes {
-        let words = |meaning| {
-            let row = self.dialect.code_for(meaning);
-            let letters = row.map_or(&[][..], |row| row.words.as_bytes());
-            let angles = matches!(meaning, Meaning::SetRotation | Meaning::SetTilt);
-            let quantity = if angles { Quantity::Angle } else { Quantity::Factor };
-            letters.iter().filter_map(|l| self.letter(*l as char, quantity)).collect::<Vec<_>>()
-        };
-        let scale = match words(Meaning::SetScale)[..] {
-            [all, x, y, z, ..] => Some((all, [x, y, z])),
-            _ => None,
-        };
-        let angle = words(Meaning::SetRotation).first().copied();
-        let tilt = match words(Meaning::SetTilt)[..] {
-            [first, second, third, ..] => Some([first, second, third]),
-            _ => None,
-        };
-        FrameCodes {
-            local: self.code(Meaning::SetShift(false)),
-            origin: self.code(Meaning::SetShift(true)),
-            position: self.code(Meaning::SetPosition),
-            rotation: self.code(Meaning::SetRotation).zip(angle),
-            no_rotation: self.code(Meaning::ClearFrame(FrameSlot::Rotation)),
-            scale: self.code(Meaning::SetScale).zip(scale).map(|(code, (all, each))| (code, all, each)),
-            no_scale: self.code(Meaning::ClearFrame(FrameSlot::Scale)),
-            mirror: self.code(Meaning::SetMirror),
-            no_mirror: self.code(Meaning::ClearMirror),
-            tilt: self.code(Meaning::SetTilt).zip(tilt).and_then(|(code, letters)| {
-                Some((code, letters, self.dialect.code_for(Meaning::SetTilt)?.turns_about()?))
-            }),
-            upright: self.code(Meaning::OrientToolAxis),
-        }
-    }
-
-    fn tables(&self) -> Vec<DataCode> {
-        let rows = self.dialect.data.iter();
-        rows.filter_map(|row| {
-            let (code, letter, number) = row.selected()?;
-            let values = row.values.iter();
-            Some(DataCode {
-                row,
-                code: self.row(code, Meaning::SetData)?,
-                select: (letter, number),
-                entry: u8::try_from(row.entry).ok()?,
-                turn: row.turns.and_then(|letter| self.letter(letter, Quantity::Angle)),
-                values: values
-                    .filter_map(|v| Some((v.of.into(), self.letter(v.letter, Quantity::Length)?)))
-                    .collect(),
-            })
-        })
-        .collect()
-    }
-
-    fn pair(&self, letters: [char; 2], quantity: Quantity) -> Option<[Letter; 2]> {
-        Some([self.letter(letters[0], quantity)?, self.letter(letters[1], quantity)?])
-    }
-
-    /// Edge 0 of the tool is no length.
-    fn no_edge(&self) -> Option<Code> {
-        let letter = self.role(Role::ToolEdge)?.letter;
-        let mut text = [0; LONGEST];
-        text[..2].copy_from_slice(&[letter, b'0']);
-        Some(Code { text, len: 2, letter: 0, group: 0, unsure: None })
-    }
-}
-
 impl Codes {
     pub(crate) fn new(settings: &Settings) -> Codes {
         let dialect = settings.dialect;
@@ -519,47 +264,17 @@ impl Codes {
             tip: code(Meaning::UseToolCentrePoint(true)),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             compensation: [Side::Left, Side::Right].map(|s| code(Meaning::StartCutterRadiusCompensation(s))),
-            compensation_by_diameter: [Side::Left, Side::Right].map(|s| {
-                let letter = find.role(Role::RadiusEntry)?.letter;
-                let letter = find.letter(char::from(letter), Quantity::Length)?;
-                Some((code(Meaning::StartCompensationByDiameter(s))?, letter))
-            }),
+            compensation_by_diameter: find.by_diameter(),
             radius_entry: find.role(Role::RadiusEntry),
             own_radius: dialect.caps.compensation.radii.tool,
-            machine: [false, true].map(|length| {
-                let either = [false, true].into_iter();
-                either.filter_map(|rapid| code(Meaning::UseMachineCoordinates { length, rapid })).next()
-            }),
-            references: dialect
-                .code
-                .iter()
-                .filter_map(|row| {
-                    let meaning = row.means?;
-                    let Meaning::GoToReference { point, .. } = meaning else { return None };
-                    let letter = row.words.chars().next();
-                    let letter = letter.and_then(|l| find.letter(l, Quantity::Integer));
-                    Some((point, find.row(&row.code, meaning)?, letter))
-                })
-                .collect(),
-            probes: dialect
-                .code
-                .iter()
-                .filter_map(|row| {
-                    let Some(meaning @ Meaning::StraightProbe(probe)) = row.means else { return None };
-                    let feed = dialect.code_for(Meaning::StraightFeed);
-                    let stays = feed.is_some_and(|feed| feed.group == row.group);
-                    let code = find.row(&row.code, meaning)?;
-                    Some((probe, ProbeCode { code, stays, own_feed: row.own_feed }))
-                })
-                .collect(),
+            machine: find.machine(),
+            references: find.references(),
+            probes: find.probes(),
             detours: Detour::ALL.map(|detour| code(Meaning::Detour(detour))),
             tables: find.tables(),
             stated_length: [false, true].map(|added| code(Meaning::UseToolLength { added })),
             store_position: [1, 2].map(|place| code(Meaning::StorePosition(place))),
-            tool_number: dialect.code_for(Meaning::SetToolNumber).and_then(|row| {
-                let letter = find.letter(row.words.chars().next()?, Quantity::Integer)?;
-                Some((code(Meaning::SetToolNumber)?, letter))
-            }),
+            tool_number: find.tool_number(),
             length: code(Meaning::UseToolLengthOffset),
             own_length: dialect.code_for(Meaning::UseToolLengthOffset).is_some_and(|row| row.own_tool),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
@@ -573,44 +288,14 @@ impl Codes {
             orient: code(Meaning::OrientSpindle),
             orient_words: find.orient_words(),
             orient_angles: find.orient_angles(),
-            path_within: dialect
-                .code_for(Meaning::SetMotionControlMode(PathMode::Continuous))
-                .and_then(|row| row.words.chars().next())
-                .and_then(|letter| {
-                    let code = code(Meaning::SetMotionControlMode(PathMode::Continuous))?;
-                    Some((code, find.letter(letter, Quantity::Length)?))
-                }),
-            path_merged: dialect
-                .code_for(Meaning::SetMotionControlMode(PathMode::Continuous))
-                .and_then(|row| find.letter(row.words.chars().nth(1)?, Quantity::Length)),
+            path_within: find.path_within(),
+            path_merged: find.path_merged(),
             path: PathMode::ALL.map(|(mode, _)| code(Meaning::SetMotionControlMode(mode))),
             exact_stop: code(Meaning::ExactStop),
             polar: [false, true].map(|on| code(Meaning::PolarWords(on))),
-            advice: dialect
-                .code
-                .iter()
-                .filter_map(|row| match row.means {
-                    Some(meaning @ Meaning::Advise(kind, value)) if row.write => {
-                        let letter = row.words.bytes().next().filter(|_| value.is_none());
-                        let word = letter.map(|letter| (letter, row.on.unwrap_or(1)));
-                        let amount = row.words.chars().nth(1).filter(|_| kind.has_amount());
-                        let amount = amount.and_then(|letter| find.letter(letter, Quantity::Length));
-                        Some(AdviceCode { kind, value, code: find.row(&row.code, meaning)?, word, amount })
-                    }
-                    _ => None,
-                })
-                .collect(),
+            advice: find.advice(),
             change_tool: code(Meaning::ChangeTool),
-            machine_functions: dialect
-                .code
-                .iter()
-                .filter_map(|row| match row.means {
-                    Some(meaning @ Meaning::MachineFunction(name)) if row.write => {
-                        Some((name, find.row(&row.code, meaning)?))
-                    }
-                    _ => None,
-                })
-                .collect(),
+            machine_functions: find.machine_functions(),
             flood: code(Meaning::FloodOn),
             mist: code(Meaning::MistOn),
             coolant_off: code(Meaning::CoolantOff),
@@ -623,12 +308,7 @@ impl Codes {
             calls_at_moves: find.call(Meaning::CallMacroAtMoves).zip(code(Meaning::EndCallsAtMoves)),
             dwells: find.dwells(),
             back: code(Meaning::Return),
-            no_effect: dialect
-                .code
-                .iter()
-                .filter(|row| row.means == Some(Meaning::NoEffect))
-                .filter_map(|row| Some((row.code.clone(), find.row(&row.code, Meaning::NoEffect)?)))
-                .collect(),
+            no_effect: find.no_effect(),
             cycles: find.cycles(settings),
             circle: find.circle(),
             grid: find.grid(),

@@ -99,25 +99,9 @@ impl Lower {
             }
             _ => self.whole(&entry, src, out),
         };
-        let Some(mut number) = found else { return };
-        if number == 0 && row.zero_current {
-            self.rely_on_frames(false, code.span, out);
-            let own = self.state.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
-            let Some(own) = own.filter(|own| (1..=row.count).contains(own)) else {
-                let code = format!("{} {}", row.name, src.text(entry.span)).into();
-                let name = "data input for the offset in force where that is not known".into();
-                return self.fault(Fault::NotSupported { code, name }, entry.span, out);
-            };
-            number = u32::from(own);
-        }
-        if !(1..=u32::from(row.count)).contains(&number) {
-            let name = match number {
-                0 => "data input for what has no number of its own",
-                _ => "data input for an entry that there is not",
-            };
-            let code = format!("{} {}", row.name, src.text(entry.span)).into();
-            return self.fault(Fault::NotSupported { code, name: name.into() }, entry.span, out);
-        }
+        let Some(number) = found.and_then(|number| self.existing(number, code, row, &entry, src, out)) else {
+            return;
+        };
         let added = match row.adds {
             false => false,
             true => match self.distance(code.span, out) {
@@ -176,6 +160,37 @@ impl Lower {
         self.computes.saved.entry(code.span, &row.name);
         self.push(code.span, of_number(&computed, ways.collect(), code.span), out);
         self.stands_alone();
+    }
+
+    /// The number of an entry that the table has; 0 may be the one in force.
+    fn existing(
+        &mut self,
+        mut number: u32,
+        code: &Code,
+        row: &'static DataRow,
+        entry: &Word,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<u32> {
+        if number == 0 && row.zero_current {
+            self.rely_on_frames(false, code.span, out);
+            let own = self.state.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
+            let Some(own) = own.filter(|own| (1..=row.count).contains(own)) else {
+                let code = format!("{} {}", row.name, src.text(entry.span)).into();
+                let name = "data input for the offset in force where that is not known".into();
+                return self.refuse(Fault::NotSupported { code, name }, entry.span, out);
+            };
+            number = u32::from(own);
+        }
+        if !(1..=u32::from(row.count)).contains(&number) {
+            let name = match number {
+                0 => "data input for what has no number of its own",
+                _ => "data input for an entry that there is not",
+            };
+            let code = format!("{} {}", row.name, src.text(entry.span)).into();
+            return self.refuse(Fault::NotSupported { code, name: name.into() }, entry.span, out);
+        }
+        Some(number)
     }
 
     /// A whole number that the text settles: a literal, or the tool that it has selected last by one.

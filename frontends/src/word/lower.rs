@@ -7,6 +7,8 @@
 //! Not here: which word is what (`sort`), and what the functions, moves, cycles, patterns and calls
 //! of a block mean; they have files of their own beside this one.
 
+mod message;
+
 use std::collections::BTreeSet;
 
 use ncc_dialects::{
@@ -362,48 +364,6 @@ impl Lower {
             self.state.join(&before);
         }
         self.refresh();
-    }
-
-    /// The last comment of a block may be a message, which comes before all that the block does, or
-    /// something else that acts.
-    fn message(&mut self, block: &Block, src: Source, out: &mut Batch) {
-        let rules = &self.settings.dialect.comment;
-        let Some(&span) = block.comments.last().filter(|_| !rules.message.is_empty()) else { return };
-        let bracketed = src.bytes(Span::new(span.end, span.end + 1)) == rules.close.as_bytes();
-        let bytes = src.bytes(span);
-        if !bracketed {
-            return;
-        }
-        if let Some(at) = begins(bytes, &rules.message) {
-            let text = decode(&bytes[at..]);
-            self.now.message = true;
-            return self.push(span, Op::Message(text), out);
-        }
-        if let Some((name, at)) = rules.shown.iter().find_map(|name| Some((name, begins(bytes, name)?))) {
-            if bytes.contains(&b'#') && self.settings.dialect.program.o_words {
-                self.now.message = true;
-                return self.shown(&bytes[at..], span, out);
-            }
-            if bytes.contains(&b'#') {
-                let code = format!("{}{name}", rules.open).into();
-                let name = "the value of a parameter in a message".into();
-                return self.fault(Fault::NotSupported { code, name }, span, out);
-            }
-            let text = decode(&bytes[at..]);
-            self.now.message = true;
-            return self.push(span, Op::Message(text), out);
-        }
-        if let Some(at) = begins(bytes, &rules.alarm).filter(|_| !rules.alarm.is_empty()) {
-            self.now.message = true;
-            return self.alarm(&bytes[at..], span, out);
-        }
-        if rules.logs.iter().any(|name| begins(bytes, name).is_some()) {
-            out.report(Fault::OutputDropped, span);
-        }
-        if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
-            let code = format!("{}{name}", rules.open).into();
-            self.fault(Fault::NotSupported { code, name: "comment that does something".into() }, span, out);
-        }
     }
 
     fn check_skip(&mut self, block: &Block, out: &mut Batch) {

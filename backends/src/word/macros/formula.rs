@@ -5,51 +5,23 @@
 //!
 //! Not here: statements (`computing`), and whether the target has variables at all (`computes`).
 
+mod words;
+
 use std::collections::BTreeMap;
 
-use ncc_dialects::{ANGLE_RANGE, FormulaRules, MACHINE_UNITS, Settings, SystemRow};
+use ncc_dialects::{FormulaRules, Settings, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::program::Text;
-use ncc_ir::source::Span;
 
-use super::comparisons::{decides, exactly, flipped, holds_or_not, nearly, within};
-use crate::common::Sink;
-use crate::common::codes::Letter;
+use super::comparisons::{exactly, flipped, holds_or_not, nearly, within};
 use crate::common::fault::cannot_compute;
-use crate::common::number::Worth;
-use crate::word::Writer;
 
 /// How tightly an operator binds: its group's place among those of the dictionary, of which the tightest is the
 /// first; a value binds more tightly than any.
 type Tie = usize;
-
-/// A number among conditions that are joined, `[#1 EQ 0] XOR 1`, as one that holds or does not.
-///
-/// # Errors
-/// What is compared is a condition itself.
-fn compared(e: &mut Expr) -> Result<(), Fault> {
-    let Expr::Node(node) = e else { return Ok(()) };
-    if let Node::Binary(Binary::And | Binary::Or | Binary::Xor, a, b) = &mut **node {
-        for part in [a, b] {
-            if let Expr::Num(n) = part {
-                let holds = i64::from(n.mantissa != 0);
-                *part = Expr::Node(Box::new(Node::Binary(Binary::Equal, Expr::int(holds), Expr::int(1))));
-            }
-            compared(part)?;
-        }
-        return Ok(());
-    }
-    if let Node::Unary(Unary::Not, a) = &mut **node {
-        return compared(a);
-    }
-    match e.parts().any(|part| part.has(&decides)) {
-        true => Err(cannot_compute("a condition as a value")),
-        false => Ok(()),
-    }
-}
 
 /// What binds as loosely as can be stands without brackets.
 const LOOSEST: Tie = usize::MAX;
@@ -510,141 +482,6 @@ pub(crate) fn literal(n: Num, point: bool, out: &mut String) {
     if point || scale > 0 {
         out.push('.');
         out.push_str(rest);
-    }
-}
-
-impl Writer {
-    /// How expressions are spelt, in a word that rounds to digits or elsewhere.
-    pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'_>, Fault> {
-        if self.dialect.formula.operators.is_empty() {
-            return Err(cannot_compute("a value that is computed"));
-        }
-        Ok(Spelling {
-            rules: &self.dialect.formula,
-            own: &self.computing.own,
-            system: &self.dialect.system,
-            settings: &self.settings,
-            machine: self.settings.get(MACHINE_UNITS),
-            blanks: self.dialect.block.blanks,
-            turn: self.settings.get(ANGLE_RANGE) == "turn",
-            digits,
-            names: &self.variables,
-        })
-    }
-
-    /// A condition is a decision's alone, where loops and decisions have no words of their own for blocks.
-    fn no_condition(&self, e: &Expr) -> Result<(), Fault> {
-        match self.dialect.program.macro_b && e.has(&decides) {
-            true => Err(cannot_compute("a condition as a value")),
-            false => Ok(()),
-        }
-    }
-
-    /// An expression as what is assigned.
-    pub(crate) fn expression(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
-        self.no_condition(e)?;
-        self.rely_on(e, span, sink);
-        let mut out = String::new();
-        self.spelling(None)?.expr(e, LOOSEST, true, 0, &mut out)?;
-        Ok(out)
-    }
-
-    /// A condition, in its brackets.
-    pub(crate) fn condition(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
-        self.rely_on(e, span, sink);
-        let mut out = String::new();
-        let mut e = e.clone();
-        if self.dialect.program.macro_b {
-            compared(&mut e)?;
-        }
-        self.spelling(None)?.bracketed(&e, 0, &mut out)?;
-        Ok(out)
-    }
-
-    /// What is computed behind a letter: a variable, with its sign, or an expression in brackets.
-    pub(crate) fn behind(
-        &mut self,
-        e: &Expr,
-        digits: Option<u8>,
-        span: Span,
-        sink: &mut Sink,
-    ) -> Result<String, Fault> {
-        self.no_condition(e)?;
-        self.rely_on(e, span, sink);
-        let spelling = self.spelling(digits)?;
-        let mut out = String::new();
-        if !spelling.rules.behind.is_empty() {
-            out.push_str(&spelling.rules.behind);
-            spelling.expr(e, LOOSEST, true, 0, &mut out)?;
-            return Ok(out);
-        }
-        let e = match e {
-            Expr::Node(node) => match &**node {
-                Node::Unary(Unary::Negate, a) => {
-                    out.push('-');
-                    a
-                }
-                _ => e,
-            },
-            Expr::Num(_) => e,
-        };
-        let e = given(e);
-        match e {
-            Expr::Node(node) if matches!(**node, Node::Var(_) | Node::Element(_) | Node::Vacant) => {
-                spelling.expr(e, 0, true, 0, &mut out)?;
-            }
-            e => spelling.bracketed(e, 0, &mut out)?,
-        }
-        Ok(out)
-    }
-
-    /// The value of a word that is computed.
-    ///
-    /// # Errors
-    /// The control rounds it to other digits than the program says, or cannot compute it.
-    pub(crate) fn computed(
-        &mut self,
-        letter: &Letter,
-        value: &Expr,
-        span: Span,
-        sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
-        let value = if letter.format.counts { self.spelling(None)?.whole(value) } else { value };
-        let (said, inner) = rounding(value);
-        let rounds = letter.format.rounds.filter(|_| self.dialect.formula.rounds);
-        let digits = match (said, rounds) {
-            (None, None) => None,
-            (Some(said), Some([mm, inch])) if mm == inch && said == mm => Some(said),
-            (Some(said), Some([mm, inch])) if mm != inch && (said == mm || said == inch) => {
-                // Which of them it is follows from the units in force.
-                let unit = if said == mm { Unit::Mm } else { Unit::Inch };
-                self.check_unit(Num::int(1, unit), span)?;
-                Some(said)
-            }
-            (Some(_), None) if !self.dialect.formula.rounds => {
-                let text = self.behind(value, None, span, sink)?;
-                return Ok(self.block.formula(text));
-            }
-            (Some(_), _) => {
-                return Err(cannot_compute("a computed value that is rounded to other digits than its word"));
-            }
-            (None, Some(_)) => {
-                return Err(cannot_compute("a computed value that is not rounded, in a word that rounds it"));
-            }
-        };
-        let text = self.behind(inner, digits, span, sink)?;
-        Ok(self.block.formula(text))
-    }
-}
-
-/// What must have a value, as that value.
-fn given(e: &Expr) -> &Expr {
-    match e {
-        Expr::Node(node) => match &**node {
-            Node::Call(Function::Given, arguments) => arguments.first().unwrap_or(e),
-            _ => e,
-        },
-        Expr::Num(_) => e,
     }
 }
 

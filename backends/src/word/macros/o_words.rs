@@ -7,13 +7,15 @@
 //!
 //! Not here: expressions (`formula`), and jumps, which such a control has not.
 
+mod messages;
+
 use std::collections::BTreeSet;
 
 use ncc_ir::computed::computes::counted;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::fails::may_fail;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
-use ncc_ir::program::{Alarm, Call, Control, Op, Piece, Procedure, Stmt, Text};
+use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use ncc_ir::track::Tracker;
@@ -30,10 +32,6 @@ const MOST_ARGUMENTS: u32 = 30;
 /// Where a subprogram leaves its result, and whether it has left one: what `return` and `endsub` say.
 const RESULT: &str = "_value";
 const RESULT_GIVEN: &str = "_value_returned";
-
-/// Digits of values in a message where nothing is said, and of `%f`.
-const DIGITS: u8 = 6;
-const FLOAT_DIGITS: u8 = 4;
 
 /// What is known of the O words of a program.
 #[derive(Clone, Debug, Default)]
@@ -511,80 +509,6 @@ impl Writer {
             Some(_) => Err(unsaid()),
         }
     }
-
-    /// A message with values in it: variables, and how many digits of them are shown.
-    pub(crate) fn o_message(&mut self, pieces: &[Piece], span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let rules = &self.dialect.comment;
-        let word = rules.shown.first().ok_or_else(|| cannot("a message with values in it"))?;
-        let mut text = format!("{}{word}", rules.open);
-        let mut digits_said = DIGITS;
-        for piece in pieces {
-            match piece {
-                Piece::Text(plain) => {
-                    let signs = [&rules.open[..], &rules.close];
-                    let acts = acts(plain) || formats(plain);
-                    if acts || signs.iter().any(|sign| plain.contains(sign)) || !plain.chars().all(shows) {
-                        return Err(cannot("a message with these characters"));
-                    }
-                    text.push_str(plain);
-                }
-                Piece::Value { value, digits, short, places: _ } => {
-                    if *short && *digits > 0 {
-                        return Err(cannot("a value in a message without the zeros at its end"));
-                    }
-                    if *digits != digits_said {
-                        digits_said = *digits;
-                        text.push_str(&match *digits {
-                            0 => "%d".to_owned(),
-                            FLOAT_DIGITS => "%f".to_owned(),
-                            DIGITS => "%lf".to_owned(),
-                            digits => format!("%.{digits}f"),
-                        });
-                    }
-                    let value = self.behind(value, None, span, sink)?;
-                    if !value.starts_with('#') || value.starts_with("#[") || value.starts_with("##") {
-                        return Err(cannot("a message with a value that is no variable"));
-                    }
-                    text.push_str(&value);
-                }
-            }
-        }
-        text.push_str(&self.dialect.comment.close);
-        self.o_remark(&text, sink)
-    }
-
-    /// An alarm, which ends the program.
-    pub(crate) fn o_alarm(&mut self, alarm: &Alarm, sink: &mut Sink) -> Result<(), Fault> {
-        let rules = &self.dialect.comment;
-        if rules.alarm.is_empty() {
-            return Err(cannot("an alarm"));
-        }
-        if alarm.number.is_some() {
-            // As straight blocks it can be no better.
-            let what = "an alarm with a number";
-            return Err(if self.computes() { cannot_compute(what) } else { cannot(what) });
-        }
-        let text = &alarm.text;
-        let signs = [&rules.open[..], &rules.close];
-        // The reader has no values in alarms, whatever stands behind the sign.
-        if text.contains('#') || signs.iter().any(|sign| text.contains(sign)) || !text.chars().all(shows) {
-            return Err(cannot("an alarm with these characters"));
-        }
-        let text = format!("{}{}{text}{}", rules.open, rules.alarm, rules.close);
-        self.o_remark(&text, sink)
-    }
-
-    /// A comment that does something, in a line of its own.
-    fn o_remark(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
-        self.no_result()?;
-        if !self.block.is_empty() || !self.block.comment.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
-        }
-        self.block.comment.extend_from_slice(text.as_bytes());
-        self.flush(false, sink);
-        Ok(())
-    }
 }
 
 /// Whether a statement says that no subprogram has given a result yet, which the control does by itself where a program
@@ -597,21 +521,6 @@ pub(in crate::word) fn is_no_result_yet(stmt: &Stmt) -> bool {
 
 fn unsaid() -> Fault {
     cannot_compute("the setting of a result elsewhere than with the return")
-}
-
-fn shows(c: char) -> bool {
-    !c.is_control()
-}
-
-/// Whether a text has what would be the value of a variable.
-fn acts(text: &str) -> bool {
-    text.split('#').skip(1).any(|rest| rest.starts_with(|c: char| c == '<' || c.is_ascii_digit()))
-}
-
-/// Whether a text has what says how values are shown.
-fn formats(text: &str) -> bool {
-    let rest = text.split('%').skip(1);
-    rest.into_iter().any(|rest| rest.starts_with(['d', 'f', '.']) || rest.starts_with("lf"))
 }
 
 /// The opposite of a condition.

@@ -2,15 +2,20 @@
 //! the whole number is that they have. A loop is gone round until nothing new comes of it; what still changes then is
 //! not known there.
 
+mod comparisons;
+mod range;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::take;
 
 use ncc_ir::computed::code_of::{CodeOf, code_of, of_number};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
+use ncc_ir::expr::{Binary, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
+use self::comparisons::{compared, opposite, turned, variable};
+pub(crate) use self::range::{Range, range};
 use super::{ANY, ANY_PLACE, Saved, Told};
 use crate::Batch;
 
@@ -23,73 +28,6 @@ const ALL_TURNS: u32 = 20_000;
 
 /// How deep in calls of calls arguments are followed.
 const ROUNDS: u32 = 3;
-
-/// The greatest number that is reckoned with: each control holds those below it exactly.
-const MOST: i64 = 10_000_000;
-
-/// Whole numbers from one to another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Range {
-    /// The least of them.
-    pub(crate) from: i64,
-    /// The greatest.
-    pub(crate) to: i64,
-}
-
-impl Range {
-    /// One number; none is known that a control may not hold exactly.
-    pub(crate) fn only(number: i64) -> Option<Range> {
-        (-MOST..=MOST).contains(&number).then_some(Range { from: number, to: number })
-    }
-
-    /// Those of both, and what lies between.
-    fn hull(self, other: Range) -> Range {
-        Range { from: self.from.min(other.from), to: self.to.max(other.to) }
-    }
-
-    /// Of whatever two numbers of each come to.
-    fn of(corners: [Option<i64>; 4]) -> Option<Range> {
-        let mut ranges = corners.into_iter().map(|number| number.and_then(Range::only));
-        let first = ranges.next()??;
-        ranges.try_fold(first, |range, next| Some(range.hull(next?)))
-    }
-}
-
-/// The range of an expression, of which each value is whole then.
-pub(crate) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Option<Range> {
-    let node = match expr {
-        Expr::Num(number) => return number.whole().and_then(Range::only),
-        Expr::Node(node) => node,
-    };
-    match &**node {
-        Node::Var(Var::System(_)) => None,
-        Node::Var(var) => known(var),
-        Node::Unary(Unary::Negate, a) => range(a, known).map(|a| Range { from: -a.to, to: -a.from }),
-        Node::Binary(operator, a, b) => {
-            let (a, b) = (range(a, known)?, range(b, known)?);
-            let both = |of: fn(i64, i64) -> Option<i64>| {
-                Range::of([of(a.from, b.from), of(a.from, b.to), of(a.to, b.from), of(a.to, b.to)])
-            };
-            match operator {
-                Binary::Add => both(i64::checked_add),
-                Binary::Subtract => both(i64::checked_sub),
-                Binary::Multiply => both(i64::checked_mul),
-                _ => None,
-            }
-        }
-        // What is whole stays what it is.
-        Node::Call(
-            Function::Given
-            | Function::Round
-            | Function::RoundTo
-            | Function::Floor
-            | Function::Truncate
-            | Function::RoundUp,
-            of,
-        ) => range(of.first()?, known),
-        Node::Element(_) | Node::Vacant | Node::Unary(Unary::Not, _) | Node::Call(..) => None,
-    }
-}
 
 /// What is known of a variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -542,75 +480,6 @@ fn where_it(condition: &Expr, holds: bool, known: Known) -> Option<Known> {
     let Some(operator) = operator else { return Some(known) };
     let known = limit(a, operator, b, known)?;
     limit(b, turned(operator), a, known)
-}
-
-/// A comparison, as whole numbers have it: within a tolerance they are the same, or one apart at least.
-fn compared(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
-    let apart = |e: &'_ Expr| -> Option<bool> {
-        let Expr::Num(n) = e else { return None };
-        let one = 10_i64.checked_pow(u32::from(n.scale))?;
-        (n.mantissa != 0 && n.mantissa.checked_abs()? < one).then_some(n.mantissa > 0)
-    };
-    match node {
-        Node::Call(Function::Near | Function::NearRatio, of) => match &of[..] {
-            [a, b, within] if apart(within) == Some(true) => Some((Binary::Equal, a, b)),
-            _ => None,
-        },
-        Node::Binary(operator, Expr::Node(of), within) if apart(within).is_some() => {
-            let above = apart(within)?;
-            match (operator, &**of) {
-                (Binary::Less, Node::Binary(Binary::Subtract, a, b)) if above => {
-                    Some((Binary::LessOrEqual, a, b))
-                }
-                (Binary::Greater, Node::Binary(Binary::Subtract, a, b)) if !above => {
-                    Some((Binary::GreaterOrEqual, a, b))
-                }
-                (Binary::Less | Binary::GreaterOrEqual, Node::Call(Function::Abs, of)) if above => {
-                    let [Expr::Node(of)] = &of[..] else { return None };
-                    let Node::Binary(Binary::Subtract, a, b) = &**of else { return None };
-                    let same = *operator == Binary::Less;
-                    Some((if same { Binary::Equal } else { Binary::NotEqual }, a, b))
-                }
-                _ => None,
-            }
-        }
-        Node::Binary(operator, a, b) => Some((*operator, a, b)),
-        _ => None,
-    }
-}
-
-/// The comparison that holds where another does not.
-fn opposite(operator: Binary) -> Option<Binary> {
-    Some(match operator {
-        Binary::Equal => Binary::NotEqual,
-        Binary::NotEqual => Binary::Equal,
-        Binary::Less => Binary::GreaterOrEqual,
-        Binary::GreaterOrEqual => Binary::Less,
-        Binary::Greater => Binary::LessOrEqual,
-        Binary::LessOrEqual => Binary::Greater,
-        _ => return None,
-    })
-}
-
-/// The same comparison from the other side.
-fn turned(operator: Binary) -> Binary {
-    match operator {
-        Binary::Less => Binary::Greater,
-        Binary::Greater => Binary::Less,
-        Binary::LessOrEqual => Binary::GreaterOrEqual,
-        Binary::GreaterOrEqual => Binary::LessOrEqual,
-        same => same,
-    }
-}
-
-/// The variable that an expression is, with a value or whether it has one or not.
-fn variable(e: &Expr) -> Option<&Var> {
-    let Expr::Node(node) = e else { return None };
-    match &**node {
-        Node::Var(var) => Some(var),
-        Node::Call(Function::Given, of) => variable(of.first()?),
-        _ => None,
-    }
 }
 
 /// What is known where a variable compares so with something else; `None` where it cannot.

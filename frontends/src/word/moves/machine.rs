@@ -39,9 +39,7 @@ impl Lower {
         };
         let to = self.words_of_axes(words, src, out);
         match code.meaning {
-            Meaning::UseMachineCoordinates { length, rapid } => {
-                self.in_machine(code, length, rapid, said, to, block, out);
-            }
+            Meaning::UseMachineCoordinates { .. } => self.in_machine(code, said, to, block, out),
             Meaning::GoToReference { point, keeps_length } => {
                 self.reference_move(code, point, keeps_length, number, to, block, out);
             }
@@ -73,17 +71,8 @@ impl Lower {
         Axis::ALL.map(|axis| self.axis_row(axis).is_some() && (!axis.is_rotary() || named(axis)))
     }
 
-    #[allow(clippy::too_many_arguments)] // All that a block says of its move.
-    fn in_machine(
-        &mut self,
-        code: &Code,
-        length: bool,
-        rapid: bool,
-        said: bool,
-        to: Point,
-        block: Span,
-        out: &mut Batch,
-    ) {
+    fn in_machine(&mut self, code: &Code, said: bool, to: Point, block: Span, out: &mut Batch) {
+        let Meaning::UseMachineCoordinates { length, rapid } = code.meaning else { return };
         if to.is_empty() && out.refused_within(block) {
             // An axis word stands there, and was refused.
             return;
