@@ -165,6 +165,7 @@ impl Order {
             assumed: start::assumed(&args.standing.start.unwrap_or_default()),
             numbered_tools: Vec::new(),
             further_edges: Vec::new(),
+            tried_upto: None,
             rivals: Vec::new(),
             questions: if self.known.assumes() { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),

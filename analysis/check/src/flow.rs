@@ -44,7 +44,7 @@ fn calls(body: &[Stmt], found: &mut dyn FnMut(&str)) {
     }
 }
 
-/// What a block is to the jumps before it.
+/// How a block counts for the jumps before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
     /// It executes nothing: a label, a comment.
@@ -107,8 +107,8 @@ impl Jumps {
         }
     }
 
-    /// A jump in the block that was told last: `to` is its target, unless that is computed. `told` is its place,
-    /// unless the control goes on where there is no such block.
+    /// The last block jumps to the name `to`; `None` if the name is computed. `told` is the place of the jump; `None` if
+    /// the control goes on where no block has that name.
     pub fn jump(&mut self, to: Option<String>, told: Option<Span>, always: bool) {
         match to {
             Some(name) => {

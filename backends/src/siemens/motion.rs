@@ -254,7 +254,7 @@ impl Writer {
     }
 
     fn turns(&mut self, turns: &Turns, span: Span, sink: &mut Sink, words: &mut Words) -> Result<(), Fault> {
-        // Which number the control makes of a value that is not whole, nobody states: none is computed.
+        // No manual says what the control does with a count that is not whole, so only a written count goes out.
         if turns.count()? > 0 {
             words.push(self.named(NameRole::Turns, &turns.0, None, span, sink)?);
         }

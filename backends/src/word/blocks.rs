@@ -74,7 +74,7 @@ impl Writer {
         let length = self.tracker.modes.length_offset;
         self.tracker.step(stmt);
         if stmt.op.calls_length() && (length.is_none() || self.tracker.modes.length_offset != length) {
-            // Until the next command of Z it is not told by which of the two lengths its place is counted.
+            // From which of the two lengths Z counts is not known before the next Z word.
             self.tracker.position[Axis::Z as usize] = None;
         }
         if stmt.skip.is_some() {
@@ -182,7 +182,7 @@ impl Writer {
             _ if rules.skip_levels == 0 => None,
             (mark, 1) => Some((mark, None)),
             (mark, 2..=9) if level <= rules.skip_levels => Some((mark, Some(level))),
-            // Where the plain mark is the digit 0, the digit 1 is a level of its own.
+            // On a control whose plain mark is `/0`, `/1` is one more level: the tenth.
             (mark, 10) if level <= rules.skip_levels => Some((mark, Some(1))),
             _ => None,
         }

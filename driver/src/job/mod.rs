@@ -88,6 +88,8 @@ pub struct Job {
     pub numbered_tools: Vec<(Text, u32)>,
     /// Entries of the target's length table for edges of the source's tools other than the first.
     pub further_edges: Vec<FurtherEdge>,
+    /// Most steps and blocks of a program that `--pass flatten` executes, where it is only tried.
+    pub tried_upto: Option<u32>,
     /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
     pub rivals: Vec<&'static Dialect>,
     /// The handling of questions: facts that change the cut and that the program does not state.
@@ -143,6 +145,7 @@ impl Job {
             assumed: Vec::new(),
             numbered_tools: Vec::new(),
             further_edges: Vec::new(),
+            tried_upto: None,
             rivals: Vec::new(),
             questions: Policy::default(),
             allow: Vec::new(),

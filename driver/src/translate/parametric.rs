@@ -197,6 +197,7 @@ pub fn target(job: &Job) -> Target {
         bore_shift: bore_shift(job),
         orientation: orientation(job),
         compensating: job.compensating(),
+        tried_upto: job.tried_upto,
         given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
         // What is asked for by name is done in the source's numbers.
         ..Target::default()

@@ -18,6 +18,10 @@ use crate::job::Job;
 use crate::questions::Policy;
 use crate::source::Readable;
 
+/// Most steps and blocks of a program that is tried: a refusal must not cost more than a translation, and nobody reads
+/// more straight blocks than that.
+const MOST: u32 = 100_000;
+
 /// Whether a message about straight blocks is missing: the program computes, and is refused for what the target has no
 /// words for alone.
 pub(super) fn is_open(translation: &Translation) -> bool {
@@ -37,7 +41,7 @@ pub(super) fn is_open(translation: &Translation) -> bool {
 /// Reading the source failed.
 pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option<&'static str>> {
     let passes = PASSES.iter().filter(|pass| pass.name == FLATTEN).collect();
-    let mut job = Job { passes, questions: Policy::Assume, ..job.clone() };
+    let mut job = Job { passes, questions: Policy::Assume, tried_upto: Some(MOST), ..job.clone() };
     let mut try_with = |job: &Job| {
         source.rewind()?;
         let outcome = unwatched(|| super::translate(job, source))?;

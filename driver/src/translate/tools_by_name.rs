@@ -21,6 +21,7 @@ use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::job::{FurtherEdge, Job};
+use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks};
 
 /// A tool as the source calls it.
@@ -91,36 +92,15 @@ pub fn number<F: Read + Seek>(job: &mut Job, source: &mut F) -> io::Result<()> {
     if !by_name && !by_edge || to.can.flat || to.can.everything {
         return Ok(());
     }
+    let names = |text: &[u8]| by_name && memmem::find(text, b"=\"").is_some() || by_edge && names_edge(text);
     source.rewind()?;
-    let mut whole = Vec::new();
-    let mut reader = job.reader(false);
-    let (mut batch, mut tools, mut met) = (Batch::default(), Tools::default(), false);
-    {
-        let mut chunks = Chunks::new(source);
-        loop {
-            match chunks.take()? {
-                Chunk::Lines(_, range) => {
-                    let text = chunks.text(range);
-                    met |= by_name && memmem::find(text, b"=\"").is_some() || by_edge && names_edge(text);
-                    whole.extend_from_slice(text);
-                }
-                Chunk::TooLong(..) => {}
-                Chunk::End => break,
-            }
-            // A long text without a name or an edge at its beginning has none.
-            if !met && whole.len() > WITHOUT {
-                break;
-            }
-        }
-    }
+    let met = begins_with(source, names)?;
     source.rewind()?;
     if !met {
         return Ok(());
     }
-    reader.read(&whole, 0, &mut batch);
-    reader.finish(&mut batch);
-    tools.see(&batch.stmts);
-    batch.procedures.iter().for_each(|procedure| tools.see(&procedure.body));
+    let tools = tools_of(job, source)?;
+    source.rewind()?;
     let maps = job.machines.maps(to);
     let of_maps = maps.tool_names.values().chain(maps.tools.iter().flat_map(|map| map.values()));
     let mut taken: BTreeSet<u32> = of_maps.copied().chain(tools.numbers.iter().copied()).collect();
@@ -132,6 +112,42 @@ pub fn number<F: Read + Seek>(job: &mut Job, source: &mut F) -> io::Result<()> {
         number_edges(job, &tools, taken);
     }
     Ok(())
+}
+
+/// Whether such a line is among the first of a text.
+fn begins_with(source: &mut dyn Readable, such: impl Fn(&[u8]) -> bool) -> io::Result<bool> {
+    let (mut chunks, mut passed) = (Chunks::new(source), 0);
+    while passed <= WITHOUT {
+        match chunks.take()? {
+            Chunk::Lines(_, range) if such(chunks.text(range.clone())) => return Ok(true),
+            Chunk::Lines(_, range) => passed += range.len(),
+            Chunk::TooLong(..) => {}
+            Chunk::End => break,
+        }
+    }
+    Ok(false)
+}
+
+/// What a text says of tools. A text that streams is looked at piece by piece, so that memory does not grow with it.
+fn tools_of(job: &Job, source: &mut dyn Readable) -> io::Result<Tools> {
+    let (mut reader, mut batch, mut tools) = (job.reader(false), Batch::default(), Tools::default());
+    let mut chunks = Chunks::new(source);
+    loop {
+        match chunks.take()? {
+            Chunk::Lines(base, range) => reader.read(chunks.text(range), base, &mut batch),
+            Chunk::TooLong(..) => {}
+            Chunk::End => break,
+        }
+        if !batch.whole {
+            tools.see(&batch.stmts);
+            batch.stmts.clear();
+            batch.diagnostics.clear();
+        }
+    }
+    reader.finish(&mut batch);
+    tools.see(&batch.stmts);
+    batch.procedures.iter().for_each(|procedure| tools.see(&procedure.body));
+    Ok(tools)
 }
 
 /// Gives tools the next free numbers.

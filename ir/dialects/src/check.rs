@@ -113,7 +113,8 @@ fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fau
     Ok(())
 }
 
-/// Checks that the options of variants are there, and that their rows fit into the dictionary.
+/// Checks that the options of variants are there, and that their rows fit into the dictionary: those of each alone, and
+/// those of each two that can hold together. (A fault is one of a row, or of two that exclude each other.)
 pub(crate) fn variants(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
     for (at, variant) in dialect.variant.iter().enumerate() {
         let wrong = |row: &str, wrong| fault(row, wrong, &places.variant, at);
@@ -127,11 +128,14 @@ pub(crate) fn variants(dialect: &Dialect, places: &Places) -> Result<(), Fault> 
                 return Err(wrong(value, "is the option's default, so that the variant always holds"));
             }
         }
-        let mut with = dialect.clone();
-        variant.put_into(&mut with);
-        let own = |(wrong, _): Fault| (wrong, places.variant.get(at).cloned());
-        spread(&mut with, &mut Places::default()).map_err(own)?;
-        index(&with, &Places::default()).map_err(own)?;
+        let others = dialect.variant[..at].iter().filter(|other| variant.goes_with(other)).map(Some);
+        for other in std::iter::once(None).chain(others) {
+            let mut with = dialect.clone();
+            other.into_iter().chain([variant]).for_each(|row| row.put_into(&mut with));
+            let own = |(wrong, _): Fault| (wrong, places.variant.get(at).cloned());
+            spread(&mut with, &mut Places::default()).map_err(own)?;
+            index(&with, &Places::default()).map_err(own)?;
+        }
     }
     Ok(())
 }

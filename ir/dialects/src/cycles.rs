@@ -130,7 +130,7 @@ impl CycleRow {
         Some(Num { mantissa: i64::from(pause), scale: 3, point: true, unit: Unit::Second }.trimmed())
     }
 
-    /// What the control does of itself in it.
+    /// What the control does in it that no word says.
     pub fn own(&self) -> ncc_ir::caps::Own {
         ncc_ir::caps::Own { dwells_turned: self.dwells_turned, turns_on: self.turns_on }
     }

@@ -87,6 +87,11 @@ pub struct VariantCan {
 }
 
 impl VariantRow {
+    /// Whether this variant and another can hold together.
+    pub(crate) fn goes_with(&self, other: &VariantRow) -> bool {
+        self.when.iter().all(|(option, value)| other.when.get(option).is_none_or(|own| own == value))
+    }
+
     /// The dictionary with this variant's rows in, and with its options at their values.
     pub(crate) fn put_into(&self, dialect: &mut Dialect) {
         let block = &mut dialect.block;
@@ -141,10 +146,8 @@ pub(crate) fn chosen(dialect: &'static Dialect, value: impl Fn(&str) -> String) 
     for row in at.iter().filter_map(|at| dialect.variant.get(*at)) {
         row.put_into(&mut derived);
     }
-    // The loader has tried each variant; where two of them do not fit together, the first rows stay in force.
-    if renew(&mut derived).is_err() {
-        return dialect;
-    }
+    // What a user has chosen is never left out in silence.
+    renew(&mut derived).expect("variants of which the loader has tried each two together");
     let derived: &'static Dialect = Box::leak(Box::new(derived));
     made.push((dialect, at, derived));
     derived

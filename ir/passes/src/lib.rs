@@ -79,6 +79,9 @@ pub struct Target {
     pub given: BTreeMap<Text, f64>,
     /// How compensation is worked out, where that is asked for.
     pub compensating: Compensating,
+    /// Most steps and blocks of a program that `flatten` executes, where it is only tried; `None` is as many as a
+    /// program may grow to.
+    pub tried_upto: Option<u32>,
 }
 
 impl Target {

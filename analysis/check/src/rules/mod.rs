@@ -4,7 +4,7 @@
 //! rapid-into-part    G0 Z-5. above a place that was cut from Z 0    a finding at the block
 //! ```
 //!
-//! Not here: which of them are asked for, and how they are told.
+//! Not here: which rules are run, and how findings are shown.
 
 pub(crate) mod feed;
 pub(crate) mod left;

@@ -19,7 +19,7 @@ pub(crate) struct CycleCode {
     /// Of pecks that decrease: of the first, of how much less each further one is, of the least.
     pub shrinking: Option<[Letter; 3]>,
     pub hand: Option<Turn>,
-    /// What the control does of itself in it.
+    /// How it drives the spindle.
     pub form: CycleForm,
     /// Whether its feed out goes on to where the tool is left.
     pub to_level: bool,

@@ -6,7 +6,7 @@
 //! Y20
 //! ```
 //!
-//! A Fanuc finds no corner at such a block. What it does not see it does as the source does.
+//! Another control may find no corner at such a block.
 //!
 //! Not here: blocks of which only the run knows that they go nowhere, which execution refuses.
 

@@ -94,6 +94,7 @@ fn straight(
     let mut steps = 0;
     let mut inches = walk.at.modes.units == Some(Units::Inch);
     let mut short = [Some(0); AXES];
+    let most = target.tried_upto.map_or(MOST_STATEMENTS, |most| most as usize);
     loop {
         let Some(stmt) = runner.next_of(&exec, other.as_ref())? else {
             out.extend(valid::returns_alone(program).map(|at| Stmt::new(at, Op::Return)));
@@ -130,7 +131,7 @@ fn straight(
         walk.enter(stmt.skip);
         settle(&mut stmt.op, &walk.at);
         walk.step(&stmt);
-        if out.len() >= MOST_STATEMENTS {
+        if out.len() >= most || target.tried_upto.is_some_and(|most| runner.steps() > u64::from(most)) {
             let what = "more blocks than a program may grow to".into();
             return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
         }

@@ -1,10 +1,10 @@
 //! `tool-edge`: a tool's length by an edge of the tool in the spindle, or by an entry of a table.
 //!
 //! Edge 1 of tool `n` is entry `n` of the table: an assumption, told once for each tool. Of a tool whose number is not
-//! known it stays edge 1 for a target that calls up the length of the tool in the spindle without its number. Other edges
-//! have an entry where the target's settings name one, and other entries no edge: else they are refused. On a control with edges a tool change
-//! makes edge 1 active by itself, so that what is in force after the change is said there: it moves
-//! nothing until Z is commanded, and stands right behind the change where nothing commands Z between. An edge of a tool
+//! known it stays edge 1 for a target that calls up the length of the tool in the spindle without its number. Another edge
+//! has an entry only where the target's settings name one, and no other entry has an edge: else they are refused. On a
+//! control with edges a tool change makes edge 1 active by itself, so that what is in force after the change is said
+//! there: it moves nothing until Z is commanded, and stands right behind the change where nothing commands Z between. An edge of a tool
 //! that the program has not called is left out where another follows before Z is commanded.
 
 use crate::pass::{Moment, Pass, Step};

@@ -62,7 +62,7 @@ impl Writer {
         Ok(out)
     }
 
-    /// What is computed behind a letter: a variable, with its sign, or an expression in brackets.
+    /// Writes the computed value of a letter: a variable with its sign, or an expression in brackets.
     pub(crate) fn behind(
         &mut self,
         e: &Expr,
@@ -117,7 +117,7 @@ impl Writer {
             (None, None) => None,
             (Some(said), Some([mm, inch])) if mm == inch && said == mm => Some(said),
             (Some(said), Some([mm, inch])) if mm != inch && (said == mm || said == inch) => {
-                // Which of them it is follows from the units in force.
+                // The units in force say which of the two is meant.
                 let unit = if said == mm { Unit::Mm } else { Unit::Inch };
                 self.check_unit(Num::int(1, unit), span)?;
                 Some(said)
@@ -141,7 +141,7 @@ impl Writer {
 /// A number among conditions that are joined, `[#1 EQ 0] XOR 1`, as one that holds or does not.
 ///
 /// # Errors
-/// What is compared is a condition itself.
+/// A side of a comparison is a condition.
 fn compared(e: &mut Expr) -> Result<(), Fault> {
     let Expr::Node(node) = e else { return Ok(()) };
     if let Node::Binary(Binary::And | Binary::Or | Binary::Xor, a, b) = &mut **node {
