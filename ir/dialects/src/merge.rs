@@ -4,8 +4,9 @@
 //! - A table is merged field by field, to any depth.
 //! - A list of rows is merged row by row. Rows are told apart by their key: `code` in `[[code]]`,
 //!   `[[cycle]]` and `[[pattern]]` (`G1` is `G01`), `letter` in `[[address]]`, `name` in `[[name]]`,
-//!   `[[call]]`, `[[option]]`, `[[behaviour]]` and `[[data]]`, `number` or else `name` in `[[system]]`. A row of a key that the base has is merged over the base's row field
-//!   by field and keeps its place; any other is added at the end. Lists inside a row are replaced.
+//!   `[[call]]`, `[[option]]`, `[[behaviour]]` and `[[data]]`, `number` or else `name` in `[[system]]`, the options of
+//!   `when` in `[[variant]]`. A row of a key that the base has is merged over the base's row field by field and keeps its
+//!   place; any other is added at the end. Lists inside a row are replaced, but for the rows of a variant.
 //! - In `[[code]]` and `[[name]]`, `means`, `role` and `refuse` exclude each other: a row that says one
 //!   of them takes away the base's others.
 //! - `remove = true` in a row or table takes the base's away; `replace = true` puts the row or table in
@@ -32,6 +33,9 @@ const REPLACE: &str = "replace";
 /// The field that tells values of the control's own apart; those without it have a name.
 const NUMBER: &str = "number";
 
+/// The field that tells variants apart: options and their values.
+const WHEN: &str = "when";
+
 /// Words of a row of which only one can be said.
 const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
 
@@ -42,6 +46,7 @@ pub(crate) fn row_key(table: &str) -> Option<&'static str> {
         "name" | "call" | "option" | "data" | "behaviour" => Some("name"),
         "address" => Some("letter"),
         "system" => Some(NUMBER),
+        "variant" => Some(WHEN),
         _ => None,
     }
 }
@@ -193,7 +198,13 @@ fn merge_rows<'i>(
                         merged.remove(word);
                     }
                 }
-                merge_fields(&mut merged, over)?;
+                if field == WHEN {
+                    // A variant has rows as a dictionary has. What is wrong with it is told where it was laid over.
+                    merged.remove(WHEN);
+                    merge(&mut merged, over)?;
+                } else {
+                    merge_fields(&mut merged, over)?;
+                }
                 *found = Some(Spanned::new(at, DeValue::Table(merged)));
             }
         }
@@ -207,9 +218,18 @@ pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops
         // A value of the control's own has a number, or else a name.
         return if field == NUMBER { key_of(row, "name") } else { None };
     };
+    if field == WHEN {
+        let options = value.get_ref().as_table()?;
+        let said = |(option, own): (&Spanned<Cow<str>>, &Spanned<DeValue>)| {
+            Some(format!("{} = {}", option.get_ref(), own.get_ref().as_str()?))
+        };
+        let mut said: Vec<String> = options.iter().map(said).collect::<Option<_>>()?;
+        said.sort();
+        return Some((said.join(", "), value.span()));
+    }
     if field == NUMBER {
         // One number may be several values, each with a choice of an option.
-        let when = row.get("when").and_then(|when| when.get_ref().as_str()).unwrap_or_default();
+        let when = row.get(WHEN).and_then(|when| when.get_ref().as_str()).unwrap_or_default();
         return Some((format!("{} {when}", value.get_ref().as_integer()?), value.span()));
     }
     Some((value.get_ref().as_str()?.to_owned(), value.span()))
