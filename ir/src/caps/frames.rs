@@ -83,17 +83,9 @@ pub enum LengthThere {
     Off,
 }
 
+sides!(LengthThere, Stays, Off, stays);
+
 impl LengthThere {
-    /// The only one there is: it stays in force, or is off.
-    pub fn only(stays: bool) -> LengthThere {
-        if stays { LengthThere::Stays } else { LengthThere::Off }
-    }
-
-    /// Whether that can be said.
-    pub fn says(self, stays: bool) -> bool {
-        self == LengthThere::Either || self == LengthThere::only(stays)
-    }
-
     /// Whether it stays: as asked, where either can be said.
     pub fn or(self, asked: bool) -> bool {
         match self {

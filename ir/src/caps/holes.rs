@@ -66,17 +66,7 @@ pub enum CircleStart {
     Cartesian,
 }
 
-impl CircleStart {
-    /// The only one there is: by radius and angle, or by position.
-    pub fn only(polar: bool) -> CircleStart {
-        if polar { CircleStart::Polar } else { CircleStart::Cartesian }
-    }
-
-    /// Whether that can be said.
-    pub fn says(self, polar: bool) -> bool {
-        self == CircleStart::Either || self == CircleStart::only(polar)
-    }
-}
+sides!(CircleStart, Polar, Cartesian, polar);
 
 /// The way through a grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -90,17 +80,7 @@ pub enum GridWay {
     SameWay,
 }
 
-impl GridWay {
-    /// The only one there is: every second row backwards, or all the same way.
-    pub fn only(serpentine: bool) -> GridWay {
-        if serpentine { GridWay::Serpentine } else { GridWay::SameWay }
-    }
-
-    /// Whether that can be said.
-    pub fn says(self, serpentine: bool) -> bool {
-        self == GridWay::Either || self == GridWay::only(serpentine)
-    }
-}
+sides!(GridWay, Serpentine, SameWay, serpentine);
 
 /// How a cycle says to where it returns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -114,17 +94,7 @@ pub enum ReturnsTo {
     Level,
 }
 
-impl ReturnsTo {
-    /// The only one there is: by a plane that is stated, or by a level.
-    pub fn only(plane: bool) -> ReturnsTo {
-        if plane { ReturnsTo::Plane } else { ReturnsTo::Level }
-    }
-
-    /// Whether that can be said.
-    pub fn says(self, plane: bool) -> bool {
-        self == ReturnsTo::Either || self == ReturnsTo::only(plane)
-    }
-}
+sides!(ReturnsTo, Plane, Level, plane);
 
 /// A cycle that a target has words for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -180,17 +150,7 @@ pub enum Lift {
     Rapid,
 }
 
-impl Lift {
-    /// The only one there is: at feed, or rapid.
-    pub fn only(at_feed: bool) -> Lift {
-        if at_feed { Lift::Feed } else { Lift::Rapid }
-    }
-
-    /// Whether that can be said.
-    pub fn says(self, at_feed: bool) -> bool {
-        self == Lift::Either || self == Lift::only(at_feed)
-    }
-}
+sides!(Lift, Feed, Rapid, at_feed);
 
 /// Where a feed out of a hole ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -204,17 +164,7 @@ pub enum FeedsOutTo {
     Retract,
 }
 
-impl FeedsOutTo {
-    /// The only one there is: where the tool is left, or at the retract plane.
-    pub fn only(to_level: bool) -> FeedsOutTo {
-        if to_level { FeedsOutTo::Level } else { FeedsOutTo::Retract }
-    }
-
-    /// Whether that can be said.
-    pub fn says(self, to_level: bool) -> bool {
-        self == FeedsOutTo::Either || self == FeedsOutTo::only(to_level)
-    }
-}
+sides!(FeedsOutTo, Level, Retract, to_level);
 
 /// How a cycle that drives the spindle is said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

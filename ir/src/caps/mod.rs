@@ -7,6 +7,23 @@
 //!
 //! Not here: which word says it: the dictionary.
 
+/// What there is to ask of a choice between two sides, where a target may also have both.
+macro_rules! sides {
+    ($name:ident, $yes:ident, $no:ident, $which:ident) => {
+        impl $name {
+            #[doc = concat!("The only side there is: `", stringify!($yes), "`, or else `", stringify!($no), "`.")]
+            pub fn only($which: bool) -> $name {
+                if $which { $name::$yes } else { $name::$no }
+            }
+
+            /// Whether this side can be said.
+            pub fn says(self, $which: bool) -> bool {
+                self == $name::Either || self == $name::only($which)
+            }
+        }
+    };
+}
+
 mod frames;
 mod holes;
 mod modes;
