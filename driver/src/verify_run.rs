@@ -9,6 +9,7 @@
 //! Not here: what an event is, and when two are the same (`ncc_exec::verify`).
 
 pub mod controls;
+mod ended;
 pub mod facts;
 pub mod forks;
 mod levels;

@@ -35,7 +35,7 @@ pub use self::summary::SCHEMA;
 
 use self::gather::{Gathered, gather, identity};
 use self::names::Claim;
-use self::orders::{Orders, where_to};
+use self::orders::{Orders, several, where_to};
 use self::progress::Progress;
 use self::summary::{Result as Came, Row, Summary};
 use self::work::{Bench, Done, Held, Store, make_folder};
@@ -152,14 +152,6 @@ pub(crate) fn run(
     };
     tell(args, arrow, &summary, err)?;
     Ok(summary.exit)
-}
-
-/// Names the program of a command, or says how many files and folders it names.
-fn several(args: &Translate) -> String {
-    match args.files.as_slice() {
-        [one] => one.display().to_string(),
-        files => format!("{} files and folders", files.len()),
-    }
 }
 
 /// The folders of the outputs, each once.

@@ -129,6 +129,14 @@ impl Orders {
 
 /// The usage error of a batch that names no folder for its outputs.
 pub(super) fn where_to(args: &Translate) -> Problem {
-    let several = super::several(args);
+    let several = several(args);
     Problem::usage(format!("{several}: where to?"), "name a folder for the outputs: -o FOLDER")
+}
+
+/// Names the program of a command, or says how many files and folders it names.
+pub(super) fn several(args: &Translate) -> String {
+    match args.files.as_slice() {
+        [one] => one.display().to_string(),
+        files => format!("{} files and folders", files.len()),
+    }
 }

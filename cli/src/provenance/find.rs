@@ -23,8 +23,7 @@ use ncc_driver::source::{Source, called};
 use ncc_driver::translate::translate_recording;
 
 use super::args::Why;
-use super::read::{Document, read};
-use super::why::own_settings;
+use super::read::{Document, own_settings, read};
 use crate::files;
 use crate::known::Known;
 use crate::milling::{self, Voice};

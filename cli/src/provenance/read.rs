@@ -4,9 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Read;
 
+use ncc_dialects::Settings;
 use ncc_driver::provenance::map::VERSION;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
+
+use crate::known::Known;
 
 /// One of both sides, as the map names it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -168,4 +171,13 @@ impl<'de> Visitor<'de> for LineSeed {
         while list.next_element::<IgnoredAny>()?.is_some() {}
         Ok(entry)
     }
+}
+
+/// The output's dialect with the options that it was written with; `None` if there is no such dialect here.
+pub(super) fn own_settings(side: &Side, known: &Known) -> Option<Settings> {
+    let mut settings = Settings::new(known.get(&side.dialect)?);
+    for (option, value) in &side.options {
+        settings.choose(option, value).ok()?;
+    }
+    Some(settings)
 }

@@ -4,7 +4,6 @@
 use std::io::{self, Write};
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_dialects::Settings;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::state::{Around, State, WHAT, around};
 use ncc_driver::provenance::text::Text;
@@ -14,7 +13,7 @@ use serde::Serialize;
 
 use super::args::Why;
 use super::find::{Found, find};
-use super::read::{Events, Place, Row, Side};
+use super::read::{Events, Place, Row, own_settings};
 use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
@@ -189,15 +188,6 @@ fn places(
         });
     }
     Ok(origins)
-}
-
-/// The output's dialect with the options that it was written with; `None` if there is no such dialect here.
-pub(super) fn own_settings(side: &Side, known: &Known) -> Option<Settings> {
-    let mut settings = Settings::new(known.get(&side.dialect)?);
-    for (option, value) in &side.options {
-        settings.choose(option, value).ok()?;
-    }
-    Some(settings)
 }
 
 fn modal([before, after]: [State; 2]) -> Vec<Modal> {

@@ -14,8 +14,8 @@ use ncc_ir::expr::num::Nanos;
 use serde_json::Value;
 
 use super::args::Verify;
+use super::comparison::{call, cannot_compare, compare, exit, is_stdin, show};
 use super::side::{Asked, open};
-use super::verify::{call, cannot_compare, compare, exit, is_stdin};
 use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
@@ -141,7 +141,7 @@ fn tell(
         }
         Ok(())
     })?;
-    super::verify::show(args, fresh).map(drop).or_else(|problem| match args.format {
+    show(args, fresh).map(drop).or_else(|problem| match args.format {
         Format::Json => Ok(()),
         Format::Human => Err(problem),
     })

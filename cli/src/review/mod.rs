@@ -1,8 +1,8 @@
 //! Judging programs: what two of them do, held side by side.
 //!
-//! `side` is a program named on the command line, `stream` executes it whole in given worlds, `feed`
-//! makes records of what it does. What is found is told by the verbs' own rooms; `cert` checks again what
-//! `verify` has certified. Not here: what a difference is (ncc-diff).
+//! `side` is a program named on the command line, `comparison` compares two of them, and the verbs report the
+//! result in folders of their own; `cert` checks again what `verify` has certified.
+//! Not here: what a difference is (ncc-diff).
 //!
 //! ```text
 //! ncc diff old.nc new.nc       what moves otherwise, at which line of each
@@ -11,6 +11,7 @@
 
 pub mod args;
 pub mod cert;
+mod comparison;
 pub mod diff;
 pub(crate) mod side;
 pub mod textconv;

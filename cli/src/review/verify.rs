@@ -1,33 +1,25 @@
 //! `ncc verify`: do two programs make the same cut, and a certificate of it.
 //!
-//! `pair` executes and compares as strictly as a translation compares what it has written, `document` is
-//! what is written down of it, `text` tells it, `hashes` name what it rests on; certificates are checked
-//! again by `cert`. Not here: how two programs differ in all their parts (`diff`).
+//! `comparison` compares the two programs, `cert` checks again a certificate that this verb has written.
+//! Not here: how two programs differ in all their parts (`diff`).
 
-use std::io::{self, Write};
-use std::path::Path;
+use std::io;
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_driver::guess::better;
 use ncc_driver::job::Job;
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem};
-use ncc_driver::questions;
-use ncc_driver::render::{About, human};
-use ncc_driver::review::verify::document::{Call, Document};
-use ncc_driver::review::verify::hashes;
-use ncc_driver::review::verify::text;
+use ncc_driver::review::verify::document::Document;
 use ncc_ir::expr::num::Nanos;
 
 use super::args::Verify;
 use super::cert;
+use super::comparison::{call, cannot_compare, compare, exit, show, write};
 use super::side::{Asked, open, operand};
 use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
-use crate::time::running::Running;
 pub use ncc_driver::review::verify::document::SCHEMA;
-use ncc_driver::review::verify::document::Word;
 use ncc_driver::side::Side;
 use ncc_driver::source::Source;
 use ncc_driver::source::spool::Spool;
@@ -114,116 +106,6 @@ fn verify(
     Ok(exit(&document))
 }
 
-/// What a comparison is called with, and the hashes of what it rests on.
-///
-/// # Errors
-/// Reading the file of a profile.
-pub(crate) fn call(
-    files: [String; 2],
-    machines: [Option<&str>; 2],
-    tolerance: Option<Nanos>,
-    sides: &[Side; 2],
-    known: &Known,
-) -> io::Result<Call> {
-    Ok(Call {
-        files,
-        machines: machines.map(|name| name.map(str::to_owned)),
-        tolerance,
-        dictionaries: hashes::dictionaries(sides, &|id| known.texts(id)),
-        profiles: hashes::profiles(machines, sides, &|name| std::fs::read(name))?,
-    })
-}
-
-/// The problem of programs that cannot be read for a comparison.
-pub(crate) fn cannot_compare(error: io::Error) -> Problem {
-    Problem::file("compare", "the programs", &error)
-}
-
-/// Compares both sides, and tells what keeps them from being compared.
-///
-/// # Errors
-/// Reading the programs.
-pub(crate) fn compare(
-    args: &Verify,
-    sides: &mut [Side; 2],
-    call: &Call,
-    known: &Known,
-    err: &mut dyn WriteColor,
-) -> Result<Document, Problem> {
-    let running = Running::shown(&sides[0].source.name, args.format == Format::Human && !args.telling.quiet);
-    let found = ncc_driver::review::verify::pair::compare(sides, call.tolerance.unwrap_or_default())
-        .map_err(cannot_compare)?;
-    drop(running);
-    if args.format == Format::Human {
-        for (side, course) in sides.iter_mut().zip(&found.courses) {
-            if !args.telling.quiet {
-                questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err)?;
-            }
-            if course.refused || args.telling.verbose {
-                // Messages that cannot be written change nothing about what was found.
-                let _ = say(args, side, course, known, err);
-            }
-        }
-    }
-    Document::of(&found, sides, call).map_err(cannot_compare)
-}
-
-/// Tells what was found in a program.
-fn say(
-    args: &Verify,
-    side: &mut Side,
-    course: &ncc_driver::review::stream::Course,
-    known: &Known,
-    err: &mut dyn WriteColor,
-) -> io::Result<()> {
-    let shown = side.source.shown.clone();
-    let dialect = side.dialect();
-    let mut about = About { job: &side.job, name: &shown, source: &mut side.source.file };
-    human::print(err, &mut about, &course.diagnostics, args.telling.loudness())?;
-    if course.refused {
-        writeln!(err, "{shown}: not compared, because it cannot be executed as {}", dialect.id)?;
-        if let Some((other, reasons)) = better(&mut side.source.file, &side.job.from, known.all())? {
-            writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
-            writeln!(err, "  help: {}:{shown}", other.id)?;
-        }
-    }
-    err.flush()
-}
-
-/// Shows a document on stdout.
-///
-/// # Errors
-/// stdout cannot be written.
-pub(crate) fn show(args: &Verify, document: &Document) -> Result<(), Problem> {
-    let to_stdout = match args.format {
-        Format::Json => files::data_to_stdout,
-        Format::Human => files::to_stdout,
-    };
-    to_stdout(&mut |out| match (args.format, args.telling.quiet) {
-        (Format::Json, _) => write(out, document),
-        (Format::Human, true) => Ok(()),
-        (Format::Human, false) => text::write(out, document),
-    })
-}
-
-/// The exit code of a verdict.
-pub(crate) fn exit(document: &Document) -> Exit {
-    match document.verdict {
-        Word::Equal | Word::EqualWithinTolerance => Exit::Done,
-        Word::Different => Exit::Refused,
-        Word::NotCompared => Exit::NotCompared,
-    }
-}
-
-/// Writes a document.
-///
-/// # Errors
-/// Writing.
-pub(crate) fn write(out: &mut dyn Write, document: &Document) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, document)?;
-    writeln!(out)
-}
-
 /// Two texts, in the dialects and for the machines of a job, compared without a process.
 ///
 /// # Errors
@@ -249,9 +131,4 @@ pub fn of_texts(
     let call = call(["source".to_owned(), "output".to_owned()], machines, tolerance, &sides, known)?;
     let found = ncc_driver::review::verify::pair::compare(&mut sides, tolerance.unwrap_or_default())?;
     Document::of(&found, &mut sides, &call)
-}
-
-/// Whether a path is stdin.
-pub(crate) fn is_stdin(path: &str) -> bool {
-    Path::new(path) == Path::new("-")
 }

@@ -30,7 +30,7 @@ use ncc_driver::render::{About, summary as account};
 use ncc_driver::source::{Source, called};
 use ncc_driver::time::drive::{Course, Plan, Sink, Stage, drive};
 use ncc_driver::time::payload::{self, Header};
-use ncc_driver::time::{assumed, canon, csv, duration};
+use ncc_driver::time::{assumed, canon, columns, csv, duration};
 use ncc_ir::canon::Axis;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_machines::Profile;
@@ -450,8 +450,8 @@ fn summaries(
             dialect: job.from.dialect.id.clone(),
             blocks: course.blocks,
             functions: 0,
-            clock: [plan.start_time, course.end].map(payload::micro),
-            bounds: course.bounds.map(|bounds| bounds.map(payload::micro)),
+            clock: [plan.start_time, course.end].map(columns::micro),
+            bounds: course.bounds.map(|bounds| bounds.map(columns::micro)),
             assumed: assumptions(shop, &plan, &course),
             total: Tally::default(),
             tools: Vec::new(),

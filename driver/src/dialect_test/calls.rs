@@ -2,9 +2,9 @@
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole};
 
-use super::Row;
 use super::proof::must_show;
 use super::proof::{Bench, Said, refusal};
+use super::row::Row;
 
 /// The rows of the calls.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {

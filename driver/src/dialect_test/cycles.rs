@@ -4,9 +4,8 @@ use ncc_dialects::{CycleRow, Dialect, Family, Hand, PatternRow};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::program::cycle::Approach;
 
-use super::Row;
 use super::proof::{Bench, Said, Tried, in_place, must_show};
-use super::words::pecks_text;
+use super::row::Row;
 
 /// Values of a cycle's words, in mm and seconds.
 #[derive(Clone, Debug)]
@@ -182,4 +181,13 @@ pub(super) fn pattern(bench: &Bench, row: &PatternRow, rows: &mut Vec<Row>) {
         let tried = must_show(bench.both_ways(&said), row.code());
         rows.push(tried.row("pattern", row.code(), code.is_some_and(|c| c.sure)));
     }
+}
+
+/// The pecks of a cycle in the text form; `by` is what the control has a parameter for.
+fn pecks_text(row: &CycleRow, by: &str, values: &Values) -> String {
+    let by = if row.from_return { format!("{by} return") } else { format!("{by} parameter") };
+    let pause =
+        row.own_pause().map(|pause| f64::from(pause.mantissa as i32) / 10f64.powi(pause.scale.into()));
+    let dwells = pause.map_or_else(String::new, |pause| format!(", pause {pause}s, dwell {pause}s"));
+    format!("peck {}mm, {by}{dwells}", values.peck)
 }

@@ -3,8 +3,8 @@
 use ncc_dialects::{Dialect, Quantity, Role};
 use ncc_ir::program::ProgramName;
 
-use super::Row;
 use super::proof::{Bench, Said, Tried};
+use super::row::Row;
 
 /// The rows of a dictionary's rules.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {

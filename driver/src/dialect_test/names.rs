@@ -2,10 +2,10 @@
 
 use ncc_dialects::{FrameWord, Meaning, NameMeaning, NameRole, NameRow};
 
-use super::Row;
-use super::codes::said;
 use super::proof::must_show;
 use super::proof::{Bench, Said, Tried, in_place, refusal};
+use super::row::Row;
+use super::statements::{corner, said};
 
 /// The rows of the words of several letters.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -139,12 +139,4 @@ fn address(role: NameRole) -> Said {
         NameRole::RoundCorners => return corner("ROUND_CORNER"),
         NameRole::PlaneAngle => "SET_FRAME(rotate, XY, 12.5deg)",
     })
-}
-
-/// A move with a corner behind it, and the next one.
-pub fn corner(function: &str) -> Said {
-    Said {
-        after: "said STRAIGHT_FEED(Y 40mm)".to_owned(),
-        ..Said::new(format!("SET_FEED_RATE(123mm) & {function}(2.5mm) & said STRAIGHT_FEED(X 50mm)"))
-    }
 }

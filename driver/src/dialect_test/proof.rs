@@ -12,7 +12,7 @@ use ncc_ir::caps::LengthsOf;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
 
-use super::Row;
+use super::row::Row;
 use crate::render::words::{Context, words};
 
 /// A statement to be tried, in the text form of the neutral program.

@@ -1,12 +1,11 @@
 //! Address letters: a statement for what each is, and its refusal where it is nothing by itself.
 
-use ncc_dialects::{Address, CycleRow, Dialect, Family, PatternRow, Quantity, Role};
+use ncc_dialects::{Address, Dialect, Family, PatternRow, Quantity, Role};
 use ncc_ir::canon::CornerShape;
 
-use super::Row;
-use super::codes::arc;
-use super::cycles::Values;
 use super::proof::{Bench, Said, Tried, refusal};
+use super::row::Row;
+use super::statements::{arc, corner, with_procedure};
 
 /// The rows of the address letters.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -16,7 +15,7 @@ pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
             CornerShape::Leg => "CHAMFER_CORNER",
             CornerShape::Length => "CHAMFER_CORNER_BY_LENGTH",
         };
-        let mut tried = bench.both_ways(&super::names::corner(function));
+        let mut tried = bench.both_ways(&corner(function));
         let comma = if word.comma { "," } else { "" };
         let sign = if word.negative { "-" } else { "" };
         let text = format!("{comma}{}{sign}", word.letter);
@@ -118,12 +117,6 @@ fn said(d: &Dialect, row: &Address) -> Vec<Said> {
     }
 }
 
-/// With the subprogram that it calls.
-pub fn with_procedure(number: u32, said: Said) -> Said {
-    let procedures = format!("procedure {number} {{\nsaid STRAIGHT_TRAVERSE(X entry 1u)\nRETURN()\n}}\n");
-    Said { procedures, ..said }
-}
-
 /// Rows of which a letter is a word.
 fn users(d: &Dialect, letter: char) -> Vec<String> {
     let mut users: Vec<String> = Vec::new();
@@ -162,13 +155,4 @@ fn users(d: &Dialect, letter: char) -> Vec<String> {
         users.push("cycles (repetition)".to_owned());
     }
     users
-}
-
-/// The pecks of a cycle in the text form; `by` is what the control has a parameter for.
-pub(super) fn pecks_text(row: &CycleRow, by: &str, values: &Values) -> String {
-    let by = if row.from_return { format!("{by} return") } else { format!("{by} parameter") };
-    let pause =
-        row.own_pause().map(|pause| f64::from(pause.mantissa as i32) / 10f64.powi(pause.scale.into()));
-    let dwells = pause.map_or_else(String::new, |pause| format!(", pause {pause}s, dwell {pause}s"));
-    format!("peck {}mm, {by}{dwells}", values.peck)
 }

@@ -131,3 +131,10 @@ fn rapid_rate(length: f64, change: &[f64; AXES], machine: &Machine) -> f64 {
     let line = machine.rapid_rate.filter(|_| moves(&change[..3]) || !moves(&change[3..]));
     axes.fold(line, |least, rate| Some(least.map_or(rate, |l| l.min(rate)))).unwrap_or(0.0)
 }
+
+/// To six digits after the point, which is what is shown of anything.
+pub fn micro(value: f64) -> f64 {
+    let rounded = (value * 1e6).round() / 1e6;
+    // No minus zero.
+    if rounded == 0.0 { 0.0 } else { rounded }
+}

@@ -8,10 +8,9 @@ use std::io::{self, Write};
 use ncc_ir::expr::num::Nanos;
 use ncc_time::{Machine, Timed};
 
-use super::columns::Columns;
+use super::columns::{Columns, micro};
 use super::drive::{Said, Sink};
 use super::duration::short;
-use super::payload::micro;
 
 /// The columns.
 pub const HEADER: [&str; 11] =

@@ -10,8 +10,7 @@ use ncc_ir::program::{Coord, Op, Pitch, Point};
 use ncc_time::Act;
 use serde_json::{Map, Value};
 
-use super::columns::units;
-use super::payload::micro;
+use super::columns::{micro, units};
 
 /// Parameters by name.
 type Parameters = Map<String, Value>;

@@ -14,7 +14,7 @@ use ncc_time::{Machine, Timed};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::columns::{Columns, Row, units};
+use super::columns::{Columns, Row, micro, units};
 use super::drive::{Said, Sink, Stage};
 use super::parameters;
 
@@ -223,11 +223,4 @@ impl<W: Write> Sink for Payload<'_, W> {
         block.parameters = parameters;
         self.block(&block)
     }
-}
-
-/// To six digits after the point, which is what is shown of anything.
-pub fn micro(value: f64) -> f64 {
-    let rounded = (value * 1e6).round() / 1e6;
-    // No minus zero.
-    if rounded == 0.0 { 0.0 } else { rounded }
 }

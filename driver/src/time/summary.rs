@@ -70,7 +70,7 @@ impl Timing {
         }
         for operation in &mut self.operations {
             operation.tally = operation.tally.rounded();
-            operation.start = super::payload::micro(operation.start);
+            operation.start = super::columns::micro(operation.start);
         }
     }
 }

@@ -12,9 +12,9 @@ use ncc_ir::expr::num::Nanos;
 use ncc_time::{Machine, Timed, ToolChangeOn, path};
 use serde::Serialize;
 
+use super::columns::micro;
 use super::columns::units;
 use super::drive::{Said, Sink};
-use super::payload::micro;
 use super::reach::Reach;
 
 /// So many operations are told of one by one; the time of further ones goes to the last.

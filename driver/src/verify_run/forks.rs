@@ -17,9 +17,8 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
+use super::ended::{Ended, PIECE, tells};
 use super::facts::{OPTIONAL_STOP, Other, come_to};
-use super::whole::{Ended, PIECE};
-use super::with_facts::tells;
 use super::{Run, Verifier, unreadable};
 
 /// Events of each side after which a new fork is looked at; twice as many from look to look.

@@ -17,15 +17,13 @@ use ncc_passes::values::otherwise::{There, compares_nearly, computes_numbers, ot
 use ncc_passes::values::variables::renamed::Renamed;
 
 use self::values::READINGS;
+use super::ended::{Ended, PIECE};
 use super::facts::{Other, stopped, tries_facts};
 use super::forks::{Forks, Shown};
 use super::twice::outliving;
 use super::{Run, Stop, Verifier, different, levels};
 
 pub use self::values::Given;
-
-/// Events that are made on each side before they are compared.
-pub const PIECE: usize = 4096;
 
 /// Pieces of a source that are executed by itself, to see whether it can be.
 const MOST_PIECES: usize = 4096;
@@ -106,18 +104,6 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
         }
         _ => None,
     }
-}
-
-/// Why a run ends before its end.
-pub enum Ended {
-    /// The source cannot be executed.
-    Source(Diagnostic),
-    /// The output does something else.
-    Target(Diagnostic),
-    /// It does, for what it takes for granted of the source's numbers is not so.
-    NotSo(Diagnostic),
-    /// It is long enough.
-    Enough(Span),
 }
 
 impl Verifier {
@@ -560,15 +546,6 @@ fn block_at(text: &[u8], at: u32) -> String {
     let begins = before.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
     let ends = behind.iter().position(|b| *b == b'\n').map_or(text.len(), |at| before.len() + at);
     String::from_utf8_lossy(&text[begins..ends]).trim().to_owned()
-}
-
-impl Ended {
-    pub(crate) fn target(stop: Stop) -> Ended {
-        match stop {
-            Stop::Source(fault) => Ended::Source(fault),
-            Stop::Target(fault) => Ended::Target(fault),
-        }
-    }
 }
 
 /// Why the source cannot be executed by itself, if it cannot be.

@@ -3,12 +3,12 @@
 //! Not here: forks beside the usual run (`forks`), and the usual run (`whole`).
 
 use ncc_ir::behaviour::Behaviour;
-use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Program, Stmt};
 
+use super::ended::{Ended, by_target};
 use super::facts::Other;
 use super::forks::{Forks, Shown};
-use super::whole::{Ended, Given, Gone, MOST_OF_SET, Set, To};
+use super::whole::{Given, Gone, MOST_OF_SET, Set, To};
 use super::{Run, Stop, Verifier};
 
 /// Events, and steps, of all runs with another fact than usual after which the fact is not tried further.
@@ -105,21 +105,6 @@ impl Verifier {
         }
         Ok(())
     }
-}
-
-/// Whether a run with another fact has shown anything that is to be judged.
-pub fn tells(ended: &Result<(), Ended>, run: &Run) -> bool {
-    match ended {
-        Ok(()) => run.fed_otherwise().is_some(),
-        Err(Ended::Source(fault)) => by_target(&fault.fault),
-        Err(Ended::Enough(_)) => false,
-        Err(Ended::Target(_) | Ended::NotSo(_)) => true,
-    }
-}
-
-/// Whether a difference is told of the source: it leaves open what the target's control does.
-fn by_target(fault: &Fault) -> bool {
-    matches!(fault, Fault::DoneByTarget { .. } | Fault::FactUnsaid { .. })
 }
 
 /// Whether an optional stop stands anywhere in a body.

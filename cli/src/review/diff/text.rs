@@ -13,7 +13,7 @@ use ncc_driver::side::Side;
 use sha2::{Digest, Sha256};
 use similar::{DiffOp, group_diff_ops};
 
-use super::Ignore;
+use super::args::Ignore;
 use super::edits::edits;
 
 /// Blocks around a difference that are shown.
