@@ -137,6 +137,13 @@ impl Behaviour {
         self.name().replace('-', "_")
     }
 
+    /// The behaviour with this name as an option, if there is one.
+    pub fn of_option(option: &str) -> Option<Behaviour> {
+        let letter = |byte| if byte == b'-' { b'_' } else { byte };
+        let is = |behaviour: &Behaviour| behaviour.name().bytes().map(letter).eq(option.bytes());
+        Behaviour::ALL.iter().copied().find(is)
+    }
+
     /// The behaviour with this name, if there is one.
     pub fn named(name: &str) -> Option<Behaviour> {
         Behaviour::ALL.iter().copied().find(|behaviour| behaviour.name() == name)

@@ -201,5 +201,6 @@ pub(super) fn length_in_force(code: &str, word: &str, from: &Dialect) -> Option<
 
 /// The number of the variable by which a program asks this of the control.
 fn variable(asked: &System, from: &Dialect) -> Option<String> {
-    from.system.iter().flat_map(|row| row.says()).find(|(says, _)| says == asked).map(|(_, name)| name)
+    let mut all = from.system.iter().flat_map(|row| row.says());
+    all.find(|(says, _)| says == asked).map(|(_, name)| name.to_string())
 }

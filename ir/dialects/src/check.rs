@@ -57,10 +57,13 @@ pub(crate) fn spread(dialect: &mut Dialect, places: &mut Places) -> Result<(), F
     let mut names = Vec::with_capacity(dialect.name.len());
     let mut at = Vec::with_capacity(dialect.name.len());
     for (i, row) in std::mem::take(&mut dialect.name).into_iter().enumerate() {
-        for name in row.name.split(' ') {
-            names.push(NameRow { name: name.to_owned(), ..row.clone() });
-            at.extend(places.name.get(i).cloned());
+        let before = names.len();
+        if row.name.contains(' ') {
+            names.extend(row.name.split(' ').map(|name| NameRow { name: name.to_owned(), ..row.clone() }));
+        } else {
+            names.push(row);
         }
+        at.extend(places.name.get(i).into_iter().cycle().take(names.len() - before).cloned());
     }
     (dialect.name, places.name) = (names, at);
     open_behaviours(dialect, places)
@@ -237,6 +240,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             return Err(wrong("has a default that is none of its values"));
         }
     }
+    index.find_meanings(&dialect.code, &dialect.name);
     Ok(index)
 }
 

@@ -2,11 +2,15 @@
 //!
 //! Not here: what a meaning is (`meaning`), and whether rows fit together (`check`).
 
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, DefaultHasher};
+
 use ncc_ir::canon::Axis;
 use serde::Deserialize;
 
 use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
+use crate::names::{NameMeaning, NameRow};
 use crate::power_on::FeedModeName;
 use crate::schema::Dialect;
 use crate::words::{Quantity, yes};
@@ -165,6 +169,7 @@ impl Dialect {
                 self.code.push(row);
             }
         }
+        self.index.find_meanings(&self.code, &self.name);
     }
 }
 
@@ -214,4 +219,29 @@ pub struct CodeIndex {
     pub m: Vec<Option<u16>>,
     /// Rows of `address` by letter, A first.
     pub letter: [Option<u8>; 26],
+    /// Rows of `code` that are written, by what they mean; of several, the first.
+    pub meaning: RowsBy<Meaning>,
+    /// Rows of `name` that are written, by what they mean; of several, the first.
+    pub name_meaning: RowsBy<NameMeaning>,
+}
+
+/// Rows of a table by a value of theirs.
+pub type RowsBy<K> = HashMap<K, u16, BuildHasherDefault<DefaultHasher>>;
+
+impl CodeIndex {
+    /// Finds the rows by what they mean.
+    pub(crate) fn find_meanings(&mut self, codes: &[CodeRow], names: &[NameRow]) {
+        self.meaning.clear();
+        self.name_meaning.clear();
+        for (at, row) in codes.iter().enumerate().filter(|(_, row)| row.write) {
+            if let Some(means) = row.means {
+                self.meaning.entry(means).or_insert(at as u16);
+            }
+        }
+        for (at, row) in names.iter().enumerate().filter(|(_, row)| row.write) {
+            if let Some(means) = row.means {
+                self.name_meaning.entry(means).or_insert(at as u16);
+            }
+        }
+    }
 }

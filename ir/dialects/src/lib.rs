@@ -31,6 +31,7 @@ mod repeats;
 mod schema;
 mod settings;
 mod stored;
+mod texts;
 mod variants;
 mod words;
 
@@ -56,6 +57,6 @@ pub use settings::{
     RETURN_DISTANCE, RETURN_FIRST, RETURN_LAST, SPINDLE_ANGLE, STORED_POSITION, STRAIGHT_LINE, SettingError,
     Settings, TAP_DWELL, TAPPING, TOOL_CHANGE, WAITING_TOOL,
 };
-pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};
+pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord, VariableName};
 pub use variants::{VariantBlock, VariantCan, VariantRow};
 pub use words::{Address, Bare, NumberRules, PointRule, Quantity, Role};

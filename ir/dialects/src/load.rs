@@ -15,19 +15,10 @@ use crate::check::{self, Places};
 use crate::fault::{DialectError, DialectFault, Place, Text};
 use crate::merge;
 use crate::schema::Dialect;
+use crate::texts::BUILTIN;
 
-/// Data files of the built-in dialects, in the order of `ncc dialects`.
-const BUILTIN: [(&str, &str); 9] = [
-    ("mach9", include_str!("../data/mach9.toml")),
-    ("fanuc", include_str!("../data/fanuc.toml")),
-    ("haas", include_str!("../data/haas.toml")),
-    ("siemens", include_str!("../data/siemens.toml")),
-    ("linuxcnc", include_str!("../data/linuxcnc.toml")),
-    ("grbl", include_str!("../data/grbl.toml")),
-    ("mach3", include_str!("../data/mach3.toml")),
-    ("canon", include_str!("../data/canon.toml")),
-    ("ir", include_str!("../data/ir.toml")),
-];
+// Dictionaries as the build script has prepared them, in the order of their texts.
+include!(concat!(env!("OUT_DIR"), "/dictionaries.rs"));
 
 static DIALECTS: Shelf = Shelf::new();
 
@@ -43,12 +34,17 @@ impl Shelf {
 
     fn get(&self, id: &str) -> Option<&Dialect> {
         let at = BUILTIN.iter().position(|(other, _)| *other == id)?;
-        let read = || {
-            let dialect = Texts::new(&[]).dialect(Text::BuiltIn(at));
-            dialect.unwrap_or_else(|e| panic!("built-in dictionary: {e}"))
-        };
+        let read = || prepared(at).unwrap_or_else(|e| panic!("built-in dictionary: {e}"));
         Some(self.dialects[at].get_or_init(read))
     }
+}
+
+/// A built-in dictionary by its place among the texts, from what the build script has prepared of it.
+fn prepared(at: usize) -> Result<Dialect, DialectError> {
+    let read = rmp_serde::from_slice(PREPARED[at]);
+    let mut dialect: Dialect = read.map_err(|e| DialectFault::Form(e.to_string()).at(None))?;
+    renew(&mut dialect)?;
+    Ok(dialect)
 }
 
 /// The built-in dialects, in the order of `ncc dialects`; each is read when the iterator comes to it.
@@ -202,7 +198,7 @@ impl<'t> Texts<'t> {
             return Err(DialectFault::NoBase { base }.at(place));
         };
         let mut under = self.merged(under, above)?;
-        for own in ["id", "title", "base"] {
+        for own in merge::OWN {
             under.get_mut().remove(own);
         }
         let family = |t: &DeTable| t.get("family").and_then(|f| f.get_ref().as_str().map(str::to_owned));
@@ -240,10 +236,7 @@ impl<'t> Texts<'t> {
         let wrong = |(fault, at): check::Fault| told(fault.at(at.and_then(|span| self.place(span))));
         check::spread(&mut dialect, &mut places).map_err(wrong)?;
         dialect.index = check::index(&dialect, &places).map_err(wrong)?;
-        // Those built in are tried where tests run, and need not be at each start.
-        if matches!(which, Text::File(_)) || cfg!(debug_assertions) {
-            check::variants(&dialect, &places).map_err(wrong)?;
-        }
+        check::variants(&dialect, &places).map_err(wrong)?;
         dialect.caps = caps(&dialect);
         Ok(dialect)
     }
@@ -295,6 +288,14 @@ mod tests {
     fn built_in_dictionaries_load() {
         let ids: Vec<_> = builtins().map(|d| d.id.as_str()).collect();
         assert_eq!(ids, builtin_ids().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn prepared_dictionaries_are_those_of_the_texts() {
+        for (at, (id, _)) in BUILTIN.iter().enumerate() {
+            let of_text = Texts::new(&[]).dialect(Text::BuiltIn(at)).unwrap_or_else(|e| panic!("{id}: {e}"));
+            assert_eq!(format!("{:#?}", prepared(at).unwrap()), format!("{of_text:#?}"), "{id}");
+        }
     }
 
     #[test]

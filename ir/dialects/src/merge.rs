@@ -39,6 +39,9 @@ const WHEN: &str = "when";
 /// Words of a row of which only one can be said.
 const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
 
+/// Fields that a dictionary does not take from its base.
+pub(crate) const OWN: [&str; 3] = ["id", "title", "base"];
+
 /// The field that tells the rows of a table apart.
 pub(crate) fn row_key(table: &str) -> Option<&'static str> {
     match table {

@@ -412,7 +412,7 @@ impl CallRow {
 impl crate::schema::Dialect {
     /// The word of several letters that is written for a meaning.
     pub fn name_for(&self, meaning: NameMeaning) -> Option<&NameRow> {
-        self.name.iter().find(|row| row.write && row.means == Some(meaning))
+        self.index.name_meaning.get(&meaning).map(|at| &self.name[usize::from(*at)])
     }
 
     /// The address of several letters that has a role.

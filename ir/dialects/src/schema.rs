@@ -437,7 +437,7 @@ impl Dialect {
 
     /// The row that is written for a meaning.
     pub fn code_for(&self, meaning: Meaning) -> Option<&CodeRow> {
-        self.code.iter().find(|row| row.write && row.means == Some(meaning))
+        self.index.meaning.get(&meaning).map(|at| &self.code[usize::from(*at)])
     }
 
     /// The row of a code of several work offsets, of which a word of the block says one.

@@ -16,7 +16,7 @@ use crate::Quantity;
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
-use crate::schema::Dialect;
+use crate::schema::{Dialect, UNKNOWN};
 use crate::stored::SystemRow;
 use crate::variants;
 
@@ -285,7 +285,7 @@ impl Settings {
     /// The name, without signs, of the variable by which a program asks this of the control.
     pub fn variable_of(&self, asked: &System) -> Option<String> {
         let rows = self.dialect.system.iter().filter(|row| row.counts(self));
-        rows.flat_map(SystemRow::says).find(|(says, _)| says == asked).map(|(_, name)| name)
+        rows.flat_map(SystemRow::says).find(|(says, _)| says == asked).map(|(_, name)| name.to_string())
     }
 
     /// Whether such a number is stated of any variable.
@@ -393,8 +393,13 @@ impl Settings {
     /// What codes do besides their names, as the control or this machine has it.
     pub fn behaviours(&self) -> Behaviours {
         let mut all = self.dialect.caps.behaviours;
-        for behaviour in Behaviour::ALL.iter().copied().filter(|b| self.dialect.caps.behaviours.is_open(*b)) {
-            if let Some(value) = behaviour.value(self.get(&behaviour.option())) {
+        for row in &self.dialect.option {
+            let value = self.chosen.get(&row.name).unwrap_or(&row.default);
+            if value != UNKNOWN
+                && let Some(behaviour) = Behaviour::of_option(&row.name)
+                && self.dialect.caps.behaviours.is_open(behaviour)
+                && let Some(value) = behaviour.value(value)
+            {
                 all.set(behaviour, value, false);
             }
         }

@@ -2,6 +2,8 @@
 //!
 //! Not here: what the values are for (`ncc_ir::program::Data`).
 
+use std::fmt::{self, Display, Formatter};
+
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Node, Var};
@@ -204,6 +206,49 @@ pub struct SystemRow {
     pub source: String,
 }
 
+/// How a program names a value of the control's own, behind the sign of variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableName<'r> {
+    /// By the number of its parameter: `5001`.
+    Number(u32),
+    /// By a name in brackets: `<_x>`.
+    Bracketed(&'r str),
+    /// By a name that stands as it is, `#` in it the entry and `@` the letter of the axis: `$P_UIFR[1,X,TR]`.
+    Whole {
+        /// The name as the dictionary has it.
+        name: &'r str,
+        /// The entry; 0 where the name has none.
+        entry: u32,
+        /// The axis.
+        axis: Axis,
+    },
+}
+
+impl VariableName<'_> {
+    /// The number of the parameter, of a value that is named so.
+    pub fn number(self) -> Option<u32> {
+        match self {
+            VariableName::Number(number) => Some(number),
+            VariableName::Bracketed(_) | VariableName::Whole { .. } => None,
+        }
+    }
+}
+
+impl Display for VariableName<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            VariableName::Number(number) => write!(f, "{number}"),
+            VariableName::Bracketed(name) => write!(f, "<{name}>"),
+            VariableName::Whole { name, entry, axis } => {
+                let letter = char::from(axis.letter());
+                f.write_str(
+                    &name.replace('#', &entry.to_string()).replace('@', letter.encode_utf8(&mut [0; 4])),
+                )
+            }
+        }
+    }
+}
+
 /// A value and what it is multiplied by.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -259,73 +304,83 @@ impl SystemRow {
     }
 
     /// Values that it is by itself on one machine or another.
-    pub fn says(&self) -> impl Iterator<Item = (System, String)> + '_ {
+    pub fn says(&self) -> impl Iterator<Item = (System, VariableName<'_>)> {
         let units: &[&str] = if self.machine_units { &["mm", "inch"] } else { &[""] };
-        let own = self.by_name();
-        own.into_iter().chain(units.iter().flat_map(|machine| self.says_by_number(machine)))
+        self.by_name().chain(units.iter().flat_map(|machine| self.says_by_number(machine)))
     }
 
     /// Values that it is by itself on a machine of this unit, each with how a program names it behind the sign of
     /// variables: by the row's name, else by its number. Those that are several together are none.
-    pub fn says_in<'r>(&'r self, machine: &'r str) -> impl Iterator<Item = (System, String)> + 'r {
-        self.by_name().into_iter().chain(self.says_by_number(machine))
+    pub fn says_in<'r>(
+        &'r self,
+        machine: &str,
+    ) -> impl Iterator<Item = (System, VariableName<'r>)> + use<'r> {
+        self.by_name().chain(self.says_by_number(machine))
     }
 
     /// Those whose name stands in programs as it is.
-    fn by_name(&self) -> Vec<(System, String)> {
-        if !self.name.starts_with('$') || self.refuse.is_some() {
-            return Vec::new();
-        }
-        let entries = if self.name.contains('#') { 1..=self.count.max(1) } else { 0..=0 };
-        let mut all = Vec::new();
-        for entry in entries {
-            let axes: &[Axis] = if self.axes { &Axis::ALL } else { &[Axis::X] };
-            for axis in axes {
-                let letter = char::from(axis.letter());
-                let mut means = self.means.clone();
+    fn by_name(&self) -> impl Iterator<Item = (System, VariableName<'_>)> {
+        let named = self.name.starts_with('$') && self.refuse.is_none();
+        let entries = match (named, self.name.contains('#')) {
+            (false, _) => 0..0,
+            (true, true) => 1..self.count.max(1) + 1,
+            (true, false) => 0..1,
+        };
+        let first = named.then(|| self.first(entries.start > 0, self.axes, "")).flatten();
+        entries.flat_map(move |entry| {
+            let axes = if self.axes { &Axis::ALL[..] } else { &Axis::ALL[..1] };
+            let first = first.clone();
+            axes.iter().filter_map(move |axis| {
+                let mut system = first.clone()?;
                 if entry > 0 {
-                    means = format!("{means}.{entry}");
+                    system = system.numbered(u16::try_from(entry).ok()?)?;
                 }
                 if self.axes {
-                    means = format!("{means}.{}", letter.to_ascii_lowercase());
+                    system = system.along(*axis)?;
                 }
-                let spelt = self.name.replace('#', &entry.to_string()).replace('@', &letter.to_string());
-                match System::named(&means) {
-                    System::Other(_) => {}
-                    system => all.push((system, spelt)),
-                }
-            }
-        }
-        all
+                Some((system, VariableName::Whole { name: &self.name, entry, axis: *axis }))
+            })
+        })
     }
 
-    fn says_by_number<'r>(&'r self, machine: &'r str) -> impl Iterator<Item = (System, String)> + 'r {
+    fn says_by_number<'r>(
+        &'r self,
+        machine: &str,
+    ) -> impl Iterator<Item = (System, VariableName<'r>)> + use<'r> {
         let plain = self.refuse.is_none() && !self.means.is_empty() && !self.name.starts_with('$');
-        let unit = if self.machine_units { format!(".{machine}") } else { String::new() };
+        let unit = if self.machine_units && !(self.entries && !self.axes) { machine } else { "" };
         let places = match (self.axes, self.count as usize) {
             (true, 0) => AXES,
             (true, count) => count.min(AXES),
             (false, count) if self.entries => count,
             (false, _) => 1,
         };
-        (0..places).filter(move |_| plain).filter_map(move |place| {
-            let means = match self.axes {
-                true => {
-                    let axis = char::from(Axis::ALL[place].letter().to_ascii_lowercase());
-                    format!("{}.{axis}{unit}", self.means)
-                }
-                false if self.entries => format!("{}.{}", self.means, place + 1),
-                false => format!("{}{unit}", self.means),
+        let entries = self.entries && !self.axes;
+        let first = plain.then(|| self.first(entries, self.axes, unit)).flatten();
+        (0..if first.is_some() { places } else { 0 }).filter_map(move |place| {
+            let first = first.clone()?;
+            let system = match () {
+                () if self.axes => first.along(Axis::ALL[place])?,
+                () if entries => first.numbered(u16::try_from(place + 1).ok()?)?,
+                () => first,
             };
-            let spelt = match self.name.is_empty() {
-                true => (self.number + place as u32).to_string(),
-                false => format!("<{}>", self.name),
+            let spelling = match self.name.is_empty() {
+                true => VariableName::Number(self.number + place as u32),
+                false => VariableName::Bracketed(&self.name),
             };
-            match System::named(&means) {
-                System::Other(_) => None,
-                system => Some((system, spelt)),
-            }
+            Some((system, spelling))
         })
+    }
+
+    /// The first of its values: entry 1, along X.
+    fn first(&self, entries: bool, axes: bool, unit: &str) -> Option<System> {
+        let entry = if entries { ".1" } else { "" };
+        let axis = if axes { ".x" } else { "" };
+        let dot = if unit.is_empty() { "" } else { "." };
+        match System::named(&format!("{}{entry}{axis}{dot}{unit}", self.means)) {
+            System::Other(_) => None,
+            system => Some(system),
+        }
     }
 
     /// The numbers of its parameters.

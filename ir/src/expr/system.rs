@@ -200,6 +200,35 @@ impl System {
         Some(found)
     }
 
+    /// The same value along another axis; `None` of one that is along no axis.
+    pub fn along(mut self, along: Axis) -> Option<System> {
+        match &mut self {
+            System::EndPoint(axis)
+            | System::TouchPoint(axis)
+            | System::TouchWithOffsets(axis)
+            | System::SpindlePoint(axis)
+            | System::MachinePoint(axis)
+            | System::ExternalOffset(axis)
+            | System::WorkOffset { axis, .. }
+            | System::OriginShift { axis, .. }
+            | System::TableOffset { axis, .. } => *axis = along,
+            _ => return None,
+        }
+        Some(self)
+    }
+
+    /// The same value of another entry of its table, from 1 on; `None` of one that is in no table.
+    pub fn numbered(mut self, entry: u16) -> Option<System> {
+        match &mut self {
+            System::WorkOffset { number, .. }
+            | System::ToolTable { entry: number, .. }
+            | System::WorkTurn(number)
+            | System::Kept(_, number) => *number = entry,
+            _ => return None,
+        }
+        Some(self)
+    }
+
     /// Whether it depends on where the tool stands.
     pub fn is_place(&self) -> bool {
         matches!(

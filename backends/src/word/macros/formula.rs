@@ -9,7 +9,7 @@ mod words;
 
 use std::collections::BTreeMap;
 
-use ncc_dialects::{FormulaRules, Settings, SystemRow};
+use ncc_dialects::{FormulaRules, Settings, SystemRow, VariableName};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
@@ -144,16 +144,14 @@ impl Spelling<'_> {
 
     /// What the control calls one of its own values.
     fn own_value(&self, system: &System) -> Result<String, Fault> {
-        let says = |row: &'_ SystemRow| row.says_in(self.machine).collect::<Vec<_>>();
-        let all = self
-            .system
-            .iter()
-            .filter(|row| row.counts(self.settings))
-            .flat_map(says)
-            .filter(|(own, _)| own == system);
+        let rows = self.system.iter().filter(|row| row.counts(self.settings));
+        let all = rows.flat_map(|row| row.says_in(self.machine)).filter(|(own, _)| own == system);
         // A name says more than a number.
-        let found = all.map(|(_, spelt)| spelt).min_by_key(|spelt| !spelt.starts_with('<'));
-        found.ok_or_else(|| cannot_compute(format!("the system variable {system}")))
+        let found =
+            all.map(|(_, spelt)| spelt).min_by_key(|spelt| !matches!(spelt, VariableName::Bracketed(_)));
+        found
+            .map(|spelt| spelt.to_string())
+            .ok_or_else(|| cannot_compute(format!("the system variable {system}")))
     }
 
     /// What is looked at as a whole number, without the rounding that the control does by itself.

@@ -10,6 +10,7 @@ use ncc_ir::expr::system::System;
 use crate::formula::{Handing, Statement};
 use crate::meaning::Meaning;
 use crate::schema::{Dialect, Family};
+use crate::stored::VariableName;
 
 /// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
 const VALUE_DIGITS: u8 = 6;
@@ -85,12 +86,16 @@ fn systems(dialect: &Dialect) -> Vec<System> {
 /// Those of them that are places of tables, each with the number by which a program has it: that of its parameter, or that
 /// of the entry within a name.
 fn entries(dialect: &Dialect) -> Vec<(System, i64)> {
-    let own = |(system, spelt): (System, String)| {
+    let own = |(system, spelt): (System, VariableName<'_>)| {
         let number = match &system {
             System::WorkOffset { number, .. } | System::ToolTable { entry: number, .. } => i64::from(*number),
             _ => return None,
         };
-        let number = if spelt.starts_with('$') { number } else { spelt.parse().ok()? };
+        let number = match spelt {
+            VariableName::Whole { .. } => number,
+            VariableName::Number(parameter) => i64::from(parameter),
+            VariableName::Bracketed(_) => return None,
+        };
         Some((system, number))
     };
     dialect.system.iter().flat_map(|row| row.says()).filter_map(own).collect()
