@@ -21,9 +21,6 @@ mod merge;
 mod texts;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    for watched in ["build.rs", "src/fault.rs", "src/merge.rs", "src/texts.rs", "data"] {
-        println!("cargo::rerun-if-changed={watched}");
-    }
     let folder = env::var("OUT_DIR")?;
     let mut list = format!("[&[u8]; {}] = [\n", texts::BUILTIN.len());
     for (id, text) in texts::BUILTIN {

@@ -326,7 +326,7 @@ impl SystemRow {
             (true, true) => 1..self.count.max(1) + 1,
             (true, false) => 0..1,
         };
-        let first = named.then(|| self.first(entries.start > 0, self.axes, "")).flatten();
+        let first = named.then(|| self.first(if entries.start > 0 { ".1" } else { "" }, "")).flatten();
         entries.flat_map(move |entry| {
             let axes = if self.axes { &Axis::ALL[..] } else { &Axis::ALL[..1] };
             let first = first.clone();
@@ -356,7 +356,7 @@ impl SystemRow {
             (false, _) => 1,
         };
         let entries = self.entries && !self.axes;
-        let first = plain.then(|| self.first(entries, self.axes, unit)).flatten();
+        let first = plain.then(|| self.first(if entries { ".1" } else { "" }, unit)).flatten();
         (0..if first.is_some() { places } else { 0 }).filter_map(move |place| {
             let first = first.clone()?;
             let system = match () {
@@ -372,10 +372,9 @@ impl SystemRow {
         })
     }
 
-    /// The first of its values: entry 1, along X.
-    fn first(&self, entries: bool, axes: bool, unit: &str) -> Option<System> {
-        let entry = if entries { ".1" } else { "" };
-        let axis = if axes { ".x" } else { "" };
+    /// The first of its values, along X if it has axes; with what its meaning is followed by for the first entry.
+    fn first(&self, entry: &str, unit: &str) -> Option<System> {
+        let axis = if self.axes { ".x" } else { "" };
         let dot = if unit.is_empty() { "" } else { "." };
         match System::named(&format!("{}{entry}{axis}{dot}{unit}", self.means)) {
             System::Other(_) => None,
