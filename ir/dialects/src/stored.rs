@@ -348,14 +348,14 @@ impl SystemRow {
         machine: &str,
     ) -> impl Iterator<Item = (System, VariableName<'r>)> + use<'r> {
         let plain = self.refuse.is_none() && !self.means.is_empty() && !self.name.starts_with('$');
-        let unit = if self.machine_units && !(self.entries && !self.axes) { machine } else { "" };
+        let entries = self.entries && !self.axes;
+        let unit = if self.machine_units && !entries { machine } else { "" };
         let places = match (self.axes, self.count as usize) {
             (true, 0) => AXES,
             (true, count) => count.min(AXES),
             (false, count) if self.entries => count,
             (false, _) => 1,
         };
-        let entries = self.entries && !self.axes;
         let first = plain.then(|| self.first(if entries { ".1" } else { "" }, unit)).flatten();
         (0..if first.is_some() { places } else { 0 }).filter_map(move |place| {
             let first = first.clone()?;
