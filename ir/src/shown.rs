@@ -1,7 +1,7 @@
 //! Texts with values in them, for the operator or for a device, and alarms.
 
 use crate::expr::Expr;
-use crate::program::Text;
+use crate::program::text::Text;
 
 /// Part of a text that is made when the program runs.
 #[derive(Clone, Debug, PartialEq)]

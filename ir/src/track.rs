@@ -5,11 +5,12 @@
 
 mod frames;
 mod holes;
-mod merge;
-
-pub use self::frames::Shifted;
 mod intermediate;
 mod known;
+mod merge;
+mod shifted;
+
+pub use self::shifted::Shifted;
 
 use known::{Known, Polarly, Turning};
 
