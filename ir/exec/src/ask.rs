@@ -3,7 +3,7 @@
 //! For those who tell what happens (tables, time). Nothing here changes anything.
 
 use super::{Exec, Length, SHIFT_STORED, SHIFT_TAKEN_UP, State};
-use crate::frames::frame::Chain;
+use crate::frames::chain::Chain;
 use crate::moves::holes::InForce;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Motion, Plane, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::expr::Expr;

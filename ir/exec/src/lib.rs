@@ -32,7 +32,7 @@ pub use at_codes::cuts;
 pub use at_codes::touched;
 pub use conduct::named_tool;
 pub use event::{Attribute, Coolant, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
-pub use frames::frame::Chain;
+pub use frames::chain::Chain;
 pub use frames::slots::{Frames, Present, Rotation, Scale};
 pub use frames::tilt::TiltedPlane;
 pub use moves::centre_path::AsProgrammed;

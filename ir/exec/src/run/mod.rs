@@ -14,10 +14,10 @@ pub(crate) mod go;
 pub(crate) mod left;
 pub(crate) mod needed;
 pub(crate) mod nesting;
+mod repeated;
 pub(crate) mod rounds;
 pub(crate) mod term;
 
-use std::ops::Range;
 use std::rc::Rc;
 
 use super::{Exec, message};
@@ -25,6 +25,7 @@ use crate::halt;
 use crate::run::code::{At, Code, Declared, Step};
 use crate::run::needed::needed;
 use crate::run::nesting::{Blocks, Frame};
+pub use crate::run::repeated::again;
 use crate::run::rounds::Rounds;
 use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why, real};
 use ncc_ir::canon::FeedMode;
@@ -114,6 +115,18 @@ impl<'p> Runner<'p> {
                 self.variables.set(place, value);
             }
         }
+    }
+
+    /// What the main procedure takes must be given to it from elsewhere.
+    #[cold]
+    pub(crate) fn parameters_have_values(&self) -> Result<(), Diagnostic> {
+        for (var, place, span) in &self.needed {
+            if self.variables.get(*place) == Value::Vacant {
+                let name = var.name().into();
+                return Err(Diagnostic::new(Fault::VariableUnset { name }, *span));
+            }
+        }
+        Ok(())
     }
 
     /// The block of the step that was made last.
@@ -496,29 +509,4 @@ fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
     // Half away from zero.
     let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
     Ok(Some(Num { mantissa, scale, point: true, unit }))
-}
-
-/// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of
-/// another label's block.
-pub fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str>) -> Option<&'p [Stmt]> {
-    blocks_again(body, at, from, to).map(|blocks| &body[blocks])
-}
-
-/// Their places in the body.
-pub(super) fn blocks_again(body: &[Stmt], at: usize, from: &str, to: Option<&str>) -> Option<Range<usize>> {
-    let label =
-        |name: &str| body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name));
-    let start = label(from)?;
-    let end = match to {
-        None => {
-            // The repetition's own block is not executed again.
-            (start..=at).rev().find(|&i| !body[i].joined)?.max(start)
-        }
-        Some(to) => {
-            let last = label(to).filter(|last| *last >= start)?;
-            let block = body[last + 1..at].iter().take_while(|s| s.joined).count();
-            last + 1 + block
-        }
-    };
-    Some(start..end)
 }

@@ -1,10 +1,7 @@
 //! What a main procedure must be given before it begins: a subprogram that is executed by itself has parameters.
 
-use crate::run::Runner;
 use crate::run::term::{Names, Place};
-use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
-use ncc_ir::expr::value::Value;
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 
@@ -17,18 +14,4 @@ pub(crate) fn needed(program: &Program, names: &Names) -> Vec<(Var, Place, Span)
     let all = names.all();
     let place = |own: &Var| all.iter().find(|(var, _)| var == own).map(|(_, place)| *place);
     main.parameters.iter().filter_map(|own| Some((own.clone(), place(own)?, at))).collect()
-}
-
-impl Runner<'_> {
-    /// What the main procedure takes must be given to it from elsewhere.
-    #[cold]
-    pub(crate) fn parameters_have_values(&self) -> Result<(), Diagnostic> {
-        for (var, place, span) in &self.needed {
-            if self.variables.get(*place) == Value::Vacant {
-                let name = var.name().into();
-                return Err(Diagnostic::new(Fault::VariableUnset { name }, *span));
-            }
-        }
-        Ok(())
-    }
 }
