@@ -16,18 +16,18 @@ mod written;
 use std::collections::BTreeMap;
 
 use self::contour::{Contour, contour};
-use self::written::Written;
+use self::written::{Written, cannot, mm, nanos, straight};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_exec::world::Tables;
 use ncc_ir::canon::{AdviceKind, FeedMode, Motion, Plane, Side};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::expr::num::{Nanos, Num, ONE};
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::arc_feed::ArcFeed;
 use ncc_ir::geometry::beside::{Beside, Leg, Rules, Unreachable};
 use ncc_ir::program::kinds::flow;
-use ncc_ir::program::{CutterRadius, Data, Move, Op, Point, Program, Stmt};
+use ncc_ir::program::{CutterRadius, Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -117,19 +117,6 @@ fn only_meaning(body: &[Stmt], one: &mut Option<ArcFeed>) {
             _ => {}
         }
     }
-}
-
-fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
-    let what = format!("{what} under cutter radius compensation that is worked out");
-    Err(Diagnostic::new(Fault::CannotSay { what: what.into() }, span))
-}
-
-fn mm(nanos: Nanos) -> f64 {
-    nanos as f64 / ONE as f64
-}
-
-fn nanos(mm: f64) -> Nanos {
-    (mm * ONE as f64).round() as Nanos
 }
 
 impl Expansion<'_> {
@@ -467,14 +454,6 @@ impl Expansion<'_> {
         walk.step(&stmt);
         made.push(stmt);
         Ok(())
-    }
-}
-
-fn straight(motion: Motion, to: Point) -> Op {
-    let to = Move { to, said: true };
-    match motion {
-        Motion::Traverse => Op::StraightTraverse(to),
-        Motion::Feed | Motion::Arc(_) | Motion::Cycle => Op::StraightFeed(to),
     }
 }
 

@@ -11,7 +11,6 @@ use crate::holes::sayable::lasts;
 use crate::support::walk::Walk;
 use crate::support::write::{cut, exact, only, traverse, unit_of};
 use ncc_ir::canon::ReturnLevel;
-use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
@@ -33,16 +32,6 @@ pub(super) fn level_is_here(walk: &Walk, in_force: &InForce, target: &Target) ->
     let Some(plane) = walk.at.plane(cycle.plane) else { return false };
     let here = walk.at.position[plane.axes().2 as usize];
     here.is_some() && here == in_force.initial && in_force.retract.is_some_and(|r| here >= Some(r))
-}
-
-/// Whether a control that dwells after each peck by itself does so for as long as the cycle has it, at the bottom too.
-/// `None` if the target's cycle of this kind has no such dwell.
-pub(super) fn dwells_alike(caps: &Caps, kind: &str, dwells: [&Option<Expr>; 2]) -> Option<bool> {
-    let own = caps.holes.cycles.iter().find(|c| c.kind == kind)?.pause?;
-    let same = |dwell: &Option<Expr>| {
-        dwell.as_ref().and_then(Expr::literal).is_some_and(|n| n.nanos(false) == own.nanos(false))
-    };
-    Some(dwells.into_iter().all(same))
 }
 
 /// What comes between two pecks.

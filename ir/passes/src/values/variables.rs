@@ -73,7 +73,7 @@ pub fn run(
             expressions(&mut procedure.body, &mut |_, value| words::whole(value));
         });
     }
-    let pairs = if own { Vec::new() } else { names::put(program, from, computes, diags) };
+    let pairs = if own { Vec::new() } else { put::put(program, from, computes, diags) };
     if computes.rounds && !from.rounds {
         words::rounds(program, increments, diags);
     }

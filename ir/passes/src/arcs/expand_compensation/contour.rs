@@ -1,7 +1,6 @@
 //! A contour beside which the tool goes: what its statements may say, and the way of the tool's centre along it.
 
-use super::written::Written;
-use super::{cannot, straight};
+use super::written::{Written, cannot, straight};
 use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
 use ncc_ir::canon::{Axis, Motion, Plane, Side, Turn};

@@ -19,7 +19,7 @@ mod words;
 pub(crate) use self::concerns::{concerns, has_frames, shifts_origin_in_calls};
 
 use self::concerns::tilts;
-use self::now::Now;
+use self::now::{Now, cannot};
 use crate::arcs::arc_form;
 use crate::frames::frame_forms::{self, shifted};
 use crate::pass::{Moment, Pass, Step};
@@ -579,8 +579,4 @@ fn leaves_alone(chain: &Chain, axis: usize) -> bool {
         let mut mixed = others.flat_map(|j| [m[axis][j], m[j][axis]]);
         mixed.all(|v| v.abs() < NOTHING) && (m[axis][axis] - 1.0).abs() < NOTHING
     })
-}
-
-fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
 }

@@ -8,9 +8,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::support::known_facts::{Flow, Held, Ways, places};
+use super::flow::Flow;
+use super::held::Held;
 use ncc_ir::canon::Modes;
-use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -28,12 +28,9 @@ impl ActiveCycles {
             return None;
         }
         let mut program = Program { procedures: procedures.to_vec(), ..Program::default() };
-        let mut flow = Flow { names: places(&program), active: Some(HashMap::new()), ..Flow::default() };
-        flow.ways = vec![Ways::default(); program.procedures.len()];
-        if let Some(main) = flow.ways.first_mut() {
-            let at = Tracker { cycle_in_doubt: entered, modes: Modes::default(), ..Tracker::unknown() };
-            main.entry = Some(Held { at, ..Held::default() });
-        }
+        let at = Tracker { cycle_in_doubt: entered, modes: Modes::default(), ..Tracker::unknown() };
+        let mut flow = Flow::new(&program, Held { at, ..Held::default() });
+        flow.active = Some(HashMap::new());
         let settled = flow.until_settled(&mut program);
         settled.then(|| ActiveCycles { places: flow.active.unwrap_or_default().into_iter().collect() })
     }
@@ -52,13 +49,4 @@ fn repeats_blocks(body: &[Stmt]) -> bool {
         Op::Control(control) => control.bodies().any(|body| repeats_blocks(body)),
         _ => false,
     })
-}
-
-/// Notes a statement before it is executed.
-pub(super) fn note(active: &mut HashMap<u32, bool>, stmt: &Stmt, before: Option<&Held>) {
-    if matches!(stmt.op, flow!()) {
-        return;
-    }
-    let own = before.is_some_and(|held| held.at.cycle.is_some() || held.at.cycle_in_doubt);
-    *active.entry(stmt.span.start).or_default() |= own;
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Called;
+use super::called::Called;
 use crate::flow::expand_calls::settle;
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::kinds::flow;

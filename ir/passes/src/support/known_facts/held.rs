@@ -1,6 +1,6 @@
 //! What holds at a place of a program, and what a statement makes of it.
 
-use super::Called;
+use super::called::Called;
 use crate::values::known_answers::{self, Saved};
 use ncc_ir::canon::{AXES, Modes, Motion};
 use ncc_ir::expr::Target;

@@ -3,7 +3,6 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::values::variables::each_value;
-use crate::values::variables::names::number_of;
 use ncc_ir::computed::computes::Computes;
 use ncc_ir::expr::{Binary, Element, Expr, Many, Node, Numbers, Target, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
@@ -174,4 +173,11 @@ fn leave_out(body: &mut Vec<Stmt>, drop: &dyn Fn(&Op) -> bool) {
         }
     }
     *body = out;
+}
+
+/// The number of a variable by the names of its control.
+pub(super) fn number_of(var: &Var, computes: &Computes) -> Option<u32> {
+    let name = var.name();
+    let digits = name.strip_prefix(&*computes.prefix)?;
+    digits.parse().ok().filter(|n: &u32| n.to_string() == digits)
 }

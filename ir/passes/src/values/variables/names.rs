@@ -23,59 +23,16 @@ mod told;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use crate::values::variables::look::{Look, Seen, leave_out_results};
-use crate::values::variables::put::{Put, plain_calls};
+use crate::values::variables::look::{Look, Seen, number_of};
 use ncc_ir::computed::computes::{Computes, Handed, LETTERS, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Numbers, Scope, Var};
 use ncc_ir::program::valid::returns_alone;
-use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Text, Type};
+use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Type};
 use ncc_ir::source::Span;
 
 /// By how much a number moves that the target does not have.
 const FURTHER: u32 = 100;
-
-/// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
-/// source's and the target's.
-pub(super) fn put(
-    program: &mut Program,
-    from: &Computes,
-    computes: &Computes,
-    diags: &mut Vec<Diagnostic>,
-) -> Vec<(Var, Var)> {
-    leave_out_results(program, from, computes);
-    let mut plan = Plan::new(program, from, computes);
-    if let Err(refused) = plan.make(program) {
-        diags.push(refused);
-        return Vec::new();
-    }
-    let own: Vec<bool> = (0..program.procedures.len()).map(|at| plan.has_own(at)).collect();
-    let names: Vec<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
-    for (at, procedure) in program.procedures.iter_mut().enumerate() {
-        let told = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
-        let mut put = Put { plan: &plan, locals: plan.locals_of(at), told, refused: None };
-        put.body(&mut procedure.body);
-        if let Some(refused) = put.refused {
-            diags.push(refused);
-            return Vec::new();
-        }
-        if computes.shares && !from.shares {
-            plain_calls(&mut procedure.body, &names, &own);
-        }
-        plan.head(at, procedure);
-    }
-    plan.tell(program, diags);
-    let mut all: Vec<(Var, Var)> = Vec::new();
-    if computes.handed == Handed::Places {
-        // A call gives them one after the other, and the head puts them where they are.
-        let places = (1..).map(|place: u32| Var::Local(place.to_string().into()));
-        all.extend(plan.parameters[0].iter().cloned().zip(places));
-    }
-    let others = plan.common.iter().chain(plan.locals_of(0));
-    let given = |old: &Var| computes.handed == Handed::Places && plan.parameters[0].contains(old);
-    all.extend(others.filter(|(old, _)| !given(old)).map(|(old, new)| (old.clone(), new.clone())));
-    all
-}
 
 /// Variables, and what they are in the target.
 pub(super) type Map = HashMap<Var, Var>;
@@ -97,7 +54,7 @@ pub(super) struct Plan<'c> {
     pub(super) computes: &'c Computes,
     looks: Vec<Look>,
     /// Parameters of each procedure.
-    parameters: Vec<Vec<Var>>,
+    pub(super) parameters: Vec<Vec<Var>>,
     homes: Vec<Home>,
     /// By which procedure the variables of one are known, where several have the same.
     roots: Vec<usize>,
@@ -109,13 +66,6 @@ pub(super) struct Plan<'c> {
     pub(super) further: u32,
     /// Numbers that are in use, of those that all programs see.
     taken: BTreeSet<u32>,
-}
-
-/// The number of a variable by the names of its control.
-pub(super) fn number_of(var: &Var, computes: &Computes) -> Option<u32> {
-    let name = var.name();
-    let digits = name.strip_prefix(&*computes.prefix)?;
-    digits.parse().ok().filter(|n: &u32| n.to_string() == digits)
 }
 
 fn among(ranges: &[[u32; 2]], n: u32) -> bool {
@@ -130,7 +80,7 @@ fn no_room(name: &str, at: Span) -> Diagnostic {
 }
 
 impl<'c> Plan<'c> {
-    fn new(program: &Program, from: &'c Computes, computes: &'c Computes) -> Plan<'c> {
+    pub(super) fn new(program: &Program, from: &'c Computes, computes: &'c Computes) -> Plan<'c> {
         let looks = program.procedures.iter().map(|procedure| {
             let mut look = Look::default();
             look.body(&procedure.body);
@@ -151,7 +101,7 @@ impl<'c> Plan<'c> {
     }
 
     /// Whether a procedure has variables of its own.
-    fn has_own(&self, at: usize) -> bool {
+    pub(super) fn has_own(&self, at: usize) -> bool {
         let local = |seen: &Seen| matches!(seen.var, Var::Local(_));
         let by_number = |(row, _): &(Numbers, Span)| row.scope == Scope::Local;
         !self.parameters[at].is_empty()
@@ -159,11 +109,11 @@ impl<'c> Plan<'c> {
             || self.looks[at].numbered.iter().any(by_number)
     }
 
-    fn locals_of(&self, at: usize) -> &Map {
+    pub(super) fn locals_of(&self, at: usize) -> &Map {
         &self.locals[self.roots[at]]
     }
 
-    fn make(&mut self, program: &Program) -> Result<(), Diagnostic> {
+    pub(super) fn make(&mut self, program: &Program) -> Result<(), Diagnostic> {
         self.find_homes(program);
         let own_numbers = !self.computes.local.is_empty();
         for at in 0..self.looks.len() {
@@ -481,7 +431,7 @@ impl<'c> Plan<'c> {
     }
 
     /// What stands at the head of a procedure: its parameters, and variables that have to be made known.
-    fn head(&self, at: usize, procedure: &mut Procedure) {
+    pub(super) fn head(&self, at: usize, procedure: &mut Procedure) {
         let span = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
         let locals = self.locals_of(at);
         for parameter in &mut procedure.parameters {

@@ -3,12 +3,55 @@
 use std::collections::BTreeSet;
 
 use crate::values::variables::expressions;
-use crate::values::variables::names::{Map, Plan, number_of};
-use ncc_ir::computed::computes::{Computes, Said};
+use crate::values::variables::look::{leave_out_results, number_of};
+use crate::values::variables::names::{Map, Plan};
+use ncc_ir::computed::computes::{Computes, Handed, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Binary, Element, Expr, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::program::{Control, Op, Stmt, Text};
+use ncc_ir::program::{Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
+
+/// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
+/// source's and the target's.
+pub(super) fn put(
+    program: &mut Program,
+    from: &Computes,
+    computes: &Computes,
+    diags: &mut Vec<Diagnostic>,
+) -> Vec<(Var, Var)> {
+    leave_out_results(program, from, computes);
+    let mut plan = Plan::new(program, from, computes);
+    if let Err(refused) = plan.make(program) {
+        diags.push(refused);
+        return Vec::new();
+    }
+    let own: Vec<bool> = (0..program.procedures.len()).map(|at| plan.has_own(at)).collect();
+    let names: Vec<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
+    for (at, procedure) in program.procedures.iter_mut().enumerate() {
+        let told = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
+        let mut put = Put { plan: &plan, locals: plan.locals_of(at), told, refused: None };
+        put.body(&mut procedure.body);
+        if let Some(refused) = put.refused {
+            diags.push(refused);
+            return Vec::new();
+        }
+        if computes.shares && !from.shares {
+            plain_calls(&mut procedure.body, &names, &own);
+        }
+        plan.head(at, procedure);
+    }
+    plan.tell(program, diags);
+    let mut all: Vec<(Var, Var)> = Vec::new();
+    if computes.handed == Handed::Places {
+        // A call gives them one after the other, and the head puts them where they are.
+        let places = (1..).map(|place: u32| Var::Local(place.to_string().into()));
+        all.extend(plan.parameters[0].iter().cloned().zip(places));
+    }
+    let others = plan.common.iter().chain(plan.locals_of(0));
+    let given = |old: &Var| computes.handed == Handed::Places && plan.parameters[0].contains(old);
+    all.extend(others.filter(|(old, _)| !given(old)).map(|(old, new)| (old.clone(), new.clone())));
+    all
+}
 
 /// Puts the new names into a body.
 pub(super) struct Put<'p, 'c> {

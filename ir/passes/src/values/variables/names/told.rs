@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::{Plan, number_of};
+use super::Plan;
+use crate::values::variables::look::number_of;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
 use ncc_ir::program::Program;
@@ -12,7 +13,7 @@ const MOST_TOLD: usize = 40;
 
 impl<'c> Plan<'c> {
     /// Tells which variables are called otherwise, once.
-    pub(super) fn tell(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
+    pub(in crate::values::variables) fn tell(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
         let mut told: Vec<String> = Vec::new();
         let (from, to) = (&self.from.mark, &self.computes.mark);
         let mut done: HashSet<(usize, &Var)> = HashSet::new();

@@ -6,7 +6,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::values::variables::vacancy::{Facts, May, calls, may, place};
+use super::may::{May, calls, may};
+use super::ways::{Facts, place};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Call, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 
+use super::may::{Known, May, is_nothing, may};
+use super::ways::{Facts, Ways, place};
 use crate::values::variables::defaults;
-use crate::values::variables::vacancy::{Facts, Known, May, Ways, is_nothing, may, place};
 use ncc_ir::computed::open::open_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;

@@ -2,7 +2,8 @@
 //!
 //! Refused: a value that may be nothing, or a number, where that makes a difference.
 
-use crate::values::variables::vacancy::{Facts, Known, May, holds, is_nothing, may, nothing, place};
+use super::may::{Known, May, holds, is_nothing, may, nothing};
+use super::ways::{Facts, place};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::arguments::{self, Argument};
