@@ -11,7 +11,6 @@
 pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
-pub(crate) mod data;
 pub(crate) mod entry;
 pub(crate) mod fault;
 pub(crate) mod force;

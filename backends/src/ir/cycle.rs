@@ -8,7 +8,7 @@ use ncc_ir::program::cycle::{
 use ncc_ir::program::{Coord, Pitch};
 
 use super::expr::expr;
-use super::op::{coord, plane, point, put, return_level, turn};
+use super::words::{coord, plane, point, put, return_level, turn};
 use crate::common::quoted::whole;
 
 /// What a kind of cycle says, in brackets if there is anything.

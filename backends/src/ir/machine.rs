@@ -5,7 +5,7 @@ use ncc_ir::program::{CutterRadius, Data, DataMode, Reference, ReferencePoint, T
 
 use super::expr::expr;
 use super::frame::words;
-use super::op::{point, put};
+use super::words::{point, put};
 use crate::common::quoted::whole;
 
 /// A point of the machine, the axes that go there, and by way of which point.

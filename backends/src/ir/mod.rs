@@ -13,6 +13,7 @@ mod frame;
 mod machine;
 mod op;
 mod polar;
+mod words;
 
 use ncc_dialects::Settings;
 use ncc_ir::canon::Modes;
@@ -71,7 +72,7 @@ impl Writer {
         self.end_line(out);
         self.skip = None;
         out.extend_from_slice(b"procedure ");
-        op::name(&p.name, out);
+        words::name(&p.name, out);
         if let Some(title) = &p.title {
             out.push(b' ');
             quote(title, out);

@@ -9,7 +9,7 @@ use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Data, Op, Stmt};
 
 use crate::common::Sink;
-use crate::common::data::DataCode;
+use crate::common::codes::DataCode;
 use crate::common::entry::number_of;
 use crate::common::fault::cannot_compute;
 use crate::word::Writer;
