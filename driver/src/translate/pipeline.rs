@@ -216,7 +216,6 @@ impl Translation<'_> {
                     self.legaliser.nothing_before();
                 }
                 self.legaliser.frame_increments(program, !self.job.passes.is_empty(), &mut found);
-                ran_whole("frame-increments", program);
                 self.take(found, Told::Writer);
                 if !self.job.to.dialect.can.everything {
                     let mut told = left_out(program, &self.job.to.caps());
@@ -289,7 +288,6 @@ impl Translation<'_> {
         }
         rewrite::run(&passes, program, &target(self.job), entry, found);
         self.legaliser.frame_increments(program, false, found);
-        ran_whole("frame-increments", program);
         self.unless_refused(found)
     }
 

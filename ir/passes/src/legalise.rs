@@ -30,7 +30,7 @@ use crate::modes::feed_time::FeedTimeState;
 use crate::modes::feed_unit::FeedUnitState;
 use crate::modes::one_move::OneMoveState;
 use crate::modes::path_control::PathControlState;
-use crate::pass::{First, Shared};
+use crate::pass::{First, KeptProgram, ProgramMoment, Shared, Subprograms};
 use crate::support::states::States;
 use crate::threads::in_step::ThreadsState;
 use crate::threads::taps::TapsState;
@@ -45,7 +45,7 @@ use crate::tools::z_after_change::ZAfterChangeState;
 use crate::PASSES;
 use crate::Target;
 use crate::arcs::{arc_form, convert_arcs};
-use crate::flow::{expand_calls, expand_repeats, number_names, repeat_ends, specialise_procedures};
+use crate::flow::{expand_repeats, repeat_ends};
 use crate::frames::expand_frames;
 use crate::holes::return_plane;
 use crate::modes::{feed_unit, one_distance};
@@ -57,7 +57,7 @@ use crate::support::needs::{
 };
 use crate::support::walk::Walk;
 use crate::tools::tool_axis;
-use crate::watch::ran;
+use crate::watch::{ran, ran_whole};
 use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Modes};
 use ncc_ir::caps::Caps;
@@ -130,11 +130,33 @@ impl Legaliser {
         passes_first: bool,
         diags: &mut Vec<Diagnostic>,
     ) {
-        let start = self.shared.walk.at.clone();
-        if passes_first {
-            self.shared.states.of::<FrameIncrementsState>().take_source().whole(program, &start, diags);
-        } else {
-            self.shared.states.of::<FrameIncrementsState>().whole(program, &start, diags);
+        let moment = if passes_first { ProgramMoment::SourceIncrements } else { ProgramMoment::Increments };
+        self.on_program(moment, program, Subprograms::Keep, diags);
+    }
+
+    /// Runs the passes of a moment on a program that is kept whole.
+    fn on_program(
+        &mut self,
+        moment: ProgramMoment,
+        program: &mut Program,
+        subprograms: Subprograms,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        self.on_kept(moment, &mut KeptProgram { program, subprograms, known: None, diags, refused: false });
+    }
+
+    /// The same, until one of them refuses it.
+    fn on_kept(&mut self, moment: ProgramMoment, kept: &mut KeptProgram) {
+        for pass in PASSES {
+            for step in pass.program.iter().filter(|step| step.moment == moment) {
+                if kept.refused || !(step.needed)(&self.shared, kept) {
+                    continue;
+                }
+                (step.run)(&mut self.shared, kept);
+                if !kept.refused {
+                    ran_whole(pass.name, kept.program);
+                }
+            }
         }
     }
 

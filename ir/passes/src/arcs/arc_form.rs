@@ -29,6 +29,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(ARC) && !l.target.caps.arcs.forms,
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ArcFormState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -40,6 +40,7 @@ pub(crate) const PASS: Pass = Pass {
         },
         first: None,
     }),
+    program: &[],
     parametric: None,
 };
 

@@ -27,6 +27,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(RADIUS),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<CutterRadiusState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -13,6 +13,7 @@
 mod contour;
 mod written;
 
+use crate::pass::Pass;
 use std::collections::BTreeMap;
 
 use self::contour::{Contour, contour};
@@ -30,6 +31,13 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named(
+    "expand-compensation",
+    "writes the path of the tool's centre for cutter radius compensation",
+    Some(run),
+);
 
 /// How compensation is worked out.
 #[derive(Clone, Debug, Default, PartialEq)]

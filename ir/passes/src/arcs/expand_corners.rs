@@ -44,6 +44,7 @@ pub(crate) const PASS: Pass = Pass {
             p.needs |= if written { l.lacks & ARC } else { 0 };
         },
     ),
+    program: &[],
     parametric: None,
 };
 

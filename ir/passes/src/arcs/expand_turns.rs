@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(ARC) && !l.target.caps.arcs.turns,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -28,6 +28,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, _| l.states.ask(|own: &StillBlocksState| own.looked_over),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<StillBlocksState>(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use crate::flow::repeat_ends;
-use crate::pass::{Moment, Pass, Step};
+use crate::pass::{Moment, Pass, ProgramMoment, ProgramStep, Step, Subprograms};
 use crate::support::needs::CONTROL;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{MOST_STATEMENTS, Target};
@@ -33,6 +33,18 @@ pub(crate) const PASS: Pass = Pass {
     about: "writes counted repetitions out",
     alone: Some(run),
     step: Step::at(Moment::Placing, |_, p| p.needs(CONTROL), |l, p| over(p.stmts, &l.target, p.diags)),
+    program: &[
+        ProgramStep {
+            moment: ProgramMoment::Repetitions,
+            needed: |_, _| true,
+            run: |_, p| everywhere(p.program, p.diags),
+        },
+        ProgramStep {
+            moment: ProgramMoment::SubprogramRepetitions,
+            needed: |_, p| p.subprograms == Subprograms::Expand,
+            run: |l, p| in_procedures(p.program, l.target.caps.flow.repeat_blocks, p.diags),
+        },
+    ],
     parametric: None,
 };
 
@@ -70,7 +82,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagno
 
 /// Writes repetitions of blocks out, before subprograms are written out themselves; `but_main` leaves those of
 /// the main program.
-pub(crate) fn in_procedures(program: &mut Program, but_main: bool, diags: &mut Vec<Diagnostic>) {
+fn in_procedures(program: &mut Program, but_main: bool, diags: &mut Vec<Diagnostic>) {
     for procedure in program.procedures.iter_mut().skip(usize::from(but_main)) {
         if has_blocks(&procedure.body) {
             blocks(&mut procedure.body, false, diags);
@@ -84,7 +96,7 @@ pub(crate) fn repeats_blocks(program: &Program) -> bool {
 }
 
 /// Writes every repetition out.
-pub(crate) fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
+fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
         over(&mut procedure.body, &Target::default(), diags);
     }

@@ -5,9 +5,10 @@
 //! word of the axis makes good, so that nothing adds up. Comments stand wherever their blocks are executed. Refused are
 //! flow and variables in blocks that a switch can take out, and programs that do not come to an end.
 
+use crate::pass::Pass;
 use std::collections::HashSet;
 
-use crate::flow::expand_calls::settle;
+use crate::support::settle::settle;
 use crate::support::walk::Walk;
 use crate::{MOST_STATEMENTS, Target};
 use ncc_exec::world::World;
@@ -23,6 +24,10 @@ use ncc_ir::program::kinds::{flow, variables};
 use ncc_ir::program::valid;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("flatten", "executes what computes and decides, and writes straight blocks", Some(run));
 
 /// The refusal of a block that the block-skip switch takes out and that decides what is executed.
 pub const SWITCHED: &str = "a block that can be skipped and decides what is executed, written out";

@@ -7,10 +7,25 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Target;
+use crate::pass::{Pass, ProgramMoment, ProgramStep};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "number-names",
+    about: "gives subprograms numbers where the target calls by number",
+    alone: Some(run),
+    step: None,
+    program: &[ProgramStep {
+        moment: ProgramMoment::Names,
+        needed: |_, _| true,
+        run: |l, p| over(p.program, &l.target, p.known.is_some(), p.diags),
+    }],
+    parametric: None,
+};
 
 /// First number that is given.
 const FIRST: u32 = 1001;
@@ -21,7 +36,7 @@ pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<
 }
 
 /// The same; `computes` is whether calls have variables of their own.
-pub(crate) fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
+fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
     // No digits leave every name.
     let digits = target.caps.flow.call_digits;
     let fits = |name: &str| {

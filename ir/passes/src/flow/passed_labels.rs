@@ -6,12 +6,16 @@
 //!
 //! Not here: names that blocks are repeated by.
 
+use crate::pass::Pass;
 use std::collections::HashSet;
 
-use crate::flow::expand_calls::settle;
+use crate::support::settle::settle;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named("unused-labels", "leaves out labels that no jump leads to", None);
 
 /// Leaves them out.
 pub fn run(program: &mut Program) {

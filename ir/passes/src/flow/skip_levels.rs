@@ -20,6 +20,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(SKIP),
         |l, p| over(p.stmts, l.states.of::<SkipLevelsState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -10,7 +10,7 @@ mod pending;
 
 use std::collections::HashMap;
 
-use crate::pass::{Moment, Pass, Step};
+use crate::pass::{Moment, Pass, ProgramMoment, ProgramStep, Step};
 use crate::support::walk::Walk;
 use crate::support::write::at;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
@@ -43,6 +43,21 @@ pub(crate) const PASS: Pass = Pass {
         },
         first: None,
     }),
+    program: &[
+        ProgramStep {
+            moment: ProgramMoment::SourceIncrements,
+            needed: |_, _| true,
+            run: |l, p| {
+                let mut source = l.states.of::<FrameIncrementsState>().take_source();
+                source.whole(p.program, &l.walk.at, p.diags);
+            },
+        },
+        ProgramStep {
+            moment: ProgramMoment::Increments,
+            needed: |_, _| true,
+            run: |l, p| l.states.of::<FrameIncrementsState>().whole(p.program, &l.walk.at, p.diags),
+        },
+    ],
     parametric: None,
 };
 

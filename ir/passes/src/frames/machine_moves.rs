@@ -50,6 +50,7 @@ pub(crate) const PASS: Pass = Pass {
             p.needs |= l.lacks & (EDGE | TABLE | LENGTH);
         },
     ),
+    program: &[],
     parametric: None,
 };
 

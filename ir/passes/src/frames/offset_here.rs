@@ -27,6 +27,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.lines.is_none() && concerns(p.stmts, &l.target.caps),
         |l, p| over(p.stmts, l.walk.clone(), &l.target.caps),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -22,6 +22,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(SHIFT),
         |l, p| over(p.stmts, l.states.of::<OriginShiftState>(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -23,6 +23,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.lines.is_none() && l.states.ask(RotaryTurnsState::is_used),
         |l, p| l.states.of::<RotaryTurnsState>().check(p.stmts, &l.walk, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

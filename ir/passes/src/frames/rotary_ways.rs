@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(TURN),
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(WORK),
         |l, p| over(p.stmts, l.states.of::<WorkOffsetState>(), p.assumed, &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(CYCLE) && !l.target.caps.holes.incremental,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -38,6 +39,7 @@ pub(crate) const ALIKE: Pass = Pass {
         |l, p| p.needs(CYCLE) && l.target.caps.holes.incremental && l.target.caps.holes.measured_anew,
         |_, p| alike(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -47,6 +47,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(CYCLE),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandCyclesState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(PATTERN),
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -38,6 +39,7 @@ pub(crate) const REFORM: Pass = Pass {
         |_, p| p.needs(PATTERN),
         |l, p| reform(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -14,15 +14,12 @@ use crate::threads::taps::TapsState;
 use crate::tools::z_after_change::ZAfterChangeState;
 use std::rc::Rc;
 
-use crate::flow::number_names;
-use crate::frames::computed_frames;
 use crate::frames::machine_cuts;
 use crate::legalise::{Legaliser, Target};
 use crate::modes::feed_unit;
-use crate::pass::Shared;
+use crate::pass::{KeptProgram, ProgramMoment, Shared, Subprograms};
 use crate::support::known_facts::{self, Known};
 use crate::threads::taps;
-use crate::watch::ran_whole;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::arguments;
@@ -41,8 +38,7 @@ impl Legaliser {
     /// Brings a program that computes within the target's capabilities, its structure kept.
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
-        number_names::over(program, &self.shared.target, true, diags);
-        ran_whole("number-names", program);
+        self.on_computing(ProgramMoment::Names, program, known, diags);
         let mut found = Vec::new();
         let mut bare = program.clone();
         let any =
@@ -58,24 +54,27 @@ impl Legaliser {
         self.stretches(program, known, diags);
     }
 
+    /// Runs the passes of a moment on a program that computes. Tells whether one of them refused it.
+    fn on_computing(
+        &mut self,
+        moment: ProgramMoment,
+        program: &mut Program,
+        known: &Known,
+        diags: &mut Vec<Diagnostic>,
+    ) -> bool {
+        let subprograms = Subprograms::Keep;
+        let mut kept = KeptProgram { program, subprograms, known: Some(known), diags, refused: false };
+        self.on_kept(moment, &mut kept);
+        kept.refused
+    }
+
     fn stretches(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
         let assumed = program.assumed;
         // What the target says of a program's flow has been looked at before.
         let mut fresh = self.clone();
         fresh.shared.lacks &= !(crate::legalise::CONTROL | crate::legalise::CALL);
-        match computed_frames::run(program, &self.shared.target.caps, known) {
-            Ok(computed_frames::Found::Straight) => {}
-            Ok(computed_frames::Found::Said) if !self.shared.states.ask(ExpandFramesState::is_busy) => {
-                ran_whole("computed-frames", program);
-                fresh.shared.lacks &= !crate::legalise::FRAME
-            }
-            Ok(computed_frames::Found::Said) => {
-                let at = program.procedures.first().and_then(|main| main.body.first());
-                let what = "other frames than those before it, where a program computes".into();
-                let at = at.map_or_else(Span::default, |stmt| stmt.span);
-                return diags.push(Diagnostic::new(Fault::Computes { what }, at));
-            }
-            Err(refusal) => return diags.push(refusal),
+        if fresh.on_computing(ProgramMoment::Frames, program, known, diags) {
+            return;
         }
         fresh.shared.entries = fresh.entries_of(program).map(Rc::new);
         let mut first = fresh.clone();

@@ -1,11 +1,20 @@
 //! Messages to the operator, for a target that cannot show them, or only where the program stops; text for devices that it
 //! does not write to.
 
+use crate::pass::Pass;
 use ncc_ir::caps::Caps;
 use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Output, Piece, Program, Stmt, Text};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const OUTPUT: Pass =
+    Pass::named("leave-out-output", "leaves out what is written to devices that the target has not", None);
+
+/// This pass.
+pub(crate) const VALUES: Pass =
+    Pass::named("leave-out-values", "leaves out of messages the values that the target cannot show", None);
 
 /// A message that is a comment from here on, by what stands behind it: where the program stops before another one takes its
 /// place, the operator is told something to do.

@@ -21,6 +21,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(ARC | MESSAGE | CALL | CONTROL | MACHINE),
         |l, p| refuse(l, p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -28,22 +28,11 @@ use std::rc::Rc;
 
 use super::*;
 use crate::support::known_facts::has_bare_holes;
-use crate::watch::ran_whole;
+use crate::watch::unwatched;
 use ncc_ir::canon::FeedMode;
 use ncc_ir::program::Text;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::valid::{ends_callers_cycle, leaves_a_cycle};
-
-/// What is done with subprograms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Subprograms {
-    /// They stay as they are.
-    Keep,
-    /// They get what their callers have in force.
-    Specialise,
-    /// They are written out.
-    Expand,
-}
 
 impl Legaliser {
     /// Brings a program that is kept whole within the target's capabilities: the rest of the main
@@ -67,8 +56,7 @@ impl Legaliser {
             }
         }
         if frames || self.repeats_in_the_way(rest) {
-            expand_repeats::everywhere(rest, diags);
-            ran_whole("expand-repeats", rest);
+            self.on_program(ProgramMoment::Repetitions, rest, Subprograms::Keep, diags);
         }
         // A subprogram may lack what only its callers know: it is given that, or written out.
         let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
@@ -77,8 +65,10 @@ impl Legaliser {
             false if !self.calls_under_expanded(rest) => 0,
             false => {
                 let mut own = rest.clone();
-                let inherits = self.shared.target.caps.flow.inherits_motion;
-                specialise_procedures::over(&mut own, &self.shared.walk, inherits, &mut Vec::new());
+                let mut nothing = Vec::new();
+                unwatched(|| {
+                    self.on_program(ProgramMoment::Calls, &mut own, Subprograms::Specialise, &mut nothing)
+                });
                 if self.calls_under_expanded(&own) { 2 } else { 1 }
             }
         };
@@ -108,9 +98,7 @@ impl Legaliser {
     /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
         let (mut given, mut told) = (rest.clone(), Vec::new());
-        let inherits = self.shared.target.caps.flow.inherits_motion;
-        specialise_procedures::over(&mut given, &self.shared.walk, inherits, &mut told);
-        ran_whole("specialise-procedures", &given);
+        self.on_program(ProgramMoment::Calls, &mut given, Subprograms::Specialise, &mut told);
         let subs = given.procedures.iter().skip(1);
         let mut names: BTreeSet<Text> = match self.calls_under_expanded(&given) {
             true => subs.clone().filter(|sub| takes_cycle(&sub.body)).map(|sub| sub.name.clone()).collect(),
@@ -118,8 +106,7 @@ impl Legaliser {
         };
         loop {
             let (mut own, mut program, mut found) = (self.clone(), given.clone(), told.clone());
-            expand_calls::some(&mut program, &mut self.shared.walk.clone(), &names, &mut found);
-            ran_whole("expand-calls", &program);
+            own.on_program(ProgramMoment::Calls, &mut program, Subprograms::ExpandNamed(&names), &mut found);
             if program.procedures.len() < 2 || self.calls_under_expanded(&program) {
                 return false;
             }
@@ -145,24 +132,10 @@ impl Legaliser {
     /// The same, with subprograms treated in one way.
     fn run_whole(&mut self, rest: &mut Program, way: Subprograms, diags: &mut Vec<Diagnostic>) {
         let assumed = rest.assumed;
-        match way {
-            Subprograms::Keep => {}
-            Subprograms::Specialise => {
-                let inherits = self.shared.target.caps.flow.inherits_motion;
-                specialise_procedures::over(rest, &self.shared.walk, inherits, diags);
-                ran_whole("specialise-procedures", rest);
-            }
-            Subprograms::Expand => {
-                expand_repeats::in_procedures(rest, self.shared.target.caps.flow.repeat_blocks, diags);
-                ran_whole("expand-repeats", rest);
-                // The walk is needed again for the other passes.
-                expand_calls::over(rest, &mut self.shared.walk.clone(), diags);
-                ran_whole("expand-calls", rest);
-            }
-        }
+        self.on_program(ProgramMoment::SubprogramRepetitions, rest, way, diags);
+        self.on_program(ProgramMoment::Calls, rest, way, diags);
         self.refuse_cycles_left(rest, diags);
-        number_names::over(rest, &self.shared.target, false, diags);
-        ran_whole("number-names", rest);
+        self.on_program(ProgramMoment::Names, rest, way, diags);
         self.shared.entries = self.entries_of(rest).map(Rc::new);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {

@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(AT_ONCE),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<AtOnceState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -5,6 +5,7 @@
 //! errors do not add up; a pitch or a peck, of which there are many, must come out exact or is
 //! refused.
 
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rounded, unit_of};
 use crate::{Target, each_body};
@@ -20,6 +21,13 @@ use ncc_ir::program::{
     ToolLength,
 };
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const MILLIMETRES: Pass =
+    Pass::named("millimetres", "writes lengths and feeds in millimetres", Some(millimetres));
+
+/// This pass.
+pub(crate) const INCHES: Pass = Pass::named("inches", "writes lengths and feeds in inches", Some(inches));
 
 /// Everything in millimetres.
 pub fn millimetres(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

@@ -54,6 +54,7 @@ pub(crate) const PASS: Pass = Pass {
         },
         first: None,
     }),
+    program: &[],
     parametric: None,
 };
 

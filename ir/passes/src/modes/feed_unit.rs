@@ -56,6 +56,7 @@ pub(crate) const AGAIN: Pass = Pass {
         },
         first: None,
     }),
+    program: &[],
     parametric: None,
 };
 
@@ -69,6 +70,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| is_measured(l, p) && !l.target.caps.modes.feed_apart,
         |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
     ),
+    program: &[],
     parametric: None,
 };
 

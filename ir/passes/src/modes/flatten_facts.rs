@@ -26,6 +26,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(EVERY),
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

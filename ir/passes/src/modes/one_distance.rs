@@ -23,6 +23,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| is_measured(l, p) && !l.target.caps.modes.word_distance,
         |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

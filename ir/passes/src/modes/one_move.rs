@@ -28,6 +28,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(MOVE),
         |l, p| over(p.stmts, l.states.of::<OneMoveState>()),
     ),
+    program: &[],
     parametric: None,
 };
 

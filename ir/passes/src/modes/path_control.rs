@@ -28,6 +28,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(PATH),
         |l, p| over(p.stmts, l.states.of::<PathControlState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

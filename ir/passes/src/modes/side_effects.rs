@@ -28,6 +28,7 @@ mod length;
 mod way_up;
 
 use crate::modes::fine_digits;
+use crate::pass::Pass;
 use crate::support::known_facts::Known;
 use crate::tools::tool_words::ToolWords;
 use ncc_exec::Increments;
@@ -51,6 +52,13 @@ use kinds::{at_end, commands_z, cuts, is_code, is_zero, starts_spindle, switches
 use way_up::WayUp;
 
 pub use way_up::REFUSED as NEEDS_Z;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named(
+    "side-effects",
+    "says in words what codes of the source's control do besides their names",
+    None,
+);
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,6 +10,7 @@
 
 pub mod known_facts;
 pub(crate) mod needs;
+pub(crate) mod settle;
 pub(crate) mod shared_map;
 pub(crate) mod states;
 pub(crate) mod walk;

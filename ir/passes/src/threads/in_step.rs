@@ -39,6 +39,7 @@ pub(crate) const AS_CYCLES: Pass = Pass {
             p.needs |= l.lacks & CYCLE;
         },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -52,6 +53,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ThreadsState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

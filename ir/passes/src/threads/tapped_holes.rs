@@ -33,6 +33,7 @@ pub(crate) const PASS: Pass = Pass {
             p.needs |= l.lacks & CYCLE;
         },
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -36,6 +36,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(CYCLE),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<TapsState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -25,6 +25,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, _| l.states.ask(LengthAxisState::is_used),
         |l, p| l.states.of::<LengthAxisState>().check(p.stmts, &l.walk, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -28,6 +28,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| p.needs(TABLE) && l.target.caps.tools.change_by_hand,
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<LengthByHandState>(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -3,9 +3,9 @@
 //!
 //! It goes by [`Maps`] and knows no machine. What the program uses and a map in force does not have
 //! is refused where it stands, and so is a number that is computed; nothing is passed on by chance.
-//! It is not among [`PASSES`](crate::PASSES): a program is renumbered once, when it goes from one
-//! machine to another, and by nobody's wish.
+//! It cannot be asked for by name: a program is renumbered once, when it goes from one machine to another.
 
+use crate::pass::Pass;
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_exec::maps::Maps;
@@ -16,6 +16,20 @@ use ncc_ir::program::kinds::{conduct, drilling, miscellaneous, modes, moves, pol
 use ncc_ir::program::numbered::Numbered;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, ProgramName, Stmt, Text, ToolLength};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const TOOL_NAMES: Pass = Pass::named(
+    "tool-names",
+    "puts the target machine's numbers in for names of tools, in a program that computes",
+    None,
+);
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named(
+    "machine-numbers",
+    "puts the target machine's numbers of tools, lengths and offsets in",
+    None,
+);
 
 /// What bears no number of tools, lengths, work offsets or programs.
 macro_rules! unnumbered {

@@ -21,6 +21,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, _| true,
         |l, p| over(p.stmts, l.states.of::<SpindleAngleState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -31,6 +31,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(TOOL_AXIS),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolAxisState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

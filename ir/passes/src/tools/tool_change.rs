@@ -23,6 +23,7 @@ pub(crate) const PASS: Pass = Pass {
             l.states.of::<ToolChangeState>().over(p.stmts, up, p.diags);
         },
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -30,6 +30,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(EDGE | TABLE),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolEdgeState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -33,6 +33,7 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| l.states.ask(|own: &ZAfterChangeState| own.concerns(p.stmts)),
         |l, p| l.states.of::<ZAfterChangeState>().over(p.stmts, &l.walk, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

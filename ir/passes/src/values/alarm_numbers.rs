@@ -3,6 +3,7 @@
 //!
 //! The numbers of alarms that are computed stay. Not here: alarms that the target gives by itself.
 
+use crate::pass::Pass;
 use ncc_ir::alarms::Alarms;
 use ncc_ir::computed::call_of::NO_SUCH_PROGRAM;
 use ncc_ir::computed::code_of::NO_SUCH_CODE;
@@ -10,6 +11,13 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Alarm, NO_SUCH_BLOCK, Op, Program, Stmt};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const TEXTS: Pass =
+    Pass::named("alarm-texts", "says texts of alarms in the target's characters", None);
+
+/// This pass.
+pub(crate) const NUMBERS: Pass = Pass::named("alarm-numbers", "numbers alarms as the target does", None);
 
 /// Most alarms that are told.
 const MOST_TOLD: usize = 20;

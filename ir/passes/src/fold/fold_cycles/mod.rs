@@ -21,6 +21,7 @@ pub(crate) mod feed;
 mod hole;
 
 use crate::holes::sayable::sayable;
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, cut, only, traverse};
 use crate::{Target, each_body};
@@ -37,6 +38,10 @@ use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Move, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("fold-cycles", "turns holes written long-hand into canned cycles", Some(run));
 
 /// Fewest plain holes that are worth a cycle.
 const FEWEST_HOLES: usize = 2;

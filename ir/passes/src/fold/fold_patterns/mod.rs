@@ -23,6 +23,7 @@ mod circle;
 mod decimal;
 mod rows;
 
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, at, is_absolute, traverse};
 use crate::{Target, each_body};
@@ -33,6 +34,10 @@ use ncc_ir::expr::num::{Nanos, Unit};
 use ncc_ir::program::cycle::Pattern;
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("fold-patterns", "turns positions of holes into circles, grids, lines and lists", Some(run));
 
 /// Positions are taken to be written to at least so many digits after the point in mm, and one more in
 /// inches: a program leaves zeros at the end out.

@@ -48,6 +48,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(FRAME),
         |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandFramesState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

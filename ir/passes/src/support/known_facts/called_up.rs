@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::called::Called;
-use crate::flow::expand_calls::settle;
+use crate::support::settle::settle;
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::called::Called;
 use super::held::Held;
-use crate::flow::expand_calls::{settle, settle_point};
+use crate::support::settle::{settle, settle_point};
 use crate::values::known_answers;
 use ncc_ir::computed::computes::Computes;
 use ncc_ir::expr::Target;
