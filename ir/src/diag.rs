@@ -6,7 +6,7 @@
 use crate::behaviour::{Behaviour, Kept};
 use crate::canon::Axis;
 use crate::expr::num::Num;
-use crate::geometry::beside::Unreachable;
+use crate::geometry::offset_path::Unreachable;
 use crate::program::numbered::Numbered;
 use crate::source::Span;
 

@@ -15,14 +15,14 @@ pub use self::shifted::Shifted;
 use known::{Known, Polarly, Turning};
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, Spindle, Units};
-use crate::computed::code_of::code_of;
-use crate::computed::entry_of::is_about_entries;
+use crate::computed::computed_code::computed_code;
+use crate::computed::computed_entry::is_about_entries;
 use crate::expr::Expr;
 use crate::expr::num::{Nanos, Num};
 use crate::geometry;
-use crate::geometry::places::Places;
+use crate::geometry::arc_solver::{MOST_SHORT, solve_arc};
+use crate::geometry::hole_positions::HolePositions;
 use crate::geometry::polar::{self, Pole};
-use crate::geometry::round::{MOST_SHORT, round};
 use crate::program::cycle::{Cycle, Pattern};
 use crate::program::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
 use crate::program::{
@@ -201,16 +201,16 @@ impl Tracker {
 
     /// Hole positions of a pattern in the plane's two axes, as far as they are known.
     pub fn positions(&self, pattern: &Pattern) -> Option<Vec<[Nanos; 2]>> {
-        let places = self.places(pattern)?;
+        let places = self.hole_positions(pattern)?;
         Some((0..places.count()).map(|k| places.get(k)).collect())
     }
 
     /// The places of a pattern in the plane's two axes, as far as they are known.
-    pub fn places(&self, pattern: &Pattern) -> Option<Places> {
+    pub fn hole_positions(&self, pattern: &Pattern) -> Option<HolePositions> {
         let plane = self.cycle.as_ref().map_or(Fact::Entry, |c| c.cycle.plane);
         let plane = self.plane(plane)?;
         let (first, second, _) = plane.axes();
-        Places::of(pattern, plane, &Known { at: self, axes: [first, second] }).ok()
+        HolePositions::from_pattern(pattern, plane, &Known { at: self, axes: [first, second] }).ok()
     }
 
     /// Forgets everything: after a call, at a label.
@@ -409,8 +409,8 @@ impl Tracker {
             Op::SelectToolByName(_) => self.selected = None,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
             // One of them does what it says, and nothing else.
-            Op::Control(control) if code_of(control).is_some_and(|code| is_about_entries(&code)) => {
-                let code = code_of(control);
+            Op::Control(control) if computed_code(control).is_some_and(|code| is_about_entries(&code)) => {
+                let code = computed_code(control);
                 code.iter().flat_map(|code| &code.codes).for_each(|(_, op)| self.apply(op));
             }
             flow!() => self.forget(),
@@ -533,7 +533,7 @@ impl Tracker {
         let plane = self.plane(arc.plane)?;
         let (first, second, _) = plane.axes();
         let start = [self.position[first as usize]?, self.position[second as usize]?];
-        let found = round(&arc.shape, plane, start, start, &Turning(self)).ok()?.ok()?;
+        let found = solve_arc(&arc.shape, plane, start, start, &Turning(self)).ok()?.ok()?;
         Some(found.end)
     }
 

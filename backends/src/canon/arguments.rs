@@ -4,7 +4,7 @@ use ncc_ir::canon::{Axis, Distance, FeedMode, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, POW10, Unit};
-use ncc_ir::geometry::round::MOST_SHORT;
+use ncc_ir::geometry::arc_solver::MOST_SHORT;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::{Arc, Centre, Coord, Point, Stmt};
 use ncc_ir::source::Span;

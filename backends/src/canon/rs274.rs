@@ -28,8 +28,8 @@ use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, Retu
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_ir::geometry::beside::Rules;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
+use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::valid::leads_nowhere;
 use ncc_ir::program::{Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;

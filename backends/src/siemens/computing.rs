@@ -157,7 +157,7 @@ impl Writer {
         let span = stmt.span;
         self.words.spelling(None)?;
         let computes = self.dialect.caps.flow.computes.as_ref();
-        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+        if let Some(entry) = computes.and_then(|computes| computes.computed_entry(control)) {
             return self.entry_of_number(&entry, stmt, sink);
         }
         if stmt.skip.is_some() {

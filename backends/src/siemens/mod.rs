@@ -11,11 +11,11 @@
 //!
 //! Not here: expanding what the control cannot say (passes), and judging the result (verification).
 
+mod computed_entry;
 mod computing;
 mod cycle;
 mod data;
 mod edge_left;
-mod entry_of;
 mod frame;
 mod motion;
 mod names;

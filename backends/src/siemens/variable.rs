@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::NameMeaning;
-use ncc_ir::computed::changed::Changed;
+use ncc_ir::computed::assigned_variables::AssignedVariables;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::types::Types;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
@@ -34,7 +34,7 @@ pub(super) struct Variables {
     /// What subprograms take, by name: types of parameters.
     takes: BTreeMap<Text, Vec<Parameter>>,
     /// What subprograms may change of the variables that all see.
-    changed: Changed,
+    changed: AssignedVariables,
     /// What the call that was written last gives back, each with where it is kept meanwhile.
     back: Vec<(Target, Expr)>,
     /// Subprograms with parameters that the unit at hand calls, as far as they are not made known.
@@ -93,7 +93,7 @@ fn rounded(expr: &Expr) -> Option<&Expr> {
 impl Writer {
     /// Takes what subprograms have for parameters.
     pub(super) fn know_parameters(&mut self, procedures: &[Procedure]) {
-        self.variables.changed = Changed::by_subprograms(procedures);
+        self.variables.changed = AssignedVariables::by_subprograms(procedures);
         for procedure in procedures.iter().skip(1).filter(|p| !p.parameters.is_empty()) {
             let all = procedure.parameters.iter().enumerate().map(|(place, var)| Parameter {
                 kind: procedure.kinds.get(place).copied().unwrap_or(Type::Real),

@@ -373,7 +373,7 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
-        let (before, jump) = macros::jump_of::found(stmts);
+        let (before, jump) = macros::computed_jump::found(stmts);
         for stmt in before {
             let before = self.open(stmt, sink);
             let written = match before {

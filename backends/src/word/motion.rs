@@ -11,7 +11,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::geometry;
-use ncc_ir::geometry::round::MOST_SHORT;
+use ncc_ir::geometry::arc_solver::MOST_SHORT;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Reference, ReferencePoint, Stmt};
 use ncc_ir::source::Span;
 

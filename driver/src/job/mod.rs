@@ -28,7 +28,7 @@ use ncc_ir::canon::{AXES, AdviceKind};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::arc_feed::ArcFeed;
-use ncc_ir::geometry::beside::Rules;
+use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::Text;
 use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side};

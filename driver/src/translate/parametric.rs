@@ -8,7 +8,7 @@ use ncc_dialects::{
 };
 use ncc_ir::canon::Modes;
 use ncc_ir::computed::computes::{Computes, Said};
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{self, Expr};
@@ -42,7 +42,7 @@ pub fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
     if job.values.is_empty() {
         return found;
     }
-    let open = open_variables(program);
+    let open = free_variables(program);
     let Some(main) = program.procedures.first_mut() else { return found };
     let at = main.body.first().map_or(Span::default(), |first| first.span);
     let mut sets = Vec::new();

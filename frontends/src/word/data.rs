@@ -5,7 +5,7 @@
 
 use ncc_dialects::{AT_ZERO, DataKind, DataRow, Meaning, Quantity, RADIUS_DATA, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
-use ncc_ir::computed::code_of::of_number;
+use ncc_ir::computed::computed_code::of_number;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::system::System;

@@ -9,7 +9,7 @@ use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::expr::system::System;
-use ncc_ir::geometry::round::{ArcRule, MOST_SHORT};
+use ncc_ir::geometry::arc_solver::{ArcRule, MOST_SHORT};
 use ncc_ir::program::cycle::Approach;
 
 use crate::Quantity;

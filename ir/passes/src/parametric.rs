@@ -4,7 +4,7 @@
 //! The steps are rows of the table of passes, in its order. Not here: blocks between two statements of control, which the
 //! legaliser brings within the target's capabilities.
 
-use ncc_ir::computed::code_of;
+use ncc_ir::computed::computed_code;
 use ncc_ir::computed::computes::Said;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
@@ -44,7 +44,7 @@ pub(crate) const CODES: Pass = Pass::parametric(
     |program, own, _| {
         let target = own.target;
         for procedure in &mut program.procedures {
-            code_of::without_alarms(&mut procedure.body, &|control| target.says_number(control));
+            computed_code::without_alarms(&mut procedure.body, &|control| target.says_number(control));
         }
     },
 );

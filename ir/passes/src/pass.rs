@@ -12,7 +12,7 @@ use ncc_ir::computed::computes::Computes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::system::System;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::program::{Lines, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
 

@@ -5,8 +5,8 @@
 mod refusal;
 
 use crate::alarms::Alarms;
-use crate::computed::code_of::code_of;
-use crate::computed::entry_of::{EntryOf, entry_of, is_about_entries};
+use crate::computed::computed_code::computed_code;
+use crate::computed::computed_entry::{ComputedEntry, computed_entry, is_about_entries};
 use crate::expr::num::{Num, Unit};
 use crate::expr::system::System;
 use crate::expr::{Binary, Expr, Function, Node, Numbers, Scope, Var};
@@ -43,13 +43,13 @@ pub enum Said {
     Alarm,
     /// [`Op::ProgramStop`] with [`Op::Message`] before it in its block.
     Stop,
-    /// What [`crate::computed::call_of`] finds.
+    /// What [`crate::computed::computed_call`] finds.
     CallOf,
-    /// What [`crate::computed::code_of`] finds of codes.
+    /// What [`crate::computed::computed_code`] finds of codes.
     CodeOf,
-    /// What [`crate::computed::entry_of`] finds, where it only reads places of tables.
+    /// What [`crate::computed::computed_entry`] finds, where it only reads places of tables.
     EntriesRead,
-    /// What [`crate::computed::entry_of`] finds, where it sets a place of a table.
+    /// What [`crate::computed::computed_entry`] finds, where it sets a place of a table.
     EntriesSet,
     /// [`crate::program::Attribute`] of a procedure.
     Attributes,
@@ -252,17 +252,17 @@ impl Computes {
 
     /// Places of tables by a computed number, as the target says them in one statement, if these decisions are such and it
     /// does.
-    pub fn entry_of<'c>(&self, control: &'c Control) -> Option<EntryOf<'c>> {
-        let entry = entry_of(&code_of(control)?, &self.entries)?;
+    pub fn computed_entry<'c>(&self, control: &'c Control) -> Option<ComputedEntry<'c>> {
+        let entry = computed_entry(&computed_code(control)?, &self.entries)?;
         let said = if entry.sets.is_empty() { Said::EntriesRead } else { Said::EntriesSet };
         self.has(said).then_some(entry)
     }
 
     /// Whether decisions about one number are one statement of the target's: a code, or places of its tables.
     pub fn says_number(&self, control: &Control) -> bool {
-        let Some(code) = code_of(control) else { return false };
+        let Some(code) = computed_code(control) else { return false };
         match is_about_entries(&code) {
-            true => self.entry_of(control).is_some(),
+            true => self.computed_entry(control).is_some(),
             false => self.has(Said::CodeOf),
         }
     }

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::computed::open::open_variables;
+use crate::computed::free_variables::free_variables;
 use crate::expr::num::Num;
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
@@ -50,7 +50,7 @@ impl Decimals {
     /// Looks through a program.
     pub fn of(program: &Program) -> Decimals {
         let mut found = Decimals::default();
-        for (var, _) in open_variables(program) {
+        for (var, _) in free_variables(program) {
             let key = found.key(&var);
             found.known.insert(key.clone(), None);
             found.negative.insert(key, true);

@@ -42,8 +42,8 @@ use crate::canon::{
     SpindleMode, Units,
 };
 use crate::expr::{Expr, Target, Var};
+pub use crate::operator_text::{Alarm, NO_SUCH_BLOCK, Output, Piece};
 use crate::program::cycle::{Cycle, Pattern};
-pub use crate::shown::{Alarm, NO_SUCH_BLOCK, Output, Piece};
 use crate::source::Span;
 
 /// A part program: the main procedure first, then its subprograms.

@@ -33,7 +33,7 @@ use ncc_ir::caps::{Caps, LengthsOf, ReturnsTo};
 use ncc_ir::computed::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
-use ncc_ir::geometry::beside::Rules;
+use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_passes::flow::control_forms;

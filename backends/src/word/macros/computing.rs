@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::canon::{Distance, Modes, Units};
-use ncc_ir::computed::call_of::call_of;
-use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computed_call::computed_call;
+use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::computed::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::units::Said;
@@ -308,16 +308,16 @@ impl Writer {
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.spelling(None)?;
         let computes = self.dialect.caps.flow.computes.as_ref();
-        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+        if let Some(entry) = computes.and_then(|computes| computes.computed_entry(control)) {
             return self.entry_of_number(&entry, stmt, sink);
         }
         if self.has_o_words() {
             return self.o_structure(control, stmt, sink);
         }
-        if let Some(call) = call_of(control).filter(|_| self.dialect.program.macro_b) {
+        if let Some(call) = computed_call(control).filter(|_| self.dialect.program.macro_b) {
             return self.computed_call(&call, stmt, sink);
         }
-        if let Some(code) = code_of(control).filter(|_| self.dialect.program.macro_b) {
+        if let Some(code) = computed_code(control).filter(|_| self.dialect.program.macro_b) {
             return self.code_of_variable(&code, stmt, sink);
         }
         match control {

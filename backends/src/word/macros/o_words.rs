@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 use ncc_ir::computed::computes::counted;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::fails::may_fail;
+use ncc_ir::expr::partial_expr::may_fail;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;

@@ -1,7 +1,7 @@
 //! Values for what a program reads and has not set: the same in both programs, by the variables' names.
 //! They are made of the numbers of the program itself, so that its decisions go both ways. A local variable may have none.
 
-use ncc_ir::computed::open::{literals, open_variables};
+use ncc_ir::computed::free_variables::{free_variables, literals};
 use ncc_ir::expr::Var;
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::{Program, Type};
@@ -47,7 +47,7 @@ pub struct Given<'g> {
 
 impl<'g> Given<'g> {
     pub(super) fn new(source: &Program, stated: &'g Stated) -> Given<'g> {
-        let open = open_variables(source);
+        let open = free_variables(source);
         let mut pool = FIRST.to_vec();
         if !open.is_empty() {
             let own = literals(source);

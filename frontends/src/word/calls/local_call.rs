@@ -5,7 +5,7 @@
 //! or out of; such a call in a subprogram, or beside jumps whose number is computed.
 
 use ncc_dialects::{CodeRow, Dialect, Meaning, Quantity};
-use ncc_ir::computed::call_of::so_often;
+use ncc_ir::computed::computed_call::so_often;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;

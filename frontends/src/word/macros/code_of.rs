@@ -10,7 +10,7 @@ use std::mem::discriminant;
 
 use ncc_dialects::{Statement as Says, SystemRow};
 use ncc_ir::canon::Motion;
-use ncc_ir::computed::code_of::of_number;
+use ncc_ir::computed::computed_code::of_number;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};

@@ -8,7 +8,7 @@ use ncc_ir::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::places::{Here, Places};
+use ncc_ir::geometry::hole_positions::{Here, HolePositions};
 use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift, next_peck};
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
@@ -306,7 +306,8 @@ impl Exec {
         };
         let (first, second, _) = cycle.plane.axes();
         let (f, s) = (first as usize, second as usize);
-        let places = Places::of(pattern, cycle.plane, &Now { exec: self, axes: [f, s], span })?;
+        let places =
+            HolePositions::from_pattern(pattern, cycle.plane, &Now { exec: self, axes: [f, s], span })?;
         for k in 0..places.count() {
             self.hole_at(&cycle, f, s, places.get(k), span, out)?;
         }

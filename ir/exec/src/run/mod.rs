@@ -29,7 +29,7 @@ pub use crate::run::repeated::again;
 use crate::run::rounds::Rounds;
 use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why, real};
 use ncc_ir::canon::FeedMode;
-use ncc_ir::computed::code_of::is_last;
+use ncc_ir::computed::computed_code::is_last;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::expr::value::Value;

@@ -12,7 +12,7 @@ use ncc_ir::canon::{AXES, Axis, Fact, Plane};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::round::{ArcRule, Around, Round, round};
+use ncc_ir::geometry::arc_solver::{ArcRule, Around, SolvedArc, solve_arc};
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::kinds::{conduct, miscellaneous};
@@ -242,11 +242,11 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
     let end = walk.at.target(&arc.to);
     let at = |axis: Axis| end[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
     let end = [at(first)?, at(second)?];
-    let found = round(&arc.shape, plane, start, end, &known)?;
+    let found = solve_arc(&arc.shape, plane, start, end, &known)?;
     if found == Err(ArcFault::Straight) {
         return Ok((Op::StraightFeed(Move { to: arc.to.clone(), said: arc.said }), None));
     }
-    let Round { centre, end, turn } = found.map_err(|fault| match fault {
+    let SolvedArc { centre, end, turn } = found.map_err(|fault| match fault {
         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
         ArcFault::NoWay | ArcFault::Straight => Fault::NoArc,
         ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },

@@ -15,7 +15,7 @@ use crate::support::write::is_absolute;
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::{Arc, Centre, CentreFrom};
 

@@ -4,7 +4,7 @@
 //! The radius must be known: the program states a diameter, has put a radius into the table, or a profile
 //! has the tool's. Every leg is written with coordinates of the plane from program zero; corners away from
 //! the tool get an arc before the move that follows them. Refused is a contour that cannot be gone along
-//! without cutting into it ([`ncc_ir::geometry::beside`]), and what would have to be known and is not: a position, what
+//! without cutting into it ([`ncc_ir::geometry::offset_path`]), and what would have to be known and is not: a position, what
 //! a block that may be skipped does, a called program, frames that turn left into right or scale.
 //!
 //! Where F counts along the contour on arcs ([`ncc_ir::geometry::arc_feed`]), each arc gets the F of the tool centre that takes the
@@ -26,7 +26,7 @@ use ncc_ir::canon::{AdviceKind, FeedMode, Motion, Plane, Side};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::arc_feed::ArcFeed;
-use ncc_ir::geometry::beside::{Beside, Leg, Rules, Unreachable};
+use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Rules, Unreachable};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
@@ -326,7 +326,7 @@ impl Expansion<'_> {
         if enters {
             self.leaving = None;
         }
-        let now = contour.path.as_ref().map_or(to, Beside::now);
+        let now = contour.path.as_ref().map_or(to, OffsetPath::now);
         let words = writer.spot(now, writer.others(words).map_err(refuse)?);
         let op = match leg {
             Leg::Arc { centre, ccw, turns } => writer.arc(words, centre, ccw, turns),

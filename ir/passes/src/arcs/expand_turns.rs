@@ -11,7 +11,7 @@ use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry;
-use ncc_ir::geometry::beside::{Leg, Spot};
+use ncc_ir::geometry::offset_path::{Leg, Spot};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt, Turns};
 use ncc_ir::track::Tracker;

@@ -21,8 +21,8 @@ use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::pass::Pass;
-use ncc_ir::computed::call_of::call_of;
-use ncc_ir::computed::changed::Changed;
+use ncc_ir::computed::assigned_variables::AssignedVariables;
+use ncc_ir::computed::computed_call::computed_call;
 use ncc_ir::computed::computes::{Computes, Handed, Said, counted};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
@@ -41,7 +41,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
 pub fn run(program: &mut Program, computes: &Computes) {
     let mut taken = Names::of(program);
     worked_out::over(program, computes, &mut taken);
-    let by_subprograms = Changed::by_subprograms(&program.procedures);
+    let by_subprograms = AssignedVariables::by_subprograms(&program.procedures);
     let mut forms = Forms { computes, by_subprograms, taken, turning: Vec::new(), open: 0, split: false };
     for procedure in &mut program.procedures {
         if !has_control(&procedure.body) {
@@ -96,7 +96,7 @@ struct Loop {
 struct Forms<'c> {
     computes: &'c Computes,
     /// What may be another value when a call is made again.
-    by_subprograms: Changed,
+    by_subprograms: AssignedVariables,
     taken: Names,
     turning: Vec<Turning>,
     /// Loops that are open, of those that stay loops.
@@ -168,7 +168,7 @@ impl Forms<'_> {
     fn truth(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Assign(to, value) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
         let one = |n: i64| Stmt::new(stmt.span, Op::Assign(to.clone(), Expr::int(n)));
-        let mut changed = Changed::default();
+        let mut changed = AssignedVariables::default();
         changed.look(&[one(0)]);
         if changed.keeps(&value) && stmt.skip.is_none() {
             let (number, joined, comment) = (stmt.number, stmt.joined, stmt.comment.take());
@@ -194,7 +194,7 @@ impl Forms<'_> {
         if stmt.skip.is_some() {
             return out.push(stmt);
         }
-        let changed = Changed { shared: call.shared, ..self.by_subprograms.clone() };
+        let changed = AssignedVariables { shared: call.shared, ..self.by_subprograms.clone() };
         for argument in &mut call.arguments {
             if !changed.keeps(argument) {
                 let own = self.taken.counter("GIVEN");
@@ -219,7 +219,7 @@ impl Forms<'_> {
 
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Control(mut control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
-        if self.has(Said::CallOf) && call_of(&control).is_some() {
+        if self.has(Said::CallOf) && computed_call(&control).is_some() {
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
         if self.computes.says_number(&control) {
@@ -401,7 +401,7 @@ impl Forms<'_> {
         out: &mut Vec<Stmt>,
     ) {
         let assign = |var: &Var, value: Expr| Stmt::new(span, Op::Assign(Target::Var(var.clone()), value));
-        let mut changed = Changed::default();
+        let mut changed = AssignedVariables::default();
         changed.look(&body);
         changed.variables.insert(variable.clone());
         out.push(assign(&variable, from));

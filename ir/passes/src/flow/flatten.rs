@@ -18,7 +18,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, POW10, Unit};
 use ncc_ir::expr::value::Value;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::kinds::{flow, variables};
 use ncc_ir::program::valid;

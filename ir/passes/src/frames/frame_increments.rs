@@ -15,7 +15,7 @@ use crate::support::walk::Walk;
 use crate::support::write::at;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
-use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::arguments::{words_of, words_of_mut};
 use ncc_ir::program::kinds::flow;
@@ -334,7 +334,7 @@ fn within_turns(
 /// Whether a decision is about the code of a group that a variable was given: it puts back what was in force, as a rule,
 /// and where it does not, execution judges what follows.
 fn is_code(control: &Control) -> bool {
-    code_of(control).is_some()
+    computed_code(control).is_some()
 }
 
 /// What may be pending after a call.

@@ -16,7 +16,7 @@ use ncc_exec::world::Sideways;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::compensated::Refused;
 use ncc_ir::expr::num::Num;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 
 impl Legaliser {
     /// The value of the source control's lift of chip breaking, for cycles that must be written out.

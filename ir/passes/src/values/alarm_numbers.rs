@@ -5,8 +5,8 @@
 
 use crate::pass::Pass;
 use ncc_ir::alarms::Alarms;
-use ncc_ir::computed::call_of::NO_SUCH_PROGRAM;
-use ncc_ir::computed::code_of::NO_SUCH_CODE;
+use ncc_ir::computed::computed_call::NO_SUCH_PROGRAM;
+use ncc_ir::computed::computed_code::NO_SUCH_CODE;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Alarm, NO_SUCH_BLOCK, Op, Program, Stmt};

@@ -4,7 +4,7 @@
 //! Not here: what is known where (`known_facts`).
 
 use ncc_ir::canon::{Modes, Motion};
-use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::computed::computes::Computes;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Node, Target, Var};
@@ -54,7 +54,7 @@ impl Saved {
 
     /// What the code does whose number a variable has, if it is known.
     pub(crate) fn code(&self, control: &Control) -> Option<Op> {
-        let code = code_of(control)?;
+        let code = computed_code(control)?;
         let Expr::Node(node) = code.number else { return None };
         let Node::Var(var) = &**node else { return None };
         let worth = self.0.get(var)?;

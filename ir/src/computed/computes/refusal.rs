@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::{Computes, Handed, Said, counted};
-use crate::computed::call_of::call_of;
-use crate::computed::code_of::code_of;
+use crate::computed::computed_call::computed_call;
+use crate::computed::computed_code::computed_code;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use crate::program::arguments;
@@ -174,12 +174,12 @@ impl Look<'_> {
             false => Err(refuse("a loop within so many others", at)),
         };
         if self.computes.has(Said::CallOf)
-            && let Some(call) = call_of(control)
+            && let Some(call) = computed_call(control)
         {
             return call.number.into_iter().chain(call.times).try_for_each(|value| self.expr(value, at));
         }
         if self.computes.says_number(control)
-            && let Some(code) = code_of(control)
+            && let Some(code) = computed_code(control)
         {
             self.expr(code.number, at)?;
             // What each of them says is of one form.

@@ -7,7 +7,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry;
-use ncc_ir::geometry::beside::Spot;
+use ncc_ir::geometry::offset_path::Spot;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;

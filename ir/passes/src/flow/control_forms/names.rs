@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::values::variables::expressions;
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::expr::{Element, Expr, Many, Node, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Procedure, Program, Stmt, Text};
 
@@ -27,7 +27,7 @@ impl Names {
             procedure.parameters.iter().for_each(|var| names.variable(var));
             names.look(&procedure.body);
         }
-        open_variables(program).iter().for_each(|(var, _)| names.variable(var));
+        free_variables(program).iter().for_each(|(var, _)| names.variable(var));
         names
     }
 

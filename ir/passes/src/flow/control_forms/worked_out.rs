@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use crate::flow::control_forms::conditions::is_condition;
 use crate::flow::control_forms::names::Names;
 use crate::values::variables::each_value;
-use ncc_ir::computed::call_of::call_of;
+use ncc_ir::computed::computed_call::computed_call;
 use ncc_ir::computed::computes::{Computes, counted};
 use ncc_ir::expr::decimals::Decimals;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
@@ -127,7 +127,7 @@ impl WorkedOut<'_> {
             if !stmt.joined {
                 block = out.len();
             }
-            let called = matches!(&stmt.op, Op::Control(control) if call_of(control).is_some());
+            let called = matches!(&stmt.op, Op::Control(control) if computed_call(control).is_some());
             if let Op::Control(control) = &mut stmt.op
                 && !called
             {

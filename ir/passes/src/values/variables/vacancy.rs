@@ -11,7 +11,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::values::variables::defaults;
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::{Expr, Var};
 use ncc_ir::program::valid::not_called;
@@ -80,7 +80,7 @@ struct Unsure {
 /// A variable that may or may not have a value where it is read.
 fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
     let before = program.clone();
-    let open = if vacant.here { open_variables(program) } else { Vec::new() };
+    let open = if vacant.here { free_variables(program) } else { Vec::new() };
     let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
     let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
     let mut entries = BTreeMap::from([(0, Known { vars, lost: false })]);

@@ -6,7 +6,7 @@ use std::convert::Infallible;
 use super::may::{Known, May, is_nothing, may};
 use super::ways::{Facts, Ways, place};
 use crate::values::variables::defaults;
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Many, Node, Scope, Target, Var};
@@ -17,7 +17,7 @@ use ncc_ir::source::Span;
 /// What a procedure begins with: its arguments have values or not.
 pub(super) fn begins(procedure: &Procedure) -> Known {
     let by_itself = Program { procedures: vec![procedure.clone()], ..Program::default() };
-    let open = open_variables(&by_itself).into_iter().map(|(var, _)| var);
+    let open = free_variables(&by_itself).into_iter().map(|(var, _)| var);
     let open = open.filter(|var| matches!(var, Var::Local(_)));
     let may = |var: &Var| if procedure.parameters.contains(var) { May::Number } else { May::Either };
     Known { vars: open.map(|var| (Text::from(&*var.name()), may(&var))).collect(), lost: false }
@@ -36,7 +36,7 @@ pub struct Question {
 
 /// The questions of a main procedure with parameters whether its call gives them, in the order of the text.
 pub fn questions(program: &Program) -> Vec<Question> {
-    let own = open_variables(program).into_iter().filter(|(var, _)| matches!(var, Var::Local(_)));
+    let own = free_variables(program).into_iter().filter(|(var, _)| matches!(var, Var::Local(_)));
     let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
     asked_in(program, BTreeMap::from([(0, Known { vars, lost: false })]))
 }

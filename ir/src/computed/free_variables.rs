@@ -13,11 +13,11 @@ use crate::program::{Control, Op, Program, Stmt, Text};
 use crate::source::Span;
 
 /// Local variables of the main procedure, and those that all procedures see, each with the first place that reads it.
-pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
+pub fn free_variables(program: &Program) -> Vec<(Var, Span)> {
     looked_through(program).open
 }
 
-/// Of the [`open_variables`], those that all procedures see, which outlive a run of the program; each with the first
+/// Of the [`free_variables`], those that all procedures see, which outlive a run of the program; each with the first
 /// place that reads it, and whether the program sets it too, so that its next run finds what this one has left.
 pub fn outliving_variables(program: &Program) -> Vec<(Var, Span, bool)> {
     let Look { open, set, .. } = looked_through(program);
@@ -291,7 +291,7 @@ mod tests {
             ..Program::default()
         };
         let found: Vec<String> =
-            open_variables(&program).iter().map(|(var, _)| var.name().into_owned()).collect();
+            free_variables(&program).iter().map(|(var, _)| var.name().into_owned()).collect();
         assert_eq!(found, names);
     }
 

@@ -5,7 +5,7 @@
 
 use ncc_dialects::DataKind;
 use ncc_ir::canon::Axis;
-use ncc_ir::computed::entry_of::{EntryOf, Place};
+use ncc_ir::computed::computed_entry::{ComputedEntry, Place};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::system::System;
@@ -20,7 +20,7 @@ impl Writer {
     /// Such a statement as the control says it.
     pub(super) fn entry_of_number(
         &mut self,
-        entry: &EntryOf,
+        entry: &ComputedEntry,
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
@@ -33,7 +33,7 @@ impl Writer {
         done
     }
 
-    fn entry_setting(&mut self, entry: &EntryOf, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    fn entry_setting(&mut self, entry: &ComputedEntry, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let none = || cannot("a place of the control's tables by its number");
         if let Op::Assign(to, value) = &entry.op {
             return self.assign(to, value, span, sink);

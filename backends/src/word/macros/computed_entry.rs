@@ -3,7 +3,7 @@
 //! Which numbers there can be is shown where the program is read, and again where the output is read back.
 
 use ncc_dialects::DataKind;
-use ncc_ir::computed::entry_of::{EntryOf, Place};
+use ncc_ir::computed::computed_entry::{ComputedEntry, Place};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Data, Op, Stmt};
@@ -18,7 +18,7 @@ impl Writer {
     /// Such a statement as the control says it.
     pub(in crate::word) fn entry_of_number(
         &mut self,
-        entry: &EntryOf,
+        entry: &ComputedEntry,
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
@@ -32,7 +32,7 @@ impl Writer {
         done
     }
 
-    fn entry_setting(&mut self, entry: &EntryOf, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    fn entry_setting(&mut self, entry: &ComputedEntry, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if let Op::Assign(to, value) = &entry.op {
             let text = self.assignment(to, value, stmt.span, sink)?;
             return self.statement_alone(&text, sink);
@@ -53,7 +53,7 @@ impl Writer {
     fn entry_words(
         &mut self,
         data: &Data,
-        entry: &EntryOf,
+        entry: &ComputedEntry,
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {

@@ -15,7 +15,7 @@ use crate::program::{Coord, Point, Shape};
 /// ```
 /// use ncc_ir::geometry::ArcFault;
 /// use ncc_ir::expr::num::ONE;
-/// use ncc_ir::geometry::round::ArcRule;
+/// use ncc_ir::geometry::arc_solver::ArcRule;
 ///
 /// let rule = ArcRule { tolerance: Some([ONE / 100; 2]), relative: ONE / 1000, ..ArcRule::UNTESTED };
 /// // Radius 50: the thousandth of it counts, not the hundredth of a millimetre.
@@ -117,7 +117,7 @@ pub trait Around {
 
 /// An arc in its plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Round {
+pub struct SolvedArc {
     /// Its centre.
     pub centre: [Nanos; 2],
     /// Its end.
@@ -130,21 +130,21 @@ pub struct Round {
 ///
 /// # Errors
 /// Something that must be known is not; in `Ok`, that it is no arc.
-pub fn round<A: Around>(
+pub fn solve_arc<A: Around>(
     shape: &Shape,
     plane: Plane,
     start: [Nanos; 2],
     end: [Nanos; 2],
     around: &A,
-) -> Result<Result<Round, ArcFault>, A::Unknown> {
+) -> Result<Result<SolvedArc, ArcFault>, A::Unknown> {
     let on = |centre, end, turn| {
         let (rule, inch) = around.rule();
-        rule.check(geometry::radii(start, end, centre), inch).map(|()| Round { centre, end, turn })
+        rule.check(geometry::radii(start, end, centre), inch).map(|()| SolvedArc { centre, end, turn })
     };
     Ok(match shape {
         Shape::Angle { turn, angle } => {
             let angle = around.value(angle)?;
-            geometry::centre_by_angle(start, end, angle, *turn).map(|centre| Round {
+            geometry::centre_by_angle(start, end, angle, *turn).map(|centre| SolvedArc {
                 centre,
                 end,
                 turn: *turn,
@@ -161,12 +161,9 @@ pub fn round<A: Around>(
         }
         Shape::Mixed { turn, centre } => on(centre_of(centre, plane, start, around)?, end, *turn),
         Shape::Through(via) => geometry::arc_through(start, around.via(via)?, end)
-            .map(|(centre, turn)| Round { centre, end, turn }),
-        Shape::Tangent => geometry::arc_tangent(start, end, around.heading()?).map(|(centre, turn)| Round {
-            centre,
-            end,
-            turn,
-        }),
+            .map(|(centre, turn)| SolvedArc { centre, end, turn }),
+        Shape::Tangent => geometry::arc_tangent(start, end, around.heading()?)
+            .map(|(centre, turn)| SolvedArc { centre, end, turn }),
     })
 }
 

@@ -14,7 +14,7 @@ pub const NO_SUCH_CODE: &str = "no such code";
 
 /// Such a code.
 #[derive(Clone, Debug)]
-pub struct CodeOf<'c> {
+pub struct ComputedCode<'c> {
     /// Its number.
     pub number: &'c Expr,
     /// The numbers that it may have, and what each does.
@@ -35,7 +35,7 @@ pub fn of_number(number: &Expr, codes: Vec<(i64, Op)>, span: Span) -> Op {
 pub fn without_alarms(body: &mut [Stmt], stays: &dyn Fn(&Control) -> bool) {
     for stmt in body {
         let Op::Control(control) = &mut stmt.op else { continue };
-        if code_of(control).is_none() {
+        if computed_code(control).is_none() {
             control.bodies_mut().for_each(|body| without_alarms(body, stays));
         } else if stays(control) {
         } else if let Op::Control(control) = std::mem::replace(&mut stmt.op, Op::Blank) {
@@ -71,14 +71,14 @@ pub fn is_last(op: &Op) -> bool {
 }
 
 /// Such a code, if a statement is one.
-pub fn code_of(control: &Control) -> Option<CodeOf<'_>> {
-    let mut found: Option<CodeOf<'_>> = None;
+pub fn computed_code(control: &Control) -> Option<ComputedCode<'_>> {
+    let mut found: Option<ComputedCode<'_>> = None;
     let mut next = control;
     loop {
         let Control::If { condition, then, otherwise } = next else { return None };
         let (number, own) = equal(condition)?;
         let ([mode], [behind]) = (&then[..], &otherwise[..]) else { return None };
-        let found = found.get_or_insert_with(|| CodeOf { number, codes: Vec::new() });
+        let found = found.get_or_insert_with(|| ComputedCode { number, codes: Vec::new() });
         if found.number != number || own.scale != 0 {
             return None;
         }

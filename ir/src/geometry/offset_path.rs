@@ -133,7 +133,7 @@ enum Way {
 
 /// The path as far as it is known.
 #[derive(Clone, Copy, Debug)]
-pub struct Beside {
+pub struct OffsetPath {
     radius: f64,
     /// 1 to the left of the contour, -1 to its right.
     side: f64,
@@ -178,13 +178,19 @@ fn sweep(start: Spot, end: Spot, centre: Spot, ccw: bool) -> f64 {
     }
 }
 
-impl Beside {
+impl OffsetPath {
     /// Goes onto the contour by a straight move: to the left of its end or to the right, at right angles.
     /// The path's first leg ends there as long as nothing else follows.
     ///
     /// # Errors
     /// [`Unreachable::Entry`].
-    pub fn enter(radius: f64, left: bool, rules: Rules, from: Spot, to: Spot) -> Result<Beside, Unreachable> {
+    pub fn enter(
+        radius: f64,
+        left: bool,
+        rules: Rules,
+        from: Spot,
+        to: Spot,
+    ) -> Result<OffsetPath, Unreachable> {
         let way = minus(to, from);
         if length(way) <= radius {
             return Err(Unreachable::Entry);
@@ -194,7 +200,7 @@ impl Beside {
         // It may be cut short, but never so that it goes to the other side.
         let direction = if rules.strict { way } else { along([0.0; 2], sideways, 1.0) };
         let held = Held { start: from, way: Way::Line(direction) };
-        Ok(Beside { radius, side, rules, at: to, now: along(to, sideways, radius), held })
+        Ok(OffsetPath { radius, side, rules, at: to, now: along(to, sideways, radius), held })
     }
 
     /// Where the tool is, beside the programmed point, at the end of the last leg.

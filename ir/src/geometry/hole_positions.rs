@@ -46,7 +46,7 @@ pub trait Here {
 
 /// The places of a pattern.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Places {
+pub enum HolePositions {
     /// On a circle.
     Circle {
         /// Its centre.
@@ -109,12 +109,16 @@ impl Step {
     }
 }
 
-impl Places {
+impl HolePositions {
     /// The places of a pattern in a plane.
     ///
     /// # Errors
     /// Something that must be known is not.
-    pub fn of<H: Here>(pattern: &Pattern, plane: Plane, here: &H) -> Result<Places, H::Unknown> {
+    pub fn from_pattern<H: Here>(
+        pattern: &Pattern,
+        plane: Plane,
+        here: &H,
+    ) -> Result<HolePositions, H::Unknown> {
         let (first_axis, second_axis, _) = plane.axes();
         let pair = |words: &[Coord; 2]| Ok([here.word(&words[0], 0)?, here.word(&words[1], 1)?]);
         let or_here = |words: &Option<[Coord; 2]>| match words {
@@ -131,9 +135,9 @@ impl Places {
                         [centre[0].wrapping_add(x), centre[1].wrapping_add(y)]
                     }
                 };
-                Places::Circle { centre, first, step: here.value(step)?, count: *count }
+                HolePositions::Circle { centre, first, step: here.value(step)?, count: *count }
             }
-            Pattern::Line { start, angle, offset, pitch, count } => Places::Line {
+            Pattern::Line { start, angle, offset, pitch, count } => HolePositions::Line {
                 start: or_here(start)?,
                 angle: here.value(angle)?,
                 offset: here.value(offset)?,
@@ -153,7 +157,7 @@ impl Places {
                 if columns.count.checked_mul(rows.count).is_none() {
                     return Err(here.out_of_range());
                 }
-                Places::Grid {
+                HolePositions::Grid {
                     start: or_here(start)?,
                     columns: step(columns)?,
                     rows: step(rows)?,
@@ -178,7 +182,7 @@ impl Places {
                     let place = [side(0, first_axis)?, side(1, second_axis)?];
                     places.push(place);
                 }
-                Places::List(places)
+                HolePositions::List(places)
             }
         })
     }
@@ -186,29 +190,29 @@ impl Places {
     /// How many.
     pub fn count(&self) -> u32 {
         match self {
-            Places::Circle { count, .. } | Places::Line { count, .. } => *count,
-            Places::Grid { counts, .. } => counts[0] * counts[1],
-            Places::List(places) => u32::try_from(places.len()).unwrap_or(u32::MAX),
+            HolePositions::Circle { count, .. } | HolePositions::Line { count, .. } => *count,
+            HolePositions::Grid { counts, .. } => counts[0] * counts[1],
+            HolePositions::List(places) => u32::try_from(places.len()).unwrap_or(u32::MAX),
         }
     }
 
-    /// The `k`-th (0 is the first), which must be below [`Places::count`].
+    /// The `k`-th (0 is the first), which must be below [`HolePositions::count`].
     pub fn get(&self, k: u32) -> [Nanos; 2] {
         match self {
-            Places::Circle { centre, first, step, .. } => {
+            HolePositions::Circle { centre, first, step, .. } => {
                 geometry::circle_position(*centre, *first, *step, k)
             }
-            Places::Line { start, angle, offset, pitch, .. } => {
+            HolePositions::Line { start, angle, offset, pitch, .. } => {
                 let way = offset.wrapping_add(pitch.wrapping_mul(i64::from(k)));
                 let [x, y] = geometry::polar(way, *angle);
                 [start[0].wrapping_add(x), start[1].wrapping_add(y)]
             }
-            Places::Grid { start, columns, rows, counts, serpentine } => {
+            HolePositions::Grid { start, columns, rows, counts, serpentine } => {
                 let (c, r) = geometry::grid_position(counts[0], *serpentine, k);
                 let (a, b) = (columns.times(c), rows.times(r));
                 std::array::from_fn(|i| start[i].wrapping_add(a[i]).wrapping_add(b[i]))
             }
-            Places::List(places) => places.get(k as usize).copied().unwrap_or_default(),
+            HolePositions::List(places) => places.get(k as usize).copied().unwrap_or_default(),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Read again, the variable must have its value from the codes in force, which the reader of the output tells.
 
 use ncc_dialects::Meaning;
-use ncc_ir::computed::code_of::CodeOf;
+use ncc_ir::computed::computed_code::ComputedCode;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
@@ -38,7 +38,7 @@ impl Writer {
     /// Such a code as the control says it.
     pub(in crate::word) fn code_of_variable(
         &mut self,
-        code: &CodeOf,
+        code: &ComputedCode,
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {

@@ -12,7 +12,7 @@ pub const NO_SUCH_PROGRAM: &str = "no such program";
 
 /// Such a call.
 #[derive(Clone, Copy, Debug)]
-pub struct CallOf<'c> {
+pub struct ComputedCall<'c> {
     /// The number of the program, where it is computed.
     pub number: Option<&'c Expr>,
     /// The program, where it is said.
@@ -65,14 +65,14 @@ fn about(condition: &Expr, wanted: Binary) -> Option<(&Expr, i64)> {
 }
 
 /// Such a call, if a statement is one.
-pub fn call_of(control: &Control) -> Option<CallOf<'_>> {
+pub fn computed_call(control: &Control) -> Option<ComputedCall<'_>> {
     let Control::If { condition, then, otherwise } = control else { return None };
     if let Some((times, 1)) = about(condition, Binary::GreaterOrEqual) {
         let [Stmt { op: Op::Control(repeat), .. }] = &then[..] else { return None };
         let Control::Repeat { times: own, body } = &**repeat else { return None };
         let [Stmt { op: Op::Call(call), .. }] = &body[..] else { return None };
         let plain = own == times && call.times == 1 && call.arguments.is_empty() && is_alarm(otherwise);
-        return plain.then_some(CallOf { number: None, name: Some(&call.name), times: Some(times) });
+        return plain.then_some(ComputedCall { number: None, name: Some(&call.name), times: Some(times) });
     }
     let (number, _) = about(condition, Binary::Equal)?;
     let mut decision = (condition, then, otherwise);
@@ -84,7 +84,7 @@ pub fn call_of(control: &Control) -> Option<CallOf<'_>> {
             return None;
         }
         if is_alarm(decision.2) {
-            return Some(CallOf { number: Some(number), name: None, times: None });
+            return Some(ComputedCall { number: Some(number), name: None, times: None });
         }
         let [Stmt { op: Op::Control(next), .. }] = &decision.2[..] else { return None };
         let Control::If { condition, then, otherwise } = &**next else { return None };

@@ -1,5 +1,5 @@
 //! Places of the control's tables of which the number is computed when the program runs, such as the zero of fixture `n`:
-//! decisions about one number ([`crate::computed::code_of`]), each of which reads, or sets, the place that has it.
+//! decisions about one number ([`crate::computed::computed_code`]), each of which reads, or sets, the place that has it.
 //!
 //! Where a control has the numbers of these places equally far apart, it says all of it in one statement. Not here: which
 //! numbers there can be (the front-end's, which has shown that no other comes to it), and how a control spells such a place.
@@ -7,7 +7,7 @@
 use std::convert::Infallible;
 
 use crate::canon::Axis;
-use crate::computed::code_of::CodeOf;
+use crate::computed::computed_code::ComputedCode;
 use crate::expr::system::System;
 use crate::expr::{Expr, Node, Var};
 use crate::program::arguments;
@@ -15,7 +15,7 @@ use crate::program::{Data, DataMode, Op};
 
 /// Places that are read or set by a computed number, in one statement.
 #[derive(Clone, Debug)]
-pub struct EntryOf<'c> {
+pub struct ComputedEntry<'c> {
     /// The number.
     pub number: &'c Expr,
     /// The statement of the first of the numbers, where the places that are read are local variables of these names.
@@ -49,7 +49,7 @@ pub const fn is_entry(system: &System) -> bool {
 }
 
 /// Whether such decisions are about places of tables; else they are about modes.
-pub fn is_about_entries(code: &CodeOf<'_>) -> bool {
+pub fn is_about_entries(code: &ComputedCode<'_>) -> bool {
     code.codes.iter().any(|(_, op)| matches!(op, Op::SetData(_) | Op::Assign(..)))
 }
 
@@ -73,7 +73,7 @@ fn is_same(one: &System, other: &System) -> bool {
 
 /// Such a statement, where the control has all its places by numbers equally far apart; `numbers` are those of the places
 /// that it can name so.
-pub fn entry_of<'c>(code: &CodeOf<'c>, numbers: &[(System, i64)]) -> Option<EntryOf<'c>> {
+pub fn computed_entry<'c>(code: &ComputedCode<'c>, numbers: &[(System, i64)]) -> Option<ComputedEntry<'c>> {
     // A place has the same number in whatever unit its value counts.
     let number_of = |system: &System| {
         let found = numbers.iter().find(|(own, _)| own == system || is_same(own, system));
@@ -130,7 +130,7 @@ pub fn entry_of<'c>(code: &CodeOf<'c>, numbers: &[(System, i64)]) -> Option<Entr
             *var = Var::System(read[at].clone());
         }
     });
-    Some(EntryOf { number: code.number, op, reads, sets, entries: by_entry.zip(ends) })
+    Some(ComputedEntry { number: code.number, op, reads, sets, entries: by_entry.zip(ends) })
 }
 
 /// The variable that stands for what is read there: no program has one of this name.

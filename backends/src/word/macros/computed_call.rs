@@ -2,7 +2,7 @@
 //!
 //! Read again, the number is one of a program of the text; so these must be all of them, which the verification tells.
 
-use ncc_ir::computed::call_of::CallOf;
+use ncc_ir::computed::computed_call::ComputedCall;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::Stmt;
@@ -18,7 +18,7 @@ impl Writer {
     /// Such a call as the control says it.
     pub(in crate::word) fn computed_call(
         &mut self,
-        call: &CallOf,
+        call: &ComputedCall,
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {

@@ -7,7 +7,7 @@ use crate::program::{Control, Op, Procedure, Stmt};
 
 /// What blocks may change.
 #[derive(Clone, Debug, Default)]
-pub struct Changed {
+pub struct AssignedVariables {
     /// Variables that are set.
     pub variables: HashSet<Var>,
     /// Programs that are called, which may change what all see.
@@ -18,10 +18,10 @@ pub struct Changed {
     pub any: bool,
 }
 
-impl Changed {
+impl AssignedVariables {
     /// What the subprograms of a program may change of the variables that all see.
-    pub fn by_subprograms(procedures: &[Procedure]) -> Changed {
-        let mut all = Changed::default();
+    pub fn by_subprograms(procedures: &[Procedure]) -> AssignedVariables {
+        let mut all = AssignedVariables::default();
         procedures.iter().skip(1).for_each(|procedure| all.look(&procedure.body));
         all.variables.retain(|var| !matches!(var, Var::Local(_)));
         (all.calls, all.shared) = (false, false);
