@@ -12,7 +12,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
-use ncc_passes::support::known_facts::has_bare_holes;
+use ncc_passes::support::mode_analysis::has_bare_holes;
 
 use super::{Sink, Writer, edge_left};
 use crate::common::fault::{cannot, cannot_compute};

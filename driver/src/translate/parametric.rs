@@ -16,9 +16,9 @@ use ncc_ir::program::valid::{deeper_calls, labels_twice};
 use ncc_ir::program::{Call, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_passes::modes::own_distance;
+use ncc_passes::modes::word_distance;
 use ncc_passes::parametric::Parametric;
-use ncc_passes::support::known_facts::{self, Known};
+use ncc_passes::support::mode_analysis::{self, Known};
 use ncc_passes::values::alarm_numbers;
 use ncc_passes::values::variables::renamed::{Digits, Renamed};
 use ncc_passes::watch::ran_whole;
@@ -182,8 +182,8 @@ pub fn stands(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
     }
     let mut entry = at.clone();
     entry.modes = entry.modes.or(program.assumed);
-    let known = known_facts::run(&mut program.clone(), &entry, false);
-    if own_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
+    let known = mode_analysis::run(&mut program.clone(), &entry, false);
+    if word_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
 }
 
 /// The target as the passes see it.

@@ -13,12 +13,12 @@ use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
 use ncc_ir::program::{Lines, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::Told;
-use ncc_passes::flow::given_back::left_out;
-use ncc_passes::flow::passed_labels;
+use ncc_passes::flow::restored_modes::left_out;
+use ncc_passes::flow::unused_labels;
 use ncc_passes::frames::machine_cuts;
 use ncc_passes::leave_out_values;
-use ncc_passes::modes::own_distance;
-use ncc_passes::support::known_facts::Known;
+use ncc_passes::modes::word_distance;
+use ncc_passes::support::mode_analysis::Known;
 use ncc_passes::values::variables::renamed::Renamed;
 use ncc_passes::watch::{ran, ran_whole};
 
@@ -187,7 +187,7 @@ impl Translation<'_> {
                     return Err(Refused);
                 }
                 if self.job.from.dialect.program.macro_b {
-                    passed_labels::run(&mut kept.program);
+                    unused_labels::run(&mut kept.program);
                     ran_whole("unused-labels", &kept.program);
                 }
                 let found = parametric::begin_with(self.job, &mut kept.program);
@@ -248,13 +248,13 @@ impl Translation<'_> {
             let stands = self.legaliser.stands();
             (computed.facts, kept.renamed) =
                 parametric::legalise_parametric(self.job, program, there, stands, &mut found);
-            if own_distance::others(program, &computed.facts).is_empty() {
+            if word_distance::others(program, &computed.facts).is_empty() {
                 computed.stands = computed.facts.modes();
             }
             if self.job.from.caps().modes.word_distance {
-                computed.own_distance = own_distance::places(program, &computed.facts);
+                computed.own_distance = word_distance::places(program, &computed.facts);
                 if !caps.modes.word_distance
-                    && let Err(refusal) = own_distance::refused(&computed.own_distance, program)
+                    && let Err(refusal) = word_distance::refused(&computed.own_distance, program)
                 {
                     found.push(refusal);
                 }

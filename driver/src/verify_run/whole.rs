@@ -13,7 +13,9 @@ use ncc_ir::expr::value::Wrong;
 use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::{There, compares_nearly, computes_numbers, otherwise, places};
+use ncc_passes::values::assumption_check::{
+    TargetNumerics, assumed_places, compares_nearly, computes_numbers, other_reading,
+};
 use ncc_passes::values::variables::renamed::Renamed;
 
 use self::values::READINGS;
@@ -178,7 +180,7 @@ impl Verifier {
             self.outliving = outliving(source, &given.renamed);
             given.near = self.near && !compares_nearly(source);
             let there = self.there(given);
-            given.other_readings = READINGS.map(|taken| otherwise(source, taken, there, u32::MAX));
+            given.other_readings = READINGS.map(|taken| other_reading(source, taken, there, u32::MAX));
         }
         let given = &*given;
         let mut gone = Gone::default();
@@ -387,16 +389,16 @@ impl Verifier {
         };
         // The first place with which the output is the source in that reading.
         let there = self.there(given);
-        let at = places(source, taken, there)
+        let at = assumed_places(source, taken, there)
             .into_iter()
             .take(MOST_PLACES)
-            .find(|at| otherwise(source, taken, there, at.start).is_some_and(|other| same(&other)));
-        let what = taken[0].otherwise().into();
+            .find(|at| other_reading(source, taken, there, at.start).is_some_and(|other| same(&other)));
+        let what = taken[0].violation().into();
         Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, at.unwrap_or(self.last))))
     }
 
-    fn there(&self, given: &Given) -> There<'_> {
-        There {
+    fn there(&self, given: &Given) -> TargetNumerics<'_> {
+        TargetNumerics {
             functions: &self.functions,
             fineness: self.fineness,
             near: given.near,

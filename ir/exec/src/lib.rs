@@ -13,7 +13,6 @@
 
 mod ask;
 mod at_codes;
-mod conduct;
 mod data;
 mod event;
 pub mod frames;
@@ -21,6 +20,7 @@ pub mod halt;
 mod in_block;
 pub mod maps;
 mod message;
+mod motion_modes;
 pub mod moves;
 mod places;
 mod run;
@@ -30,11 +30,11 @@ pub mod world;
 
 pub use at_codes::cuts;
 pub use at_codes::touched;
-pub use conduct::named_tool;
 pub use event::{Attribute, Coolant, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub use frames::chain::Chain;
 pub use frames::slots::{Frames, Present, Rotation, Scale};
 pub use frames::tilt::TiltedPlane;
+pub use motion_modes::named_tool;
 pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::{Compensation, NOWHERE, STILL};
 pub use moves::fine::Increments;
@@ -477,7 +477,7 @@ impl Exec {
             | Op::TurnRotaryAxes(_)
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
-            | Op::LimitSpindleSpeed(_) => self.conduct(&stmt.op, span)?,
+            | Op::LimitSpindleSpeed(_) => self.set_motion_mode(&stmt.op, span)?,
             Op::SetReturnLevel(level) => {
                 self.modes.return_level = *level;
                 self.said |= RETURN;

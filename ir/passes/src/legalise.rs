@@ -25,9 +25,9 @@ use crate::frames::machine_moves::MachineMovesState;
 use crate::frames::origin_shift::OriginShiftState;
 use crate::frames::work_offset::WorkOffsetState;
 use crate::holes::expand_cycles::ExpandCyclesState;
-use crate::modes::at_once::AtOnceState;
 use crate::modes::feed_time::FeedTimeState;
 use crate::modes::feed_unit::FeedUnitState;
+use crate::modes::immediate_effects::ImmediateEffectsState;
 use crate::modes::one_move::OneMoveState;
 use crate::modes::path_control::PathControlState;
 use crate::pass::{First, KeptProgram, ProgramMoment, Shared, Subprograms};
@@ -50,7 +50,7 @@ use crate::frames::expand_frames;
 use crate::holes::return_plane;
 use crate::modes::{feed_unit, one_distance};
 use crate::pass::{Moment, Pass, Piece};
-use crate::support::known_facts;
+use crate::support::mode_analysis;
 use crate::support::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MOVE, PATH,
     PATTERN, POLAR, SHIFT, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
@@ -100,7 +100,7 @@ impl Legaliser {
         let increments = FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours);
         let follow = lacks & FOLLOWED != 0 || caps.modes.feed_ends_with_mode || increments.is_used();
         let mut states = States::default();
-        states.put(AtOnceState::new(caps));
+        states.put(ImmediateEffectsState::new(caps));
         states.put(increments);
         let shared = Shared {
             lacks,
@@ -162,7 +162,7 @@ impl Legaliser {
 
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
-        self.shared.states.forget::<AtOnceState>();
+        self.shared.states.forget::<ImmediateEffectsState>();
         self.shared.states.of::<OffsetWithZState>().stands_alone();
         self.nothing_before();
     }
@@ -211,7 +211,7 @@ impl Legaliser {
         self.follow_piece(&piece);
         if let Some(start) = start {
             let mut piece = Piece { start: &start, stmts: piece.stmts, diags: piece.diags, ..piece };
-            self.mend(&mut piece, None);
+            self.run_passes(&mut piece, None);
         }
         let mut piece = Piece { stmts, needs: 0, start: &nowhere, assumed, lines, diags, done: false };
         self.steps(Moment::Departure, &mut piece);
@@ -251,7 +251,7 @@ impl Legaliser {
         }
         ran(pass.name, copy.stmts);
         let before = copy.stmts.clone();
-        own.mend(&mut copy, Some(pass.name));
+        own.run_passes(&mut copy, Some(pass.name));
         let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
         if refused || !(first.kept)(piece, &before, &kept) {
             return None;
@@ -369,7 +369,7 @@ impl Legaliser {
         if self.shared.states.ask(MachineMovesState::is_busy) {
             needs |= MACHINE;
         }
-        if self.shared.states.ask(AtOnceState::is_busy) {
+        if self.shared.states.ask(ImmediateEffectsState::is_busy) {
             needs |= AT_ONCE;
         }
         if self.shared.states.ask(ToolEdgeState::is_busy)
@@ -388,7 +388,7 @@ impl Legaliser {
 
     /// Runs the passes that a piece needs, or those of them behind one.
     #[cold]
-    fn mend(&mut self, piece: &mut Piece, behind: Option<&'static str>) {
+    fn run_passes(&mut self, piece: &mut Piece, behind: Option<&'static str>) {
         let first = behind.and_then(|name| PASSES.iter().position(|pass| pass.name == name));
         let rest = &PASSES[first.map_or(0, |at| at + 1)..];
         for pass in rest {

@@ -100,7 +100,7 @@ pub const PASSES: &[Pass] = &[
     // Only when asked for: behind it there is nothing that computes or decides.
     flow::flatten::PASS,
     // Of a program that is kept whole.
-    flow::passed_labels::PASS,
+    flow::unused_labels::PASS,
     // What the user states, only the driver knows.
     Pass::named(
         "values-at-start",
@@ -117,7 +117,7 @@ pub const PASSES: &[Pass] = &[
     parametric::CODES,
     flow::expand_repeats::COMPUTED,
     frames::machine_cuts::PASS,
-    holes::planes_checked::PASS,
+    holes::cycle_plane_check::PASS,
     holes::computed_holes::PASS,
     values::exact_comparisons::PASS,
     values::message_values::PASS,
@@ -191,7 +191,7 @@ pub const PASSES: &[Pass] = &[
     // Afterwards every move names every axis.
     modes::flatten_facts::PASS,
     // What is left as it is now is what is written.
-    modes::at_once::PASS,
+    modes::immediate_effects::PASS,
     arcs::compensated_modes::PASS,
     // Only when asked for: the contour is gone.
     arcs::expand_compensation::PASS,

@@ -17,7 +17,7 @@ use ncc_ir::program::{Lines, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
 
 use crate::Target;
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::states::States;
 use crate::support::walk::Walk;
 use crate::values::variables::renamed::{Digits, Renamed};

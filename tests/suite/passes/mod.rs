@@ -37,8 +37,8 @@ use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_passes::flow::control_forms;
-use ncc_passes::flow::passed_labels;
-use ncc_passes::holes::planes_checked;
+use ncc_passes::flow::unused_labels;
+use ncc_passes::holes::cycle_plane_check;
 use ncc_passes::tools::machine_numbers::Renumbering;
 use ncc_passes::values::exact_comparisons;
 use ncc_passes::{Legaliser, PASSES, Target};
@@ -270,10 +270,10 @@ fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnosti
     if let (true, Some(computes)) = (COMPUTING.contains(&pass), &told.target.caps.flow.computes) {
         match pass {
             "control-forms" => control_forms::run(program, computes),
-            "passed-labels" => passed_labels::run(program),
+            "passed-labels" => unused_labels::run(program),
             "planes-checked" => {
                 let alarm = computes.planes_alarm.ok_or("a target whose cycles check their planes")?;
-                planes_checked::run(program, alarm, told.target.decimals);
+                cycle_plane_check::run(program, alarm, told.target.decimals);
             }
             _ => exact_comparisons::run(program, computes, &mut diags),
         }

@@ -6,7 +6,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::{Program, Type};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::Taken;
+use ncc_passes::values::assumption_check::Assumption;
 use ncc_passes::values::variables::renamed::Renamed;
 
 use crate::job::given::Given as Stated;
@@ -18,14 +18,14 @@ const LEFT_THERE: f64 = -791.3;
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
 /// What may be taken for granted of a source's numbers, alone and together.
-pub(super) const READINGS: [&[Taken]; 7] = [
-    &[Taken::Apart],
-    &[Taken::NotNegative],
-    &[Taken::Together],
-    &[Taken::Apart, Taken::NotNegative],
-    &[Taken::Apart, Taken::Together],
-    &[Taken::NotNegative, Taken::Together],
-    &[Taken::Apart, Taken::NotNegative, Taken::Together],
+pub(super) const READINGS: [&[Assumption]; 7] = [
+    &[Assumption::Apart],
+    &[Assumption::NotNegative],
+    &[Assumption::Together],
+    &[Assumption::Apart, Assumption::NotNegative],
+    &[Assumption::Apart, Assumption::Together],
+    &[Assumption::NotNegative, Assumption::Together],
+    &[Assumption::Apart, Assumption::NotNegative, Assumption::Together],
 ];
 
 /// Values for what a program reads and has not set.

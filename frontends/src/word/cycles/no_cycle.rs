@@ -9,7 +9,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Procedure;
 use ncc_ir::source::Span;
-use ncc_passes::support::known_facts::ActiveCycles;
+use ncc_passes::support::mode_analysis::ActiveCycles;
 
 use crate::Batch;
 use crate::word::facts::InForce;

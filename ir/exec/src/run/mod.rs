@@ -9,13 +9,13 @@
 
 mod calls;
 pub(crate) mod code;
+pub(crate) mod endless_loop;
 pub(crate) mod entry;
 pub(crate) mod go;
 pub(crate) mod left;
-pub(crate) mod needed;
 pub(crate) mod nesting;
 mod repeated;
-pub(crate) mod rounds;
+pub(crate) mod required_arguments;
 pub(crate) mod term;
 
 use std::rc::Rc;
@@ -23,10 +23,10 @@ use std::rc::Rc;
 use super::{Exec, message};
 use crate::halt;
 use crate::run::code::{At, Code, Declared, Step};
-use crate::run::needed::needed;
+use crate::run::endless_loop::EndlessLoop;
 use crate::run::nesting::{Blocks, Frame};
 pub use crate::run::repeated::again;
-use crate::run::rounds::Rounds;
+use crate::run::required_arguments::required_arguments;
 use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why, real};
 use ncc_ir::canon::FeedMode;
 use ncc_ir::computed::computed_code::is_last;
@@ -66,7 +66,7 @@ pub struct Runner<'p> {
     pub(super) steps: u64,
     /// Steps at the last event.
     pub(super) eventful: u64,
-    rounds: Rounds,
+    endless_loop: EndlessLoop,
     /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
     taken: Vec<u8>,
     /// Most steps of all.
@@ -74,7 +74,7 @@ pub struct Runner<'p> {
     /// Most steps between two statements that are executed by themselves.
     pub(super) most_idle: u64,
     /// Parameters of the main procedure that are read, with the place where it begins.
-    pub(super) needed: Vec<(Var, Place, Span)>,
+    pub(super) required: Vec<(Var, Place, Span)>,
 }
 
 /// No step.
@@ -84,7 +84,7 @@ impl<'p> Runner<'p> {
     /// Ready to run the main procedure.
     pub fn new(program: &'p Program) -> Runner<'p> {
         let code = Code::new(program);
-        let needed = needed(program, &code.names);
+        let required = required_arguments(program, &code.names);
         let (parameters, given) = (Rc::new([]), Rc::new([]));
         let main =
             Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, shared: false, parameters, given };
@@ -98,11 +98,11 @@ impl<'p> Runner<'p> {
             now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
             steps: 0,
             eventful: 0,
-            rounds: Rounds::default(),
+            endless_loop: EndlessLoop::default(),
             taken: vec![0; code.steps.len()],
             most: MOST_STEPS,
             most_idle: MOST_IDLE,
-            needed,
+            required,
             code: Rc::new(code),
         }
     }
@@ -120,7 +120,7 @@ impl<'p> Runner<'p> {
     /// What the main procedure takes must be given to it from elsewhere.
     #[cold]
     pub(crate) fn parameters_have_values(&self) -> Result<(), Diagnostic> {
-        for (var, place, span) in &self.needed {
+        for (var, place, span) in &self.required {
             if self.variables.get(*place) == Value::Vacant {
                 let name = var.name().into();
                 return Err(Diagnostic::new(Fault::VariableUnset { name }, *span));

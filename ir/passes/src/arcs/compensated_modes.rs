@@ -7,7 +7,7 @@
 //! Not here: what every control refuses there, and what the source's does, which are execution's.
 
 use crate::pass::{Moment, Pass, Step};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::write::{Rebuild, rebuild};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::compensated::Refused;

@@ -17,7 +17,7 @@ use chained::{Held, as_chain};
 
 use crate::frames::expand_frames::ExpandFramesState;
 use crate::pass::{KeptProgram, Pass, ProgramMoment, ProgramStep, Shared};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::needs::FRAME;
 use crate::support::write::{Rebuild, is_absolute, rebuild};
 use crate::values::variables::{round, rounded};

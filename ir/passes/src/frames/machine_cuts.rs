@@ -10,7 +10,7 @@
 //! target's own (`machine_moves`).
 
 use crate::pass::Pass;
-use crate::support::known_facts::{self, Known};
+use crate::support::mode_analysis::{self, Known};
 use crate::support::write::exact;
 use crate::values::variables::{round, rounded};
 use ncc_ir::canon::{Axis, Distance, Fact, Units};
@@ -194,7 +194,7 @@ pub fn read(program: &mut Program, entry: &Tracker, caps: &Caps, diags: &mut Vec
     {
         return;
     }
-    let known = known_facts::run(&mut program.clone(), entry, false);
+    let known = mode_analysis::run(&mut program.clone(), entry, false);
     for procedure in &mut program.procedures {
         over(&mut procedure.body, &known, diags);
     }

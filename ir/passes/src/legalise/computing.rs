@@ -9,7 +9,7 @@ use crate::arcs::still_blocks::StillBlocksState;
 use crate::frames::expand_frames::ExpandFramesState;
 use crate::frames::frame_increments::FrameIncrementsState;
 use crate::frames::origin_shift::OriginShiftState;
-use crate::modes::at_once::AtOnceState;
+use crate::modes::immediate_effects::ImmediateEffectsState;
 use crate::threads::taps::TapsState;
 use crate::tools::z_after_change::ZAfterChangeState;
 use std::rc::Rc;
@@ -18,7 +18,7 @@ use crate::frames::machine_cuts;
 use crate::legalise::{Legaliser, Target};
 use crate::modes::feed_unit;
 use crate::pass::{KeptProgram, ProgramMoment, Shared, Subprograms};
-use crate::support::known_facts::{self, Known};
+use crate::support::mode_analysis::{self, Known};
 use crate::threads::taps;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
@@ -41,15 +41,18 @@ impl Legaliser {
         self.on_computing(ProgramMoment::Names, program, known, diags);
         let mut found = Vec::new();
         let mut bare = program.clone();
-        let any =
-            bare.procedures.iter_mut().map(|p| known_facts::positions(&mut p.body)).fold(false, |a, b| a | b);
+        let any = bare
+            .procedures
+            .iter_mut()
+            .map(|p| mode_analysis::positions(&mut p.body))
+            .fold(false, |a, b| a | b);
         if any && self.shared.target.caps.flow.computes.as_ref().is_some_and(|there| !there.restates) {
             self.stretches(&mut bare, known, &mut found);
             if found.iter().all(|d| d.fault.gravity() != Gravity::Error) {
                 *program = bare;
                 return diags.append(&mut found);
             }
-            known_facts::holes(program, known);
+            mode_analysis::holes(program, known);
         }
         self.stretches(program, known, diags);
     }
@@ -79,7 +82,7 @@ impl Legaliser {
         fresh.shared.entries = fresh.entries_of(program).map(Rc::new);
         let mut first = fresh.clone();
         first.shared.entries = None;
-        let bare = program.procedures.iter().any(|procedure| known_facts::has_bare_holes(&procedure.body));
+        let bare = program.procedures.iter().any(|procedure| mode_analysis::has_bare_holes(&procedure.body));
         let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body, bare));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             let start = match at {
@@ -117,7 +120,7 @@ impl Legaliser {
         own.shared.states.put(self.shared.states.ask(StillBlocksState::clone));
         own.enter(first);
         own.shared.states.put(TapsState::entered(&own.shared.walk.at));
-        own.shared.states.forget::<AtOnceState>();
+        own.shared.states.forget::<ImmediateEffectsState>();
         own.shared.states.put(self.shared.states.ask(FrameIncrementsState::clone));
         own.shared.states.put(self.shared.states.ask(ZAfterChangeState::clone));
         own.shared.states.of::<ZAfterChangeState>().start_over();

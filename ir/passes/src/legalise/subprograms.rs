@@ -12,9 +12,9 @@ use crate::frames::expand_frames::ExpandFramesState;
 use crate::frames::machine_moves::MachineMovesState;
 use crate::holes::expand_cycles::ExpandCyclesState;
 use crate::holes::sayable::sayable;
-use crate::modes::at_once::AtOnceState;
 use crate::modes::feed_time::FeedTimeState;
 use crate::modes::feed_unit::FeedUnitState;
+use crate::modes::immediate_effects::ImmediateEffectsState;
 use crate::modes::one_move::OneMoveState;
 use crate::modes::path_control::PathControlState;
 use crate::threads::in_step::ThreadsState;
@@ -27,7 +27,7 @@ use std::collections::{BTreeSet, HashSet};
 use std::rc::Rc;
 
 use super::*;
-use crate::support::known_facts::has_bare_holes;
+use crate::support::mode_analysis::has_bare_holes;
 use crate::watch::unwatched;
 use ncc_ir::canon::FeedMode;
 use ncc_ir::program::Text;
@@ -158,13 +158,13 @@ impl Legaliser {
             self.shared.states.of::<ExpandFramesState>().start_over();
             self.shared.states.forget::<MachineMovesState>();
             self.shared.states.of::<ToolChangeState>().start_over();
-            self.shared.states.forget::<AtOnceState>();
+            self.shared.states.forget::<ImmediateEffectsState>();
             self.shared.states.of::<ZAfterChangeState>().start_over();
             self.enter(procedure.body.first());
             self.run(&mut procedure.body, &Modes::default(), None, diags);
             self.shared.states.of::<ToolChangeState>().start_over();
             self.finish(&mut procedure.body, diags);
-            self.shared.states.of::<AtOnceState>().end_of_sub(&procedure.body, diags);
+            self.shared.states.of::<ImmediateEffectsState>().end_of_sub(&procedure.body, diags);
         }
     }
 
@@ -181,7 +181,7 @@ impl Legaliser {
     }
 
     /// What holds after each call and label, where a pass asks for it.
-    pub(super) fn entries_of(&self, program: &Program) -> Option<known_facts::Known> {
+    pub(super) fn entries_of(&self, program: &Program) -> Option<mode_analysis::Known> {
         let has = |wanted| program.procedures.iter().any(|procedure| has(&procedure.body, wanted));
         let units = self.shared.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
         let starts = || has(|op| matches!(op, Op::StartCutterRadiusCompensation { .. }));
@@ -196,7 +196,7 @@ impl Legaliser {
             false => Tracker::unknown(),
         };
         entry.compensated = compensated.on;
-        known_facts::starts(program, &entry, compensated.path())
+        mode_analysis::starts(program, &entry, compensated.path())
     }
 
     /// Control comes from elsewhere to a body, or to what follows control.

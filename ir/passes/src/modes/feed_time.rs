@@ -16,7 +16,7 @@
 //! Not here: how long they take, which is execution's.
 
 use crate::pass::{Moment, Pass, Step};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};

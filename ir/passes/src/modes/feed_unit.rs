@@ -10,7 +10,7 @@
 
 use crate::modes::one_distance::is_measured;
 use crate::pass::{Moment, Pass, Shared, Step};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rebuild, rounded};
 use crate::{Target, each_body};

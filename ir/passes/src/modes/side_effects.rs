@@ -29,7 +29,7 @@ mod way_up;
 
 use crate::modes::fine_digits;
 use crate::pass::Pass;
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::tools::tool_words::ToolWords;
 use ncc_exec::Increments;
 use ncc_ir::behaviour::{Behaviour, Behaviours};

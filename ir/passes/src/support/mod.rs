@@ -8,7 +8,7 @@
 //!
 //! Not here: anything that changes a program by itself.
 
-pub mod known_facts;
+pub mod mode_analysis;
 pub(crate) mod needs;
 pub(crate) mod settle;
 pub(crate) mod shared_map;

@@ -9,13 +9,13 @@
 //! has no room.
 
 mod defaults;
-mod look;
+mod empty_variables;
+mod inventory;
 mod names;
-mod put;
 mod references;
 mod remainders;
+mod rename;
 pub mod renamed;
-mod vacancy;
 mod words;
 
 use ncc_ir::canon::{Distance, Units};
@@ -26,10 +26,10 @@ use ncc_ir::expr::{Expr, Function, Node, Target};
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::{Control, Op, Program, Stmt};
 
+use self::empty_variables::Vacant;
 use self::renamed::{Digits, Renamed};
-use self::vacancy::Vacant;
 use crate::pass::Pass;
-pub use vacancy::{Question, questions};
+pub use empty_variables::{Question, questions};
 pub use words::Fineness;
 pub(crate) use words::{as_rounded, round, rounded};
 
@@ -59,7 +59,7 @@ pub fn run(
     let vacant = Vacant { there: computes.vacant, here: from.vacant };
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
-        && let Err(refused) = vacancy::resolve(program, vacant, diags)
+        && let Err(refused) = empty_variables::resolve(program, vacant, diags)
     {
         diags.push(refused);
         return Renamed::default();
@@ -73,7 +73,7 @@ pub fn run(
             expressions(&mut procedure.body, &mut |_, value| words::whole(value));
         });
     }
-    let pairs = if own { Vec::new() } else { put::put(program, from, computes, diags) };
+    let pairs = if own { Vec::new() } else { rename::rename_variables(program, from, computes, diags) };
     if computes.rounds && !from.rounds {
         words::rounds(program, increments, diags);
     }

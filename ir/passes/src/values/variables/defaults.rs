@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::values::variables::vacancy::may::{Known, May, calls, is_nothing, may};
+use crate::values::variables::empty_variables::may::{Known, May, calls, is_nothing, may};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Node, Target, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};

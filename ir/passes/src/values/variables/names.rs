@@ -23,7 +23,7 @@ mod told;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use crate::values::variables::look::{Look, Seen, number_of};
+use crate::values::variables::inventory::{Inventory, Seen, number_of};
 use ncc_ir::computed::computes::{Computes, Handed, LETTERS, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Numbers, Scope, Var};
@@ -52,7 +52,7 @@ enum Home {
 pub(super) struct Plan<'c> {
     pub(super) from: &'c Computes,
     pub(super) computes: &'c Computes,
-    looks: Vec<Look>,
+    inventories: Vec<Inventory>,
     /// Parameters of each procedure.
     pub(super) parameters: Vec<Vec<Var>>,
     homes: Vec<Home>,
@@ -81,15 +81,15 @@ fn no_room(name: &str, at: Span) -> Diagnostic {
 
 impl<'c> Plan<'c> {
     pub(super) fn new(program: &Program, from: &'c Computes, computes: &'c Computes) -> Plan<'c> {
-        let looks = program.procedures.iter().map(|procedure| {
-            let mut look = Look::default();
-            look.body(&procedure.body);
-            look
+        let inventories = program.procedures.iter().map(|procedure| {
+            let mut inventory = Inventory::default();
+            inventory.body(&procedure.body);
+            inventory
         });
         Plan {
             from,
             computes,
-            looks: looks.collect(),
+            inventories: inventories.collect(),
             parameters: program.procedures.iter().map(|p| p.parameters.clone()).collect(),
             homes: Vec::new(),
             roots: Vec::new(),
@@ -105,8 +105,8 @@ impl<'c> Plan<'c> {
         let local = |seen: &Seen| matches!(seen.var, Var::Local(_));
         let by_number = |(row, _): &(Numbers, Span)| row.scope == Scope::Local;
         !self.parameters[at].is_empty()
-            || self.looks[at].seen.iter().any(local)
-            || self.looks[at].numbered.iter().any(by_number)
+            || self.inventories[at].seen.iter().any(local)
+            || self.inventories[at].numbered.iter().any(by_number)
     }
 
     pub(super) fn locals_of(&self, at: usize) -> &Map {
@@ -116,9 +116,9 @@ impl<'c> Plan<'c> {
     pub(super) fn make(&mut self, program: &Program) -> Result<(), Diagnostic> {
         self.find_homes(program);
         let own_numbers = !self.computes.local.is_empty();
-        for at in 0..self.looks.len() {
+        for at in 0..self.inventories.len() {
             if self.homes[at] == Home::None
-                && let Some(seen) = self.looks[at].seen.iter().find(|s| matches!(s.var, Var::Local(_)))
+                && let Some(seen) = self.inventories[at].seen.iter().find(|s| matches!(s.var, Var::Local(_)))
             {
                 let what = format!("the variable {} of what calls this, which has its own", seen.var.name());
                 return Err(Diagnostic::new(Fault::Computes { what: what.into() }, seen.at));
@@ -128,8 +128,8 @@ impl<'c> Plan<'c> {
         // What all procedures see, in the order of the text.
         let mut all: Vec<Seen> = Vec::new();
         let mut places: HashMap<Var, usize> = HashMap::new();
-        for (at, look) in self.looks.iter().enumerate() {
-            for seen in &look.seen {
+        for (at, inventory) in self.inventories.iter().enumerate() {
+            for seen in &inventory.seen {
                 let common = match &seen.var {
                     Var::Common(_) | Var::Retentive(_) => true,
                     Var::Local(_) => match self.homes[at] {
@@ -152,7 +152,7 @@ impl<'c> Plan<'c> {
             }
         }
         self.place_common(&all)?;
-        for at in 0..self.looks.len() {
+        for at in 0..self.inventories.len() {
             if self.homes[at] == Home::Own && self.roots[at] == at {
                 self.place_own(at)?;
             }
@@ -232,24 +232,25 @@ impl<'c> Plan<'c> {
 
     /// How far variables by computed numbers move, so that all of them do alike.
     fn go_further(&mut self) -> Result<(), Diagnostic> {
-        let rows: Vec<&(Numbers, Span)> = self.looks.iter().flat_map(|look| &look.numbered).collect();
+        let rows: Vec<&(Numbers, Span)> =
+            self.inventories.iter().flat_map(|inventory| &inventory.numbered).collect();
         let Some((_, at)) = rows.first().copied().cloned() else { return Ok(()) };
         let refused = || {
             let what = "a variable whose number is computed, among those that have other numbers".into();
             Diagnostic::new(Fault::Computes { what }, at)
         };
         let keeps_own = !self.computes.local.is_empty();
-        for (at, look) in self.looks.iter().enumerate() {
-            let own = look.numbered.iter().any(|(row, _)| row.scope == Scope::Local);
+        for (at, inventory) in self.inventories.iter().enumerate() {
+            let own = inventory.numbered.iter().any(|(row, _)| row.scope == Scope::Local);
             // A call's own have names.
             if own && !keeps_own && at > 0 && self.homes[at] == Home::Own {
                 return Err(refused());
             }
         }
         let used: Vec<u32> = self
-            .looks
+            .inventories
             .iter()
-            .flat_map(|look| &look.seen)
+            .flat_map(|inventory| &inventory.seen)
             .filter(|seen| !matches!(seen.var, Var::System(_)))
             .filter_map(|seen| number_of(&seen.var, self.from))
             .collect();
@@ -283,7 +284,7 @@ impl<'c> Plan<'c> {
     }
 
     fn place_common(&mut self, all: &[Seen]) -> Result<(), Diagnostic> {
-        let by_number = self.looks.iter().any(|look| !look.numbered.is_empty());
+        let by_number = self.inventories.iter().any(|inventory| !inventory.numbered.is_empty());
         let take = |plan: &mut Plan, seen: &Seen, to: Var| {
             plan.taken.extend(number_of(&to, plan.computes));
             plan.common.insert(seen.var.clone(), to);
@@ -354,13 +355,13 @@ impl<'c> Plan<'c> {
         // With those of all that has the same ones.
         let mut all: Vec<Seen> = Vec::new();
         let parameters = &self.parameters[at];
-        let first = self.looks[at].seen.first().map_or(Span::default(), |seen| seen.at);
+        let first = self.inventories[at].seen.first().map_or(Span::default(), |seen| seen.at);
         all.extend(parameters.iter().map(|var| Seen { var: var.clone(), elements: None, at: first }));
         let mut places: HashMap<Var, usize> =
             all.iter().enumerate().rev().map(|(place, seen)| (seen.var.clone(), place)).collect();
         let same = |other: &usize| self.roots[*other] == at && self.homes[*other] == Home::Own;
-        for (other, look) in self.looks.iter().enumerate().filter(|(other, _)| same(other)) {
-            let local = look.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
+        for (other, inventory) in self.inventories.iter().enumerate().filter(|(other, _)| same(other)) {
+            let local = inventory.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
             for seen in local.filter(|seen| other > 0 || !self.common.contains_key(&seen.var)) {
                 match places.get(&seen.var) {
                     Some(at) => all[*at].elements = all[*at].elements.or(seen.elements),
@@ -381,7 +382,7 @@ impl<'c> Plan<'c> {
             }
         }
         let letters = self.computes.handed == Handed::Letters;
-        let by_number = self.looks[at].numbered.iter().any(|(row, _)| row.scope == Scope::Local);
+        let by_number = self.inventories[at].numbered.iter().any(|(row, _)| row.scope == Scope::Local);
         if by_number {
             numbers.extend(self.computes.local.iter().flat_map(|[from, to]| *from..=*to));
         }
@@ -460,8 +461,8 @@ impl<'c> Plan<'c> {
             }
         }
         if self.computes.has(Said::Declare) && self.roots.get(at) == Some(&at) {
-            let declared = &self.looks[at].declared;
-            for seen in &self.looks[at].seen {
+            let declared = &self.inventories[at].declared;
+            for seen in &self.inventories[at].seen {
                 let Some(new) = locals.get(&seen.var) else { continue };
                 let known = declared.contains(&*seen.var.name()) || procedure.parameters.contains(new);
                 if !known && number_of(new, self.computes).is_none() {

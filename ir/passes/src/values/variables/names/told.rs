@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::Plan;
-use crate::values::variables::look::number_of;
+use crate::values::variables::inventory::number_of;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
 use ncc_ir::program::Program;
@@ -17,9 +17,9 @@ impl<'c> Plan<'c> {
         let mut told: Vec<String> = Vec::new();
         let (from, to) = (&self.from.mark, &self.computes.mark);
         let mut done: HashSet<(usize, &Var)> = HashSet::new();
-        for (at, look) in self.looks.iter().enumerate() {
+        for (at, inventory) in self.inventories.iter().enumerate() {
             let parameters = self.parameters[at].iter();
-            for old in parameters.chain(look.seen.iter().map(|seen| &seen.var)) {
+            for old in parameters.chain(inventory.seen.iter().map(|seen| &seen.var)) {
                 let root = self.roots[at];
                 let (new, of) = match (self.locals[root].get(old), self.common.get(old)) {
                     (Some(new), _) => (new, root),
@@ -45,8 +45,12 @@ impl<'c> Plan<'c> {
         if more > 0 {
             told.push(format!("and {more} more"));
         }
-        let first =
-            self.looks.iter().flat_map(|look| &look.seen).map(|seen| seen.at).min_by_key(|at| at.start);
+        let first = self
+            .inventories
+            .iter()
+            .flat_map(|inventory| &inventory.seen)
+            .map(|seen| seen.at)
+            .min_by_key(|at| at.start);
         let map = told.join(", ").into();
         diags.push(Diagnostic::new(Fault::VariablesRenamed { map }, first.unwrap_or_default()));
     }

@@ -13,7 +13,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::support::known_facts::{At, at_calls};
+use crate::support::mode_analysis::{At, at_calls};
 use ncc_ir::canon::{FeedMode, Motion, SpindleMode, Units};
 use ncc_ir::caps::Caps;
 use ncc_ir::computed::computes::Said;

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::called::Called;
 use super::held::Held;
 use crate::support::settle::{settle, settle_point};
-use crate::values::known_answers;
+use crate::values::constant_queries;
 use ncc_ir::computed::computes::Computes;
 use ncc_ir::expr::Target;
 use ncc_ir::program::kinds::flow;
@@ -219,7 +219,7 @@ impl Flow<'_> {
                         && self.settles
                         && reached
                     {
-                        known_answers::put_in(value, &state.at.modes, there);
+                        constant_queries::put_in(value, &state.at.modes, there);
                     }
                 } else if self.settles {
                     let hole = matches!(op, Op::Hole(_) | Op::Pattern(_)) && self.holes && !self.called;

@@ -1,7 +1,7 @@
 //! Modes that a program asks the control for and that are known there: their values in the places of the questions, for a
 //! control that cannot be asked. A macro that saves `#3=#4003` where G90 is in force on every way saves 90, and `G#3` is G90.
 //!
-//! Not here: what is known where (`known_facts`).
+//! Not here: what is known where (`mode_analysis`).
 
 use ncc_ir::canon::{Modes, Motion};
 use ncc_ir::computed::computed_code::computed_code;

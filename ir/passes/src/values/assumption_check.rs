@@ -16,7 +16,7 @@ use ncc_ir::source::Span;
 
 /// What is taken for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Taken {
+pub enum Assumption {
     /// Numbers that are compared are equal, or further apart than any tolerance.
     Apart,
     /// Numbers that are rounded up or down, or divided for a remainder, are not below zero.
@@ -25,13 +25,13 @@ pub enum Taken {
     Together,
 }
 
-impl Taken {
+impl Assumption {
     /// What the numbers are where that is not so, in words.
-    pub const fn otherwise(self) -> &'static str {
+    pub const fn violation(self) -> &'static str {
         match self {
-            Taken::Apart => "two numbers that are nearly the same where they are compared",
-            Taken::NotNegative => "a number below zero that is rounded, or divided for a remainder",
-            Taken::Together => {
+            Assumption::Apart => "two numbers that are nearly the same where they are compared",
+            Assumption::NotNegative => "a number below zero that is rounded, or divided for a remainder",
+            Assumption::Together => {
                 "lengths with more digits than the control's, which it rounds one by one, and which add up"
             }
         }
@@ -40,7 +40,7 @@ impl Taken {
 
 /// What the target has of which something is taken for granted.
 #[derive(Clone, Copy, Debug)]
-pub struct There<'t> {
+pub struct TargetNumerics<'t> {
     /// Its functions.
     pub functions: &'t [Function],
     /// To which digits its lengths are rounded.
@@ -76,13 +76,18 @@ pub fn computes_numbers(program: &Program) -> bool {
 
 /// The program with the other reading of what is taken for granted, for such a target; `None` where it has none.
 /// Expressions are read so up to a place of the text.
-pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -> Option<Program> {
+pub fn other_reading(
+    program: &Program,
+    assumed: &[Assumption],
+    target: TargetNumerics,
+    until: u32,
+) -> Option<Program> {
     let mut other = program.clone();
-    let mut found = taken.contains(&Taken::Together) && as_rounded(&mut other, there.fineness);
+    let mut found = assumed.contains(&Assumption::Together) && as_rounded(&mut other, target.fineness);
     for procedure in &mut other.procedures {
         expressions(&mut procedure.body, &mut |stmt, expr| {
             if stmt.span.start <= until {
-                over(expr, taken, there, &mut found);
+                over(expr, assumed, target, &mut found);
             }
         });
     }
@@ -90,12 +95,12 @@ pub fn otherwise(program: &Program, taken: &[Taken], there: There, until: u32) -
 }
 
 /// Where a program says what another reading changes, in the order of the text.
-pub fn places(program: &Program, taken: &[Taken], there: There) -> Vec<Span> {
+pub fn assumed_places(program: &Program, assumed: &[Assumption], target: TargetNumerics) -> Vec<Span> {
     let mut places = Vec::new();
     for procedure in &mut program.clone().procedures {
         expressions(&mut procedure.body, &mut |stmt, expr| {
             let mut found = false;
-            over(expr, taken, there, &mut found);
+            over(expr, assumed, target, &mut found);
             places.extend(found.then_some(stmt.span));
         });
     }
@@ -130,18 +135,18 @@ fn nearly(operator: Binary, a: &Expr, b: &Expr) -> Option<Node> {
     })
 }
 
-fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
-    e.parts_mut().for_each(|part| over(part, taken, there, found));
+fn over(e: &mut Expr, assumed: &[Assumption], target: TargetNumerics, found: &mut bool) {
+    e.parts_mut().for_each(|part| over(part, assumed, target, found));
     let Expr::Node(node) = e else { return };
-    let functions = there.functions;
+    let functions = target.functions;
     let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));
-    let apart = taken.contains(&Taken::Apart);
-    let not_negative = taken.contains(&Taken::NotNegative);
+    let apart = assumed.contains(&Assumption::Apart);
+    let not_negative = assumed.contains(&Assumption::NotNegative);
     // One that the target has is none that another stands for.
     let has = |function| functions.contains(&function);
     let other = match &**node {
         Node::Call(Function::Near | Function::NearRatio, all) if apart => {
-            match (&all[..], there.equal_within) {
+            match (&all[..], target.equal_within) {
                 ([a, b, _], Some(tolerance)) => {
                     let apart = vec![self::node(Node::Binary(Binary::Subtract, a.clone(), b.clone()))];
                     let apart = self::node(Node::Call(Function::Abs, apart));
@@ -151,7 +156,7 @@ fn over(e: &mut Expr, taken: &[Taken], there: There, found: &mut bool) {
                 _ => None,
             }
         }
-        Node::Binary(operator, a, b) if apart && there.near => nearly(*operator, a, b),
+        Node::Binary(operator, a, b) if apart && target.near => nearly(*operator, a, b),
         Node::Binary(operator, by, Expr::Num(limit)) if apart => {
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
         }

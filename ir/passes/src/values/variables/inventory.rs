@@ -19,7 +19,7 @@ pub(super) struct Seen {
 
 /// What a body reads and gives values, in the order of the text.
 #[derive(Default)]
-pub(super) struct Look {
+pub(super) struct Inventory {
     pub(super) seen: Vec<Seen>,
     /// Where each variable stands in `seen`.
     places: HashMap<Var, usize>,
@@ -31,7 +31,7 @@ pub(super) struct Look {
     pub(super) declared: BTreeSet<Text>,
 }
 
-impl Look {
+impl Inventory {
     pub(super) fn body(&mut self, body: &[Stmt]) {
         for stmt in body {
             let at = stmt.span;
@@ -111,10 +111,10 @@ pub(super) fn leave_out_results(program: &mut Program, from: &Computes, computes
     let mut read = BTreeSet::new();
     let mut all = Vec::new();
     for procedure in &program.procedures {
-        let mut look = Look::default();
-        look.body(&procedure.body);
-        read.extend(look.read);
-        all.extend(look.seen);
+        let mut inventory = Inventory::default();
+        inventory.body(&procedure.body);
+        read.extend(inventory.read);
+        all.extend(inventory.seen);
     }
     let unread: HashSet<Var> = all
         .into_iter()

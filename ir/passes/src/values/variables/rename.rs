@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::values::variables::expressions;
-use crate::values::variables::look::{leave_out_results, number_of};
+use crate::values::variables::inventory::{leave_out_results, number_of};
 use crate::values::variables::names::{Map, Plan};
 use ncc_ir::computed::computes::{Computes, Handed, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 
 /// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
 /// source's and the target's.
-pub(super) fn put(
+pub(super) fn rename_variables(
     program: &mut Program,
     from: &Computes,
     computes: &Computes,
@@ -29,9 +29,9 @@ pub(super) fn put(
     let names: Vec<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         let told = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
-        let mut put = Put { plan: &plan, locals: plan.locals_of(at), told, refused: None };
-        put.body(&mut procedure.body);
-        if let Some(refused) = put.refused {
+        let mut rename = Rename { plan: &plan, locals: plan.locals_of(at), told, refused: None };
+        rename.body(&mut procedure.body);
+        if let Some(refused) = rename.refused {
             diags.push(refused);
             return Vec::new();
         }
@@ -54,7 +54,7 @@ pub(super) fn put(
 }
 
 /// Puts the new names into a body.
-pub(super) struct Put<'p, 'c> {
+pub(super) struct Rename<'p, 'c> {
     pub(super) plan: &'p Plan<'c>,
     pub(super) locals: &'p Map,
     /// Names that stand beside where they were first given a value.
@@ -62,7 +62,7 @@ pub(super) struct Put<'p, 'c> {
     pub(super) refused: Option<Diagnostic>,
 }
 
-impl Put<'_, '_> {
+impl Rename<'_, '_> {
     pub(super) fn body(&mut self, body: &mut Vec<Stmt>) {
         expressions(body, &mut |stmt, value| self.expr(value, stmt.span));
         self.targets(body);

@@ -1,7 +1,7 @@
 //! What holds at a place of a program, and what a statement makes of it.
 
 use super::called::Called;
-use crate::values::known_answers::{self, Saved};
+use crate::values::constant_queries::{self, Saved};
 use ncc_ir::canon::{AXES, Modes, Motion};
 use ncc_ir::expr::Target;
 use ncc_ir::program::arguments;
@@ -70,7 +70,7 @@ impl Held {
     pub(super) fn apply(&mut self, op: &Op, at: u32) {
         if let Op::Assign(to, value) = op {
             self.sets(to);
-            self.saved.set(to, known_answers::worth(value, &self.at.modes));
+            self.saved.set(to, constant_queries::worth(value, &self.at.modes));
         } else if let Op::Declare(_) = op {
             self.saved.forget();
         } else if matches!(op, Op::StartCycle(_)) {

@@ -35,7 +35,7 @@ impl Exec {
     }
 
     /// Sets what an operation says of conduct; any other says nothing of it.
-    pub(super) fn conduct(&mut self, op: &Op, span: Span) -> Result<(), Diagnostic> {
+    pub(super) fn set_motion_mode(&mut self, op: &Op, span: Span) -> Result<(), Diagnostic> {
         match op {
             Op::SetMotionControlMode(control) => {
                 let within =

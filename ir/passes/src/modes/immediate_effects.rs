@@ -24,7 +24,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(AT_ONCE),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<AtOnceState>(), &l.target, p.diags),
+        |l, p| {
+            over(p.stmts, &mut p.start.clone(), l.states.of::<ImmediateEffectsState>(), &l.target, p.diags)
+        },
     ),
     program: &[],
     parametric: None,
@@ -32,7 +34,7 @@ pub(crate) const PASS: Pass = Pass {
 
 /// What is remembered from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct AtOnceState {
+pub(crate) struct ImmediateEffectsState {
     /// Another length is in force, and no absolute Z has been named since.
     length: bool,
     /// The target's first blocks say no length, and no absolute Z has been named since.
@@ -41,11 +43,11 @@ pub(crate) struct AtOnceState {
     motion: bool,
 }
 
-impl AtOnceState {
+impl ImmediateEffectsState {
     /// The start of a main program: without a length, where the target's first blocks say so.
-    pub(crate) fn new(caps: &Caps) -> AtOnceState {
+    pub(crate) fn new(caps: &Caps) -> ImmediateEffectsState {
         let start = caps.tools.starts_without_length;
-        AtOnceState { length: start && caps.tools.length_at_once, start, motion: false }
+        ImmediateEffectsState { length: start && caps.tools.length_at_once, start, motion: false }
     }
 
     /// Whether further statements must be looked at.
@@ -72,7 +74,7 @@ impl AtOnceState {
 pub(crate) fn over(
     stmts: &[Stmt],
     walk: &mut Walk,
-    state: &mut AtOnceState,
+    state: &mut ImmediateEffectsState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -87,7 +89,7 @@ fn over_one(
     op: &Op,
     stmt: &Stmt,
     walk: &Walk,
-    state: &mut AtOnceState,
+    state: &mut ImmediateEffectsState,
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -170,7 +172,13 @@ fn over_one(
 }
 
 /// A move that says itself which it is.
-fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut AtOnceState, diags: &mut Vec<Diagnostic>) {
+fn goes(
+    to: &Point,
+    stmt: &Stmt,
+    walk: &Walk,
+    state: &mut ImmediateEffectsState,
+    diags: &mut Vec<Diagnostic>,
+) {
     state.motion = false;
     let first = to.get(Axis::Z).filter(|_| state.start && stmt.skip.is_none());
     if first.is_some_and(|word| word.distance == Fact::Known(Distance::Incremental)) {
@@ -181,7 +189,13 @@ fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut AtOnceState, diags: &m
 }
 
 /// Axis words: an absolute Z settles where the tool stands, and another one depends on it.
-fn names(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut AtOnceState, diags: &mut Vec<Diagnostic>) {
+fn names(
+    to: &Point,
+    stmt: &Stmt,
+    walk: &Walk,
+    state: &mut ImmediateEffectsState,
+    diags: &mut Vec<Diagnostic>,
+) {
     let Some(word) = to.get(Axis::Z).filter(|_| state.length || state.start) else { return };
     match word.distance.known().or(walk.at.modes.distance) {
         // With the switch on, it is not said.

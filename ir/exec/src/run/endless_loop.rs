@@ -21,7 +21,7 @@ struct Seen {
 
 /// What is kept of a run to see that it goes round.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Rounds {
+pub(crate) struct EndlessLoop {
     seen: Option<Box<Seen>>,
     /// Ways back so far.
     backs: u64,
@@ -29,7 +29,7 @@ pub(crate) struct Rounds {
     next: u64,
 }
 
-impl Rounds {
+impl EndlessLoop {
     /// A way back is gone, to here; whether the run was here before with all as it is.
     #[inline]
     pub(crate) fn again(

@@ -6,7 +6,7 @@ use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 
 /// Parameters of the main procedure that are read, each with where it is kept and the place where the program begins.
-pub(crate) fn needed(program: &Program, names: &Names) -> Vec<(Var, Place, Span)> {
+pub(crate) fn required_arguments(program: &Program, names: &Names) -> Vec<(Var, Place, Span)> {
     let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty()) else {
         return Vec::new();
     };

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use ncc_ir::canon::{Distance, Fact};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::arguments::{self, Argument};
