@@ -114,7 +114,7 @@ impl Writer {
     /// Refuses a subprogram: the canonical stream has none.
     pub fn procedure(&mut self, p: &Procedure, _out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let place = p.body.first().map_or(Span::default(), |s| s.span);
-        diags.push(Diagnostic::new(Fault::CannotSay { what: "a subprogram".into() }, place));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what: "a subprogram".into() }, place));
     }
 
     /// Ends the text.
@@ -502,5 +502,5 @@ fn after<T: PartialEq>(in_force: &mut Option<T>, value: T, s: &Stmt) {
 }
 
 fn cannot(op: &Op) -> Fault {
-    Fault::CannotSay { what: op.name().into() }
+    Fault::TargetLacks { what: op.name().into() }
 }

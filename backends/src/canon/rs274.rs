@@ -561,5 +561,5 @@ fn literal(value: &Expr) -> Result<f64, Fault> {
 }
 
 fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }

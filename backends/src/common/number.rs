@@ -90,16 +90,16 @@ impl Shaped {
 
 /// What stands behind a letter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Worth {
+pub(crate) enum WordValue {
     /// A number.
     Number(Shaped),
     /// What is computed: its place among the formulas of the block.
     Formula(u16),
 }
 
-impl From<Shaped> for Worth {
-    fn from(shaped: Shaped) -> Worth {
-        Worth::Number(shaped)
+impl From<Shaped> for WordValue {
+    fn from(shaped: Shaped) -> WordValue {
+        WordValue::Number(shaped)
     }
 }
 

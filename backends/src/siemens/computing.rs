@@ -46,11 +46,11 @@ impl Writer {
         &mut self,
         procedures: &[Procedure],
         own_distance: &BTreeSet<u32>,
-        stands: HashMap<u32, Modes>,
+        entries: HashMap<u32, Modes>,
     ) {
         self.computing.program = true;
         self.computing.own_distance.clone_from(own_distance);
-        self.words.is_kept(stands);
+        self.words.is_kept(entries);
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
         // Holes that rely on a cycle called up elsewhere: it stays in force over jumps and labels, as in the source.
         self.computing.cycles &= !procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
@@ -60,9 +60,9 @@ impl Writer {
     }
 
     /// Takes which modes are in force where stretches of blocks begin, and what its subprograms leave active.
-    pub(crate) fn know_modes(&mut self, procedures: &[Procedure], stands: HashMap<u32, Modes>) {
+    pub(crate) fn know_modes(&mut self, procedures: &[Procedure], entries: HashMap<u32, Modes>) {
         self.leave_edge = edge_left::leave_edge(procedures);
-        self.words.know_modes(stands);
+        self.words.know_modes(entries);
     }
 
     /// A unit begins.

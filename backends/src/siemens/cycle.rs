@@ -544,7 +544,7 @@ impl Writer {
         let mut to = Point::default();
         for axis in [first, second] {
             let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
-            let (value, distance) = match (self.words.stands(axis), unit) {
+            let (value, distance) = match (self.words.axis_position(axis), unit) {
                 (Ok(nanos), Unit::Mm | Unit::Inch) => {
                     (number::from_nanos(nanos, &letter.format, unit), Distance::Absolute)
                 }

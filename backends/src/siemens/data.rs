@@ -164,7 +164,7 @@ impl Writer {
     }
 
     pub(super) fn tell_fine_shifts(&mut self, span: Span, sink: &mut Sink) {
-        if self.told.insert("fine shifts") {
+        if self.reported.insert("fine shifts") {
             let parameter = "fine shifts of work offsets ($P_UIFR[…,FI])".into();
             sink.report(Fault::AssumedParameter { parameter, value: "0".into() }, span);
         }

@@ -146,7 +146,7 @@ pub struct Writer {
     /// The main procedure of a program that computes, until it is written.
     main: Option<Procedure>,
     /// Calls whose rows nobody confirms, as far as told.
-    told: BTreeSet<&'static str>,
+    reported: BTreeSet<&'static str>,
 }
 
 impl Writer {
@@ -175,7 +175,7 @@ impl Writer {
             computing: Computing::default(),
             variables: Variables::default(),
             main: None,
-            told: BTreeSet::new(),
+            reported: BTreeSet::new(),
         }
     }
 
@@ -478,7 +478,7 @@ impl Writer {
 
     /// Tells once that a call rests on a row that nobody confirms.
     fn tell_unsure(&mut self, row: &'static CallRow, meaning: &str, span: Span, sink: &mut Sink) {
-        if !row.sure && self.told.insert(&row.name) {
+        if !row.sure && self.reported.insert(&row.name) {
             let code = row.name.as_str().into();
             sink.report(Fault::AssumedRow { code, meaning: meaning.into() }, span);
         }

@@ -50,7 +50,7 @@ impl Writer {
         let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
         if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
             let what = "a block that can be skipped on a switch of its own".into();
-            return Err(Fault::CannotSay { what });
+            return Err(Fault::TargetLacks { what });
         }
         Ok(self.force)
     }
@@ -88,7 +88,7 @@ impl Writer {
     /// Makes room for a statement: in the block at hand, or else in a new one.
     pub(crate) fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.possible(need) {
-            return Err(Fault::CannotSay { what: "these codes in one block".into() });
+            return Err(Fault::TargetLacks { what: "these codes in one block".into() });
         }
         if !self.block.fits(need) {
             let feed = self.block.feed_can_wait(need).then(|| self.block.take_feed());

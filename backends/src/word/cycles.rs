@@ -20,7 +20,7 @@ use super::Writer;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{Code, CycleCode, Letter};
 use crate::common::fault::cannot;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::common::setting::{Inserted, Setting};
 use crate::common::{Sink, number};
 
@@ -59,9 +59,9 @@ struct CallWords {
     level: Option<Code>,
     depth: Option<(Letter, Coord)>,
     retract: Option<(Letter, Coord)>,
-    pecks: Vec<(u8, Worth)>,
-    dwell: Option<(u8, Worth)>,
-    feed: Option<(u8, Worth)>,
+    pecks: Vec<(u8, WordValue)>,
+    dwell: Option<(u8, WordValue)>,
+    feed: Option<(u8, WordValue)>,
 }
 
 impl Writer {
@@ -162,7 +162,7 @@ impl Writer {
         let mut to = Point::default();
         for axis in [first, second] {
             let letter = self.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
-            let n = number::from_nanos(self.stands(axis)?, &letter.format, unit);
+            let n = number::from_nanos(self.axis_position(axis)?, &letter.format, unit);
             to.set(axis, Coord { value: Expr::Num(n), distance: distance.into() });
         }
         Ok(to)
@@ -425,7 +425,7 @@ impl Writer {
         peck: Option<&Expr>,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Vec<(u8, Worth)>, Fault> {
+    ) -> Result<Vec<(u8, WordValue)>, Fault> {
         let (first, less) = match kind {
             CycleKind::DrillPeck { first, less, .. } | CycleKind::DrillBreak { first, less, .. } => {
                 (first, less)

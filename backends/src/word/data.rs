@@ -16,7 +16,7 @@ use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::DataCode;
 use crate::common::codes::{Code, Letter};
 use crate::common::fault::cannot;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::common::setting::Inserted;
 
 impl Writer {
@@ -189,7 +189,7 @@ impl Writer {
     }
 
     /// A code in a block of its own, with its words.
-    fn alone(&mut self, code: Code, words: Vec<(u8, Worth)>, sink: &mut Sink) -> Result<(), Fault> {
+    fn alone(&mut self, code: Code, words: Vec<(u8, WordValue)>, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.is_empty() {
             self.flush(false, sink);
             self.split = true;

@@ -20,12 +20,12 @@ use super::statement::rounded;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Letter;
 use crate::common::fault::{cannot, cannot_compute, unwritable};
-use crate::common::number::{Shaped, Worth};
+use crate::common::number::{Shaped, WordValue};
 use crate::common::setting::Inserted;
 use crate::common::{Sink, number};
 
 /// Words of an arc's centre or radius, ready to be written.
-type CentreWords = [Option<(u8, Worth)>; 3];
+type CentreWords = [Option<(u8, WordValue)>; 3];
 
 impl Writer {
     /// A straight move, rapid or at feed.
@@ -265,7 +265,7 @@ impl Writer {
     }
 
     /// Where the written text puts an axis.
-    pub(crate) fn stands(&self, axis: Axis) -> Result<Nanos, Fault> {
+    pub(crate) fn axis_position(&self, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
         let at = self.tracker.position[axis as usize].ok_or_else(|| unknown.clone())?;
         at.checked_sub(self.residue[axis as usize]).ok_or(unknown)
@@ -338,7 +338,7 @@ impl Writer {
             (Distance::Incremental, _) => Num::int(0, Unit::Entry),
             (Distance::Absolute, Some(units)) => {
                 let unit = if units == Units::Inch { Unit::Inch } else { Unit::Mm };
-                number::from_nanos(self.stands(first)?, &letter.format, unit)
+                number::from_nanos(self.axis_position(first)?, &letter.format, unit)
             }
             (Distance::Absolute, None) => return Err(cannot("a full circle in a unit that is not known")),
         };
@@ -390,9 +390,9 @@ impl Writer {
         from: CentreFrom,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         match word {
-            Expr::Num(_) => self.centre_number(letter, axis, word, from, span, sink).map(Worth::Number),
+            Expr::Num(_) => self.centre_number(letter, axis, word, from, span, sink).map(WordValue::Number),
             Expr::Node(_) => self.computed(letter, word, span, sink),
         }
     }
@@ -448,11 +448,11 @@ impl Writer {
                     *to = match (from, word) {
                         (CentreFrom::Start, word) => {
                             // From where the program's arc starts: rounding that has not moved the centre.
-                            self.stands(axis)?
+                            self.axis_position(axis)?
                                 .checked_add(self.residue[axis as usize])
                                 .and_then(|start| start.checked_add(word.unwrap_or(0)))
                         }
-                        (CentreFrom::Zero, Some(word)) => word.checked_sub(self.stands(axis)?),
+                        (CentreFrom::Zero, Some(word)) => word.checked_sub(self.axis_position(axis)?),
                         (CentreFrom::Zero, None) => Some(0),
                     }
                     .ok_or_else(|| cannot("a centre this far away"))?;
@@ -461,7 +461,7 @@ impl Writer {
             }
             Centre::Radius(radius) => {
                 let radius = self.length(radius, span)?;
-                let start = [self.stands(first)?, self.stands(second)?];
+                let start = [self.axis_position(first)?, self.axis_position(second)?];
                 let end = [self.arrives(arc, first)?, self.arrives(arc, second)?];
                 let centre = geometry::centre_by_radius(start, end, radius, arc.turn, MOST_SHORT);
                 let centre = centre.map_err(|fault| match fault {
@@ -503,7 +503,7 @@ impl Writer {
     /// Where the written words of an arc put an axis.
     pub(crate) fn arrives(&self, arc: &Arc, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
-        let Some(coord) = arc.to.get(axis) else { return self.stands(axis) };
+        let Some(coord) = arc.to.get(axis) else { return self.axis_position(axis) };
         let target = self.tracker.resolve(coord, self.tracker.position[axis as usize]);
         let target = target.ok_or(unknown)?;
         let Some(letter) = self.codes.axes[axis as usize] else { return Ok(target) };
@@ -520,7 +520,7 @@ impl Writer {
     /// How far an arc goes round, in degrees, of which the ends become one point when they are rounded.
     fn sweep_of_vanishing(&self, arc: &Arc) -> Option<f64> {
         let (first, second, _) = self.tracker.plane(arc.plane)?.axes();
-        let along = |axis: Axis| Some((self.stands(axis).ok()?, self.arrives(arc, axis).ok()?));
+        let along = |axis: Axis| Some((self.axis_position(axis).ok()?, self.arrives(arc, axis).ok()?));
         let [(a, b), (c, d)] = [along(first)?, along(second)?];
         let end = self.tracker.target(&arc.to);
         let exact = |axis: Axis| Some([self.tracker.position[axis as usize]?, end[axis as usize]?]);

@@ -14,7 +14,7 @@ use super::macros::o_words::is_no_result_yet;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{AdviceCode, Code, Dwell, Letter};
 use crate::common::fault::{cannot, cannot_compute, unwritable};
-use crate::common::number::{Shaped, Worth};
+use crate::common::number::{Shaped, WordValue};
 use crate::common::setting::Setting;
 use crate::common::{Sink, number};
 
@@ -216,9 +216,9 @@ impl Writer {
         value: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         match value {
-            Expr::Num(_) => self.number(letter, value, span, sink).map(Worth::Number),
+            Expr::Num(_) => self.number(letter, value, span, sink).map(WordValue::Number),
             Expr::Node(_) => self.computed(letter, value, span, sink),
         }
     }
@@ -419,7 +419,7 @@ impl Writer {
     pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
         let value = self.value(&letter, feed, span, sink)?;
-        if matches!(value, Worth::Number(Shaped { mantissa: 0, rounded: true, .. })) {
+        if matches!(value, WordValue::Number(Shaped { mantissa: 0, rounded: true, .. })) {
             return Err(cannot("a feed so small that the digits make it 0"));
         }
         self.feed_apart(sink);
@@ -509,7 +509,7 @@ impl Writer {
         seconds: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         let open = seconds.literal().is_none() && !dwell.milliseconds;
         if open {
             self.rely(COMPUTED_DWELL, span, sink);

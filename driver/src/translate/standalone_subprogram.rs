@@ -34,7 +34,7 @@ impl Translation<'_> {
         // What has been written already has stated modes, which would be the caller's from there on.
         if !ends && !named && !to.can.everything || self.written > 0 {
             let what = "the return of a subprogram without its main program".into();
-            self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
             return true;
         }
         if let Some(verifier) = &mut self.verifier {
@@ -50,7 +50,7 @@ impl Translation<'_> {
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {
             let what = "a cycle that is left in force for a caller that is not in the text".into();
-            self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
             return true;
         }
         let moves_end_cycles = self.handed() == Some(Handed::Names)

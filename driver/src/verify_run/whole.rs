@@ -104,7 +104,7 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
         }
         Fault::ArcRadiusTooSmall => {
             let what = "a computed radius below half the distance from start to end".into();
-            Some(Fault::CannotSay { what })
+            Some(Fault::TargetLacks { what })
         }
         _ => None,
     }
@@ -320,7 +320,9 @@ impl Verifier {
         let mut came = Came { through, goes_on: None, new_paths: Vec::new(), events: 0 };
         let [a, b] = sides.map(Runner::new);
         for set in 1..=SETS {
-            let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
+            let all = || {
+                a.uncovered_branches(&gone.source).is_empty() && b.uncovered_branches(&gone.target).is_empty()
+            };
             let endless = set > FEW_SETS && !came.through && came.goes_on.is_some();
             if starts.is_empty() || endless || set > 2 && came.through && all() {
                 break;
@@ -535,14 +537,14 @@ impl Verifier {
             let fault = Fault::VariableGiven { name: var.name().into() };
             self.notes.push(Diagnostic::new(fault, *span));
         }
-        let ways = |taken: u8| Fault::NotTaken { holds: taken & 1 == 0, fails: taken & 2 == 0 };
-        let mut untaken = Runner::new(source).untaken(&gone.source);
-        let open = untaken.len();
-        untaken.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
+        let ways = |taken: u8| Fault::BranchUncovered { holds: taken & 1 == 0, fails: taken & 2 == 0 };
+        let mut uncovered_branches = Runner::new(source).uncovered_branches(&gone.source);
+        let open = uncovered_branches.len();
+        uncovered_branches.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
         // The output has none of these.
-        let answered = open - untaken.len();
-        let of_target = Runner::new(target).untaken(&gone.target);
-        let told = untaken.iter().take(MOST_TOLD);
+        let answered = open - uncovered_branches.len();
+        let of_target = Runner::new(target).uncovered_branches(&gone.target);
+        let told = uncovered_branches.iter().take(MOST_TOLD);
         self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
         if of_target.len() > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
             // The output decides what the source does not, or in several places what the source does in one.

@@ -119,7 +119,7 @@ pub fn tells(ended: &Result<(), Ended>, run: &Run) -> bool {
 
 /// Whether a difference is told of the source: it leaves open what the target's control does.
 fn by_target(fault: &Fault) -> bool {
-    matches!(fault, Fault::DoneByTarget { .. } | Fault::FactUnsaid { .. })
+    matches!(fault, Fault::DoneByTarget { .. } | Fault::ModeNotSet { .. })
 }
 
 /// Whether an optional stop stands anywhere in a body.

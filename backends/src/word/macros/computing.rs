@@ -44,7 +44,7 @@ pub(crate) struct Computing {
     /// Loops that are open.
     open: u8,
     /// Modes in force where stretches of blocks begin, by the places of their first statements.
-    stands: HashMap<u32, Modes>,
+    entries: HashMap<u32, Modes>,
     /// The distance mode of the program where the stretch at hand begins, if it is known.
     pub(in crate::word) entry: Option<Distance>,
     /// The distance mode that the text had before this writer put in another one.
@@ -57,9 +57,9 @@ pub(crate) struct Computing {
 
 impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
-    pub(crate) fn know(&mut self, program: &Program, stands: HashMap<u32, Modes>) {
+    pub(crate) fn know(&mut self, program: &Program, entries: HashMap<u32, Modes>) {
         let procedures = program.procedures.as_slice();
-        self.is_kept(stands);
+        self.is_kept(entries);
         self.computing.variables = true;
         self.computing.metric = Said::by(program).only() == Some(Units::Mm);
         self.computing.own = self
@@ -76,20 +76,20 @@ impl Writer {
     }
 
     /// A program that computes is written with its structure.
-    pub(crate) fn is_kept(&mut self, stands: HashMap<u32, Modes>) {
+    pub(crate) fn is_kept(&mut self, entries: HashMap<u32, Modes>) {
         self.computing.kept = true;
-        self.know_modes(stands);
+        self.know_modes(entries);
     }
 
     /// Takes which modes are in force where stretches of blocks begin.
-    pub(crate) fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
-        self.computing.stands = stands;
+    pub(crate) fn know_modes(&mut self, entries: HashMap<u32, Modes>) {
+        self.computing.entries = entries;
     }
 
     /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
     /// source: the text states each that the source does, and no other.
     pub(crate) fn stand(&mut self, stmt: &Stmt) {
-        let known = self.computing.stands.get(&stmt.span.start);
+        let known = self.computing.entries.get(&stmt.span.start);
         self.computing.entry = known.and_then(|known| known.distance);
         let Some(known) = known else { return };
         if self.preamble.is_some() {
@@ -201,8 +201,8 @@ impl Writer {
         if !e.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
             return;
         }
-        let told = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
-        for row in dialect.system.iter().filter(told) {
+        let reported = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
+        for row in dialect.system.iter().filter(reported) {
             if !row.counts(&self.settings) {
                 continue;
             }

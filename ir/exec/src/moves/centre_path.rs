@@ -275,7 +275,7 @@ impl CentrePath {
             }
             return Ok(());
         };
-        let refuse = |what: &str| Diagnostic::new(Fault::CannotSay { what: what.into() }, span);
+        let refuse = |what: &str| Diagnostic::new(Fault::TargetLacks { what: what.into() }, span);
         let programmed = event.end;
         if programmed[Axis::A as usize..] != self.contour[Axis::A as usize..] {
             return Err(refuse("a rotary axis along a contour whose compensation is computed"));

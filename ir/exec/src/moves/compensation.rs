@@ -160,7 +160,7 @@ impl Exec {
         if again && self.contour.elsewhere {
             // A Sinumerik takes the block for the way onto a contour, a Fanuc for a part of it.
             let what = "cutter radius compensation switched on again without G40";
-            return self.fault(Fault::CannotSay { what: what.into() }, span);
+            return self.fault(Fault::TargetLacks { what: what.into() }, span);
         }
         if again && (on.side, on.plane, on.radius) != (new.side, new.plane, new.radius) {
             return self
@@ -297,7 +297,7 @@ impl Exec {
                         Some(at) => (NOWHERE, at),
                         None => (STILL, span),
                     };
-                    return self.fault(Fault::CannotSay { what: what.into() }, at);
+                    return self.fault(Fault::TargetLacks { what: what.into() }, at);
                 }
                 if let Some(event) = out.get_mut(events) {
                     event.state.compensation.gap = true;

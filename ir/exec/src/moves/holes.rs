@@ -14,7 +14,7 @@ use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
 
 /// Most pecks of one hole; more is a slip of the pen.
-const MOST_PECKS: i64 = 100_000;
+const MAX_PECKS: i64 = 100_000;
 
 /// A cycle in force, in program coordinates.
 #[derive(Clone, Debug)]
@@ -267,7 +267,7 @@ impl Exec {
         let (peck, first) = (self.value(words[0], span)?, self.value(words[1], span)?);
         let less = less.map(|less| self.value(less, span)).transpose()?;
         let grows = less.is_some_and(|less| less < 0 || first < peck);
-        if peck <= 0 || first <= 0 || grows || way / peck > MOST_PECKS {
+        if peck <= 0 || first <= 0 || grows || way / peck > MAX_PECKS {
             return self.fault(Fault::OutOfRange { word: "depth of a peck".into() }, span);
         }
         Ok(Strokes { first, peck, less, pause: None, dwell: None })

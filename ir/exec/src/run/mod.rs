@@ -155,7 +155,7 @@ impl<'p> Runner<'p> {
     /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
     /// were, 0 to 2, as of [`Runner::add_taken`]. Checks that the call of a cycle makes of its own values are not
     /// the program's decisions.
-    pub fn untaken(&self, all: &[u8]) -> Vec<(Span, u8)> {
+    pub fn uncovered_branches(&self, all: &[u8]) -> Vec<(Span, u8)> {
         let steps = self.code.steps.iter().zip(all).enumerate();
         let mut found: Vec<(Span, u8)> = steps
             .filter_map(|(at, (step, taken))| match step {

@@ -185,7 +185,7 @@ impl Around for Known<'_> {
     fn value(&self, value: &Expr) -> Result<Nanos, Fault> {
         self.at.nanos(value).ok_or(match self.at.modes.units {
             None => Fault::EntryFactNeeded { fact: ModeName::Units },
-            Some(_) => Fault::CannotSay { what: "an arc with a computed value".into() },
+            Some(_) => Fault::TargetLacks { what: "an arc with a computed value".into() },
         })
     }
 
@@ -193,7 +193,7 @@ impl Around for Known<'_> {
         let (first, second, normal) = self.plane.axes();
         let via = self.at.target(point);
         if via[normal as usize] != self.at.position[normal as usize] {
-            return Err(Fault::CannotSay { what: "a circle in space".into() });
+            return Err(Fault::TargetLacks { what: "a circle in space".into() });
         }
         let at =
             |axis: Axis| via[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
@@ -213,7 +213,7 @@ impl Around for Known<'_> {
                 Ok([along(first)?, along(second)?])
             }
             Heading::Unknown => {
-                Err(Fault::CannotSay { what: "a tangent arc after a move that is not known".into() })
+                Err(Fault::TargetLacks { what: "a tangent arc after a move that is not known".into() })
             }
         }
     }

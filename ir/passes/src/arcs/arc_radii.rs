@@ -77,7 +77,9 @@ fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: 
         Err(ArcFault::EndOffCircle { radii, allowed }) => {
             Judged::Refused(Fault::ArcRadiiDiffer { radii, allowed })
         }
-        Err(ArcFault::NoRadius) => Judged::Refused(Fault::CannotSay { what: "an arc of this radius".into() }),
+        Err(ArcFault::NoRadius) => {
+            Judged::Refused(Fault::TargetLacks { what: "an arc of this radius".into() })
+        }
         _ => Judged::Kept,
     }
 }

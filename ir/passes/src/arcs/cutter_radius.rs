@@ -35,7 +35,7 @@ pub(crate) const PASS: Pass = Pass {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CutterRadiusState {
     /// Whether entry and exit were told.
-    told: bool,
+    reported: bool,
     /// Entries of the tables that were told.
     entries: Vec<u32>,
 }
@@ -70,7 +70,7 @@ pub(crate) fn over(
                 }
                 Err(fault) => diags.push(Diagnostic::new(fault, span)),
             }
-            if target.other_control && !std::mem::replace(&mut state.told, true) {
+            if target.other_control && !std::mem::replace(&mut state.reported, true) {
                 diags.push(Diagnostic::new(Fault::AssumedContourEnds, span));
             }
         }
@@ -85,7 +85,7 @@ fn number(n: i64) -> Option<u32> {
 
 /// A radius as the target names it, and the entry that it is taken for where that is another way.
 fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRadius, Option<u32>), Fault> {
-    let cannot = |what: String| Err(Fault::CannotSay { what: what.into() });
+    let cannot = |what: String| Err(Fault::TargetLacks { what: what.into() });
     if *radii == Radii::default() {
         return cannot("cutter radius compensation".into());
     }

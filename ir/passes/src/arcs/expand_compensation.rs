@@ -58,7 +58,7 @@ pub struct Compensating {
 
 /// Works compensation out.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut told = false;
+    let mut reported = false;
     let begins = target.compensating.arc_feed;
     let mut one = Some(begins);
     program.procedures.iter().for_each(|procedure| only_meaning(&procedure.body, &mut one));
@@ -72,7 +72,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
             on: None,
             leaving: None,
             no_arc: false,
-            told: std::mem::take(&mut told),
+            reported: std::mem::take(&mut reported),
             one_meaning: one.is_some(),
             // A subprogram has the meaning of its caller.
             arc_feed: one.or(main.then_some(begins)),
@@ -86,7 +86,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
                 (pass.on, pass.leaving) = (None, None);
             }
         });
-        told = pass.told;
+        reported = pass.reported;
     });
 }
 
@@ -100,7 +100,7 @@ struct Expansion<'t> {
     leaving: Option<Plane>,
     /// The next move must be straight.
     no_arc: bool,
-    told: bool,
+    reported: bool,
     /// Whether all arcs of the program have one meaning of F.
     one_meaning: bool,
     /// What F counts on arcs; `None` is not known here.
@@ -154,7 +154,7 @@ impl Expansion<'_> {
                     Fault::CompensationExpanded { radius: nanos(contour.radius) },
                     span,
                 ));
-                if !self.how.known && !std::mem::replace(&mut self.told, true) {
+                if !self.how.known && !std::mem::replace(&mut self.reported, true) {
                     diags.push(Diagnostic::new(Fault::AssumedContourPath, span));
                 }
                 let side = if contour.left { Side::Left } else { Side::Right };
@@ -312,7 +312,7 @@ impl Expansion<'_> {
         let part = match leg {
             Leg::Arc { .. } => {
                 let feed = self.arc_feed.ok_or_else(|| {
-                    refuse(Fault::CannotSay {
+                    refuse(Fault::TargetLacks {
                         what: "an arc under cutter radius compensation that is worked out, where what F counts on it is not known"
                             .into(),
                     })

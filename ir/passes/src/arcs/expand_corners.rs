@@ -79,7 +79,7 @@ fn no_next() -> Fault {
 }
 
 fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }
 
 /// Writes them out.

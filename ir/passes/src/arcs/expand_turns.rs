@@ -84,7 +84,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     let (first, second, normal) = plane.axes();
     let words = [first, second, normal];
     if Axis::ALL.into_iter().any(|a| !words.contains(&a) && arc.to.get(a).is_some()) {
-        return Err(Fault::CannotSay { what: "an arc of several turns with a rotary axis".into() });
+        return Err(Fault::TargetLacks { what: "an arc of several turns with a rotary axis".into() });
     }
     // A whole turn has no radius that says it.
     let mut by_centre = arc.clone();
@@ -109,7 +109,9 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     if arc.to.get(normal).is_some() {
         if walk.waiting {
             // The length is taken up on the way, by so much more or less of it.
-            return Err(Fault::CannotSay { what: "a helix of several turns that takes a length up".into() });
+            return Err(Fault::TargetLacks {
+                what: "a helix of several turns that takes a length up".into(),
+            });
         }
         let levels = levels((arc, turns), walk, [first, second, normal])?;
         let unit = unit_of(normal, walk.unit());

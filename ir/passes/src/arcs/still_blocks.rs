@@ -38,7 +38,7 @@ pub(crate) struct StillBlocksState {
     /// The source looks over such blocks.
     pub(crate) looked_over: bool,
     /// Whether that was told.
-    told: bool,
+    reported: bool,
 }
 
 /// The fact that the blocks rest on, in messages.
@@ -55,7 +55,7 @@ pub(crate) fn over(
         walk.enter(stmt.skip);
         let still = goes_nowhere(walk, &stmt);
         walk.step(&stmt);
-        if still && !std::mem::replace(&mut state.told, true) {
+        if still && !std::mem::replace(&mut state.reported, true) {
             let (parameter, value) = (WITHOUT_WAY.into(), "looked over".into());
             diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
         }

@@ -110,7 +110,7 @@ impl<'a> Inliner<'a> {
                 Op::Return if called => {
                     if stmt.skip != skip {
                         let what = "a return that can be skipped, written out".into();
-                        self.diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                        self.diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                     }
                     made.leave_out(stmt);
                     return;
@@ -124,7 +124,7 @@ impl<'a> Inliner<'a> {
                 }
                 Op::Goto(_) | Op::Label(_) if called => {
                     let what = "a subprogram with jumps, written out".into();
-                    self.diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    self.diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                     made.leave_out(stmt);
                 }
                 op => {
@@ -180,7 +180,7 @@ impl<'a> Inliner<'a> {
             if made.out.len().max(self.calls) > MOST_STATEMENTS && !self.full {
                 self.full = true;
                 let what = "calls that are too long to be written out".into();
-                self.refuse(Fault::CannotSay { what }, span);
+                self.refuse(Fault::TargetLacks { what }, span);
             }
             if self.full {
                 break;
@@ -198,7 +198,7 @@ impl<'a> Inliner<'a> {
 pub(crate) fn also_skipped(stmt: &mut Stmt, skip: Option<u8>) -> Result<(), Fault> {
     match (stmt.skip, skip) {
         (Some(a), Some(b)) if a != b => {
-            Err(Fault::CannotSay { what: "a block under two block-skip levels".into() })
+            Err(Fault::TargetLacks { what: "a block under two block-skip levels".into() })
         }
         _ => {
             stmt.skip = stmt.skip.or(skip);

@@ -242,7 +242,7 @@ fn flatten(
 }
 
 fn cannot(what: &str, span: Span, diags: &mut Vec<Diagnostic>) {
-    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
 }
 
 /// Says repetitions of a body by labels: the body once, and its blocks again.
@@ -332,7 +332,7 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         };
         let Some(times) = times.and_then(|n| u32::try_from(n).ok()) else {
             let what = "a computed repetition".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
             return made.push(stmt);
         };
         diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
@@ -340,7 +340,7 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         bodies(&mut inner, diags);
         if inner.len().saturating_mul(times as usize) > MOST_STATEMENTS {
             let what = "a repetition that is too long to be written out".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
             return made.push(stmt);
         }
         made.leave_out(stmt);

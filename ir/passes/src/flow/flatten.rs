@@ -138,7 +138,7 @@ fn straight(
         walk.step(&stmt);
         if out.len() >= most || target.tried_upto.is_some_and(|most| runner.steps() > u64::from(most)) {
             let what = "more blocks than a program may grow to".into();
-            return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            return Err(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
         }
         out.push(stmt);
         if over {
@@ -236,7 +236,7 @@ fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnosti
 fn no_switch(body: &[Stmt]) -> Result<(), Diagnostic> {
     for stmt in body {
         if stmt.skip.is_some() && matches!(stmt.op, flow!() | variables!()) {
-            return Err(Diagnostic::new(Fault::CannotSay { what: SWITCHED.into() }, stmt.span));
+            return Err(Diagnostic::new(Fault::TargetLacks { what: SWITCHED.into() }, stmt.span));
         }
         let Op::Control(control) = &stmt.op else { continue };
         for body in control.bodies() {

@@ -61,7 +61,7 @@ fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<
         let at = procedure.body.first().map_or(Span::default(), |s| s.span);
         let Some(number) = free.next() else {
             let what = format!("a subprogram called {}", procedure.name).into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, at));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, at));
             continue;
         };
         let name: Text = number.to_string().into();

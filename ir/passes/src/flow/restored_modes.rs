@@ -47,12 +47,12 @@ pub fn run(program: &mut Program, entry: &Tracker, word: &str, diags: &mut Vec<D
 }
 
 /// Tells which attributes a target does not say that are advice.
-pub fn left_out(program: &Program, there: &Caps) -> Vec<Diagnostic> {
-    let says = there.flow.computes.as_ref().is_some_and(|computes| computes.has(Said::Attributes));
-    let mut told = Vec::new();
+pub fn left_out(program: &Program, target: &Caps) -> Vec<Diagnostic> {
+    let says = target.flow.computes.as_ref().is_some_and(|computes| computes.has(Said::Attributes));
+    let mut reported = Vec::new();
     for procedure in program.procedures.iter().filter(|_| !says) {
         let at = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
-        told.extend(procedure.attributes.iter().filter_map(|attribute| {
+        reported.extend(procedure.attributes.iter().filter_map(|attribute| {
             let kind = match attribute {
                 Attribute::GivesBack => return None,
                 Attribute::RunsThrough => "single-blocks",
@@ -61,7 +61,7 @@ pub fn left_out(program: &Program, there: &Caps) -> Vec<Diagnostic> {
             Some(Diagnostic::new(Fault::AdviceLeftOut { kind: kind.into() }, at))
         }));
     }
-    told
+    reported
 }
 
 fn refused(word: &str, name: String, span: Span) -> Diagnostic {

@@ -27,7 +27,7 @@ pub(crate) const PASS: Pass = Pass {
 /// Levels that were reported: bit n is level n.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SkipLevelsState {
-    told: u16,
+    reported: u16,
 }
 
 /// Makes the levels one, or refuses them.
@@ -47,13 +47,13 @@ pub(crate) fn over(
     for stmt in body {
         let Some(level) = stmt.skip.filter(|l| *l > highest) else { continue };
         let bit = 1u16 << level.min(15);
-        if state.told & bit == 0 {
-            state.told |= bit;
+        if state.reported & bit == 0 {
+            state.reported |= bit;
             let fault = match highest {
-                0 => Fault::CannotSay { what: "a block that can be skipped".into() },
+                0 => Fault::TargetLacks { what: "a block that can be skipped".into() },
                 1 => Fault::SkipLevelLost { level },
                 // Which of the target's switches is free is not known before the program's end.
-                _ => Fault::CannotSay { what: "a tenth block-skip switch".into() },
+                _ => Fault::TargetLacks { what: "a tenth block-skip switch".into() },
             };
             diags.push(Diagnostic::new(fault, stmt.span));
         }

@@ -507,7 +507,7 @@ impl Way<'_> {
         let raw = walk.at.raw;
         let (op, skipped) = (&mut stmt.op, stmt.skip.is_some());
         if self.state.pending.any() && !raw && self.absolute(op, walk) == Err(()) {
-            self.diags.push(Diagnostic::new(Fault::CannotSay { what: REFUSED.into() }, stmt.span));
+            self.diags.push(Diagnostic::new(Fault::TargetLacks { what: REFUSED.into() }, stmt.span));
         }
         let axes = changes(op, walk.at.modes.plane, &self.state.pending.rotated);
         let Some(axes) = axes.filter(|_| !self.same_offset(op, walk)) else {

@@ -77,7 +77,7 @@ impl MachineMovesState {
         let word = words_of(&stmt.op).and_then(|to| to.get(Axis::Z))?;
         let takes_up = self.put_off.is_some() && self.cancelled;
         (takes_up && !is_absolute(word, walk.at.modes.distance))
-            .then(|| Diagnostic::new(Fault::CannotSay { what: FROM_MACHINE.into() }, stmt.span))
+            .then(|| Diagnostic::new(Fault::TargetLacks { what: FROM_MACHINE.into() }, stmt.span))
     }
 
     /// Whether something waits for the statements that come.
@@ -146,11 +146,11 @@ fn take(
                 (true, _) => "a probing move away from a contact",
                 (false, _) => "a probing move of this kind",
             };
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         Op::Detour(Detour::OneSide) if !caps.moves.detours[Detour::OneSide as usize] => {
             let what = "positioning from one side: how far beyond is the machine's".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
         }
         Op::Detour(Detour::Intermediate) if !caps.moves.detours[Detour::Intermediate as usize] => {
             walk.step(&stmt);
@@ -205,7 +205,7 @@ fn take(
         }
         Op::Position(_) if state.motion_lost => {
             let what = "a position by the caller's motion, behind a return to a point of the machine".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
         }
         Op::UseToolLengthOffset(_)
         | Op::UseToolLength(_)
@@ -220,7 +220,7 @@ fn take(
             if let Some(span) = state.lost.take() {
                 let what = "a return to a point of the machine behind which Z moves by a length that is not \
                             said anew";
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
             }
         }
         _ => {}
@@ -304,7 +304,7 @@ fn cut(
             diags.push(Diagnostic::new(Fault::MachineCutExpanded { offset }, stmt.span));
             stmt.op = Op::StraightFeed(to);
         }
-        Err(what) => diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span)),
+        Err(what) => diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span)),
     }
     let (joined, number) = (machine.joined, machine.number);
     let off = !length && puts_off(with_z, in_force, state, stmt.span);
@@ -333,7 +333,7 @@ fn in_other_form(
     let none = in_force == Some(0) || state.put_off.is_some();
     if with_z && length && !none {
         let what = "a move in machine coordinates that is measured with the tool's length";
-        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, machine.span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, machine.span));
     }
     if !length && puts_off(with_z, in_force, state, machine.span) {
         let mut off = Stmt::new(machine.span, Op::UseToolLengthOffset(Expr::int(0)));
@@ -369,7 +369,7 @@ fn by_intermediate(
 ) -> Stmt {
     let Some(points) = walk.at.intermediate(&to.to) else {
         let what = "a return by an intermediate point that is not known here".into();
-        diags.push(Diagnostic::new(Fault::CannotSay { what }, detour.span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what }, detour.span));
         return rest;
     };
     let mut via = Point::default();
@@ -396,7 +396,7 @@ fn by_machine_zero(
     diags: &mut Vec<Diagnostic>,
 ) {
     let mut cannot = |what: &str| {
-        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
     };
     if reference.point != ReferencePoint::Home {
         cannot(match reference.point {

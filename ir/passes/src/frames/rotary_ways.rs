@@ -66,7 +66,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
                     Some((from, to)) if to.abs_diff(from) < HALF => continue,
                     Some(_) => "a rotary axis that goes a stated way by half a turn or more",
                 };
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, said.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, said.span));
             }
         }
         walk.step(&stmt);

@@ -35,7 +35,7 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct WorkOffsetState {
     /// The work offset that the target's own one stands for.
     pub(crate) only: Option<u16>,
-    told: bool,
+    reported: bool,
     /// The work offset in force, if the target cannot name it and nothing has moved in it, and where the
     /// program says it.
     idle: Option<(u16, Span)>,
@@ -104,7 +104,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
 }
 
 fn cannot_name(offset: u16, span: Span) -> Diagnostic {
-    Diagnostic::new(Fault::CannotSay { what: format!("work offset {offset}").into() }, span)
+    Diagnostic::new(Fault::TargetLacks { what: format!("work offset {offset}").into() }, span)
 }
 
 /// Takes the work offsets out, or refuses them.
@@ -146,9 +146,9 @@ pub(crate) fn over(
             Some(first) if first != number => {
                 diags.push(Diagnostic::new(Fault::SecondWorkOffset { first, second: number }, stmt.span));
             }
-            _ if !state.told => {
+            _ if !state.reported => {
                 diags.push(Diagnostic::new(Fault::AssumedWorkOffset { offset: number }, stmt.span));
-                state.told = true;
+                state.reported = true;
                 state.only = Some(number);
             }
             _ => {}

@@ -93,7 +93,7 @@ pub(crate) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnost
                     Some(Distance::Incremental) => incremental_point(m, &before),
                     None => {
                         let what = "a hole placed otherwise than the planes of its cycle";
-                        Err(Fault::CannotSay { what: what.into() })
+                        Err(Fault::TargetLacks { what: what.into() })
                     }
                 }
             }

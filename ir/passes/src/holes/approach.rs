@@ -113,7 +113,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             )
         {
             let what = "another zero under a cycle that goes another way to its holes";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, body[i].span));
         }
         another_length = chained && by_height && other_way && (another_length || body[i].op.calls_length());
         if another_length
@@ -121,7 +121,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             && matches!(body[i].op, Op::Position(_) | Op::Hole(_) | Op::Pattern(_))
         {
             let what = "a hole on whose way a length is taken up";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, body[i].span));
         }
         if let Op::StartCycle(cycle) = &body[i].op {
             another_length = false;

@@ -212,7 +212,7 @@ impl ExpandCyclesState {
             self.expanding = false;
             return made.push(stmt);
         }
-        told(&stmt, target, diags);
+        reported(&stmt, target, diags);
         self.expanding = true;
         if stmt.skip.is_some() || feed.is_none() {
             self.pay(&mut stmt, made);
@@ -250,9 +250,9 @@ impl ExpandCyclesState {
         for to in holes {
             let moved = match &inner.at.cycle {
                 Some(in_force) => hole(&inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
-                None => {
-                    Err(Fault::CannotSay { what: "a cycle called up in a block that can be skipped".into() })
-                }
+                None => Err(Fault::TargetLacks {
+                    what: "a cycle called up in a block that can be skipped".into(),
+                }),
             };
             if let Err(fault) = moved {
                 diags.push(Diagnostic::new(fault, stmt.span));
@@ -285,7 +285,7 @@ fn bores_out(kind: &CycleKind) -> bool {
     matches!(kind, CycleKind::Bore { feed_out: Some(_), .. })
 }
 
-fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
+fn reported(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     let Op::StartCycle(cycle) = &stmt.op else { return };
     diags.push(Diagnostic::new(Fault::CycleExpanded { kind: cycle.kind.name().into() }, stmt.span));
     let (parameter, value) = match &cycle.kind {
@@ -422,7 +422,7 @@ pub(crate) fn hole(
     if !stated && bores_out(&cycle.kind) {
         // Nothing says to which feed to go back.
         let what = "boring with another feed on the way out, under a feed that the cycle does not state";
-        return Err(Fault::CannotSay { what: what.into() });
+        return Err(Fault::TargetLacks { what: what.into() });
     }
     if let Some(feed) = feed {
         moves.push((false, Op::SetFeedRate(feed.clone())));

@@ -19,7 +19,7 @@ use ncc_ir::program::{Op, Point};
 use ncc_ir::track::InForce;
 
 /// Most pecks of one hole; more is a slip of the pen.
-const MOST_PECKS: i64 = 100_000;
+const MAX_PECKS: i64 = 100_000;
 
 /// Whether a control that returns to where the tool stood before the block, and not before the series, comes to the
 /// same level.
@@ -56,7 +56,7 @@ pub(super) fn pecks(
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
     let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
         Some(nanos) => Ok(nanos),
-        None => Err(Fault::CannotSay { what: what.into() }),
+        None => Err(Fault::TargetLacks { what: what.into() }),
     };
     let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
     let (peck, first, less, pause, between) = match &in_force.cycle.kind {
@@ -96,7 +96,7 @@ pub(super) fn pecks(
     };
     let less = less.as_ref().map(length).transpose()?;
     let grows = less.is_some_and(|less| less < 0 || first < peck);
-    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MOST_PECKS {
+    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MAX_PECKS {
         return Err(Fault::OutOfRange { word: "depth of a peck".into() });
     }
     let unit = unit_of(normal, walk.unit());

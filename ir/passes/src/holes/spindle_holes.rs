@@ -99,7 +99,7 @@ impl Driven<'_> {
             Some(spindle) => Ok(turn_it(spindle)),
             None => {
                 let what = "a cycle after which the spindle turns as before, which is not known";
-                Err(Fault::CannotSay { what: what.into() })
+                Err(Fault::TargetLacks { what: what.into() })
             }
         }
     }
@@ -145,7 +145,7 @@ impl Driven<'_> {
                 true => format!("the cycle {} in this form", self.in_force.cycle.kind.name()),
                 false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
             };
-            return Err(Fault::CannotSay { what: what.into() });
+            return Err(Fault::TargetLacks { what: what.into() });
         }
         moves.push((false, in_step(tap, self.depth, tap.turn)));
         dwell(&tap.dwell, moves);
@@ -154,7 +154,7 @@ impl Driven<'_> {
             dwell(&tap.back, moves);
         } else if tap.back.as_ref().is_some_and(lasts) {
             let what = "a rigid tap that dwells when the spindle has turned round".into();
-            return Err(Fault::CannotSay { what });
+            return Err(Fault::TargetLacks { what });
         }
         let (end, out) = match self.out {
             Some(out) if tap.to_level => (out, None),
@@ -186,7 +186,7 @@ impl Driven<'_> {
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             let Some(by) = &by[axis as usize] else { continue };
             let (Some(by), Expr::Num(num)) = (self.walk.at.nanos(by), by) else {
-                return Err(Fault::CannotSay { what: "a computed shift".into() });
+                return Err(Fault::TargetLacks { what: "a computed shift".into() });
             };
             if by == 0 {
                 continue;
@@ -283,7 +283,7 @@ fn off_the_wall(shift: &Shift, plane: Plane, target: &Target) -> Result<[Option<
         Shift::Stated(words) => Ok(words.clone()),
         Shift::Parameter(amount) => {
             let what = "fine boring whose direction of shift is a parameter of the control";
-            let cannot = || Fault::CannotSay { what: what.into() };
+            let cannot = || Fault::TargetLacks { what: what.into() };
             let (direction, amount) = target.bore_shift.zip(amount.literal()).ok_or_else(cannot)?;
             let (first, second, _) = plane.axes();
             let along = if direction.second { second } else { first };

@@ -59,7 +59,7 @@ pub(crate) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &m
         };
         if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
             *clearance = Clearance::Stated(in_unit(value, walk.at.modes.units, target).into());
-            diags.push(Diagnostic::new(told(parameter, value), stmt.span));
+            diags.push(Diagnostic::new(reported(parameter, value), stmt.span));
         }
     }
 }
@@ -73,7 +73,7 @@ fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
 }
 
 /// What is told of a parameter that was taken for granted.
-pub(crate) fn told(parameter: &str, value: Num) -> Fault {
+pub(crate) fn reported(parameter: &str, value: Num) -> Fault {
     let nanos = value.nanos(false).unwrap_or(0);
     Fault::AssumedParameter {
         parameter: parameter.into(),

@@ -310,7 +310,7 @@ impl Region<'_> {
         if own.shared.states.ask(TapsState::has_lost_feed)
             && let Some(last) = before.last()
         {
-            found.push(Diagnostic::new(Fault::CannotSay { what: taps::LOST.into() }, last.span));
+            found.push(Diagnostic::new(Fault::TargetLacks { what: taps::LOST.into() }, last.span));
         }
         own.finish(stmts, &mut found);
         // It may stand in the block of what came before it.

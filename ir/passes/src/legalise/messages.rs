@@ -98,7 +98,7 @@ pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
     bodies.for_each(|body| written(body, &mut opens, &mut line, &mut value));
     let unopened = line.filter(|_| opened && !opens).map(|at| {
         let what = "text for a device that the program does not open".into();
-        Diagnostic::new(Fault::CannotSay { what }, at)
+        Diagnostic::new(Fault::TargetLacks { what }, at)
     });
     let digits = value.map(|at| {
         let parameter = "a value that is written to a device".into();

@@ -43,7 +43,7 @@ fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<
             }
         }
         let mut cannot = |what: &str| {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         };
         match &stmt.op {
             Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot("a helix"),

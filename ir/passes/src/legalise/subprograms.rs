@@ -97,15 +97,15 @@ impl Legaliser {
     /// Subprograms get what their callers have in force, and those alone are written out that take a cycle from
     /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
-        let (mut given, mut told) = (rest.clone(), Vec::new());
-        self.on_program(ProgramMoment::Calls, &mut given, Subprograms::Specialise, &mut told);
+        let (mut given, mut reported) = (rest.clone(), Vec::new());
+        self.on_program(ProgramMoment::Calls, &mut given, Subprograms::Specialise, &mut reported);
         let subs = given.procedures.iter().skip(1);
         let mut names: BTreeSet<Text> = match self.calls_under_expanded(&given) {
             true => subs.clone().filter(|sub| takes_cycle(&sub.body)).map(|sub| sub.name.clone()).collect(),
             false => BTreeSet::new(),
         };
         loop {
-            let (mut own, mut program, mut found) = (self.clone(), given.clone(), told.clone());
+            let (mut own, mut program, mut found) = (self.clone(), given.clone(), reported.clone());
             own.on_program(ProgramMoment::Calls, &mut program, Subprograms::ExpandNamed(&names), &mut found);
             if program.procedures.len() < 2 || self.calls_under_expanded(&program) {
                 return false;
@@ -174,9 +174,9 @@ impl Legaliser {
             return;
         }
         let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
-        let fault = || Fault::CannotSay { what: "a cycle that a subprogram leaves in force".into() };
+        let fault = || Fault::TargetLacks { what: "a cycle that a subprogram leaves in force".into() };
         diags.extend(left.map(|at| Diagnostic::new(fault(), at)));
-        let fault = || Fault::CannotSay { what: "a subprogram that ends a cycle of its caller".into() };
+        let fault = || Fault::TargetLacks { what: "a subprogram that ends a cycle of its caller".into() };
         diags.extend(ends_callers_cycle(program).into_iter().map(|at| Diagnostic::new(fault(), at)));
     }
 

@@ -126,7 +126,7 @@ impl Converter<'_> {
             }
             Op::SetFeedRate(feed) => self.loose(feed)?,
             Op::SetSpindleMode(SpindleMode::Surface) => {
-                return Err(Fault::CannotSay { what: "a surface speed in other units".into() });
+                return Err(Fault::TargetLacks { what: "a surface speed in other units".into() });
             }
             // Where the corner ends follows from it.
             Op::Corner { size, .. } => self.whole(size)?,
@@ -216,7 +216,7 @@ impl Converter<'_> {
     /// A number that may be rounded to the target's digits.
     fn loose(&self, value: &mut Expr) -> Result<(), Fault> {
         let Some(num) = value.literal() else {
-            return Err(Fault::CannotSay { what: "a computed value in another unit".into() });
+            return Err(Fault::TargetLacks { what: "a computed value in another unit".into() });
         };
         let num = self.known(num)?;
         let is_length = matches!(num.unit, Unit::Mm | Unit::Inch);
@@ -243,7 +243,7 @@ impl Converter<'_> {
             (Some(a), Some(b)) if a == b => Ok(()),
             _ => {
                 let what = "a pitch, a peck, a shift or a corner that is not exact in inches".into();
-                Err(Fault::CannotSay { what })
+                Err(Fault::TargetLacks { what })
             }
         }
     }

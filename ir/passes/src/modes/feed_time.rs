@@ -70,7 +70,7 @@ pub(crate) struct FeedTimeState {
     /// The tool's tip is controlled.
     tip: bool,
     /// Whether it was told that moves are written by time.
-    told: bool,
+    reported: bool,
     /// Control comes from elsewhere before the next statement.
     enters: bool,
 }
@@ -165,26 +165,26 @@ pub(crate) fn over(
                 match line(&m.to, &before, target) {
                     Ok(None) => state.back(&mut stmt, &before, target, made),
                     Ok(Some(time)) => {
-                        if !std::mem::replace(&mut state.told, true) {
+                        if !std::mem::replace(&mut state.reported, true) {
                             diags.push(Diagnostic::new(Fault::FeedByTime, stmt.span));
                         }
                         state.by_time(&mut stmt, &before, time, target, made);
                     }
                     Err(what) => {
-                        let fault = Fault::CannotSay { what: what.into() };
+                        let fault = Fault::TargetLacks { what: what.into() };
                         diags.push(Diagnostic::new(fault, stmt.span));
                     }
                 }
             }
             Op::Position(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
                 let what = "a feed of linear and rotary axes together that may be a rapid".into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
             Op::ArcFeed(arc) if before.modes.feed_mode == Some(FeedMode::InverseTime) => {
                 if arcs_differ(target)
                     && let Err(what) = arc_by_time(arc, &before, target, made)
                 {
-                    let fault = Fault::CannotSay { what: what.into() };
+                    let fault = Fault::TargetLacks { what: what.into() };
                     diags.push(Diagnostic::new(fault, stmt.span));
                 }
             }

@@ -182,7 +182,7 @@ pub(crate) fn before_control(
         return None;
     }
     let (Some(feed), Some(units)) = (state.feed, at.modes.units) else {
-        return Some(Err(Diagnostic::new(Fault::CannotSay { what: ENDED.into() }, control.span)));
+        return Some(Err(Diagnostic::new(Fault::TargetLacks { what: ENDED.into() }, control.span)));
     };
     let feed = in_unit(feed, units, target).unwrap_or(feed);
     Some(Ok(Stmt::new(control.span, Op::SetFeedRate(feed.into()))))
@@ -230,14 +230,14 @@ pub(crate) fn again(
         };
         let again = state.stale || state.ended;
         if cuts && state.ended && (state.feed.is_none() || walk.at.modes.units.is_none()) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: ENDED.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: ENDED.into() }, stmt.span));
             state.ended = false;
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
         let by_feed = cuts && !matches!(stmt.op.unwrapped(), Op::SynchronisedFeed(_));
         if (by_feed || may_cut) && std::mem::take(&mut state.lost) || may_cut && state.stale {
             let what = "a feed that is not known here and holds after a change of units";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         if let (true, true, Some(feed), Some(units)) = (cuts, again, state.feed, walk.at.modes.units) {
             if state.stale {

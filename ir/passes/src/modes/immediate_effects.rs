@@ -66,7 +66,7 @@ impl ImmediateEffectsState {
     fn refuse_length(&mut self, span: Span, diags: &mut Vec<Diagnostic>) {
         self.length = false;
         let what = "a tool-length offset with no absolute Z before this".into();
-        diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
     }
 }
 
@@ -106,7 +106,7 @@ fn over_one(
         Op::Position(m) => {
             if std::mem::take(&mut state.motion) {
                 let what = "axis words that move as the caller does, behind the end of a cycle".into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
             names(&m.to, stmt, walk, state, diags);
         }
@@ -121,7 +121,7 @@ fn over_one(
             if state.start && (from_level || back_to_level) {
                 state.start = false;
                 let what = "a level for holes from where the tool stands before any absolute Z".into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
         }
         // A block that may be skipped leaves it open whether the motion is over.

@@ -41,7 +41,7 @@ pub(crate) struct PathControlState {
     /// has been made.
     again: Option<(PathControl, bool)>,
     /// What was told, a bit each: kinds of advice, then modes.
-    told: u64,
+    reported: u64,
 }
 
 impl PathControlState {
@@ -56,8 +56,8 @@ impl PathControlState {
     }
 
     fn first_time(&mut self, bit: u32) -> bool {
-        let fresh = self.told >> bit & 1 == 0;
-        self.told |= 1 << bit;
+        let fresh = self.reported >> bit & 1 == 0;
+        self.reported |= 1 << bit;
         fresh
     }
 }
@@ -118,7 +118,7 @@ pub(crate) fn over(
                     }
                     _ => {
                         let what = "an exact stop of one move, where the mode before it is not known".into();
-                        diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                        diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                         made.leave_out(stmt);
                     }
                 }

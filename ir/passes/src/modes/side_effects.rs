@@ -417,7 +417,7 @@ impl SideEffects {
         if self.beside && (!off.is_empty() || again && stands_alone(made, stmt)) {
             // With the block that switches, two still blocks stand in a row: the corner is each control's own.
             self.again = [None, None];
-            let fault = Fault::CannotSay { what: STOP_BESIDE.into() };
+            let fault = Fault::TargetLacks { what: STOP_BESIDE.into() };
             return diags.push(Diagnostic::new(fault, stmt.span));
         }
         self.stopped_in_words |=
@@ -444,8 +444,8 @@ impl SideEffects {
             if !self.source.does(behaviour) || self.target.surely(behaviour) {
                 continue;
             }
-            let told = |d: &Diagnostic| d.fault == Fault::SideEffectWritten { behaviour };
-            if !diags.iter().any(|d| d.span == stmt.span && told(d)) {
+            let reported = |d: &Diagnostic| d.fault == Fault::SideEffectWritten { behaviour };
+            if !diags.iter().any(|d| d.span == stmt.span && reported(d)) {
                 diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
             }
             new.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::ClearFrame(slot)) });

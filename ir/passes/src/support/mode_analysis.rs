@@ -112,9 +112,9 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
 
 /// Puts modes back that are known where their codes were saved, and answers what a target of these capabilities cannot be
 /// asked for and is known; nothing else. `entry` is what holds where the program begins.
-pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
+pub fn put_back(program: &mut Program, entry: &Tracker, target: &Computes) {
     let mut flow = Flow::new(program, Held { at: entry.clone(), ..Held::default() });
-    flow.there = Some(there);
+    flow.target = Some(target);
     flow.until_settled(program);
 }
 

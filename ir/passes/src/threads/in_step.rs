@@ -151,7 +151,7 @@ pub(crate) fn over(
             if !remark {
                 if state.way_out.take().is_some() {
                     let what = "a rigid thread with something else before its way back";
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
                 }
                 if let Err(fault) = give_back(state, &mut stmt, made) {
                     diags.push(Diagnostic::new(fault, span));
@@ -315,14 +315,14 @@ impl ThreadsState {
         if self.way_out.take().is_some() {
             let what = "a rigid thread without its way back".into();
             let span = body.last().map(|stmt| stmt.span).unwrap_or_default();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
         }
         (self.owed, self.lost) = (None, false);
     }
 }
 
 fn cannot<T>(what: &str) -> Result<T, Fault> {
-    Err(Fault::CannotSay { what: what.into() })
+    Err(Fault::TargetLacks { what: what.into() })
 }
 
 /// One move in the target's words.

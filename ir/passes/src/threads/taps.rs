@@ -196,13 +196,13 @@ pub(crate) fn over(
             || state.by_minute && matches!(stmt.op, Op::SetFeedMode(_) | Op::UseLengthUnits(_));
         if ends && state.changed && stmt.skip.is_some() || relies {
             let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         if let Some(what) = turned(&stmt, state) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         if state.goes_lost(&stmt) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: LOST.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: LOST.into() }, stmt.span));
         }
         state.clockwise &= !ends;
         let mut after = Vec::new();
@@ -243,7 +243,7 @@ pub(crate) fn over(
             match fit(cycle, walk, state, target) {
                 Ok(Some(feed)) if stmt.skip.is_some() => {
                     let what = "a tapping cycle in a block that can be skipped".into();
-                    diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                     let _ = feed;
                 }
                 Ok(feed) => before = feed.flatten(),
@@ -407,7 +407,7 @@ fn start(tap: &Tap) -> Op {
 }
 
 fn unknown(what: &str) -> Fault {
-    Fault::CannotSay { what: format!("a tapping cycle of which {what} is not known").into() }
+    Fault::TargetLacks { what: format!("a tapping cycle of which {what} is not known").into() }
 }
 
 fn in_unit(num: Num, walk: &Walk) -> Result<(Nanos, Unit), Fault> {

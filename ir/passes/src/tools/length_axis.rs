@@ -75,7 +75,7 @@ impl LengthAxisState {
             walk.step(stmt);
             if found && !(self.at_call && walk.at.modes.length_offset == Some(0)) {
                 let what = "a tool's length in another plane than XY".into();
-                return diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                return diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
         }
     }

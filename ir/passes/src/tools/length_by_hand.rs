@@ -40,7 +40,7 @@ pub(crate) struct LengthByHandState {
     /// Whether a length that the program states itself may be in force.
     stated: bool,
     /// Tools of which the operator's work has been told.
-    told: Vec<u32>,
+    reported: Vec<u32>,
     /// A refusal stands, so that no further one follows from it.
     refused: bool,
 }
@@ -94,8 +94,8 @@ impl LengthByHandState {
             (Some(0), _) => {}
             (Some(entry), Some(tool)) if entry == tool => {
                 let tool = tool as u32;
-                if !self.told.contains(&tool) {
-                    self.told.push(tool);
+                if !self.reported.contains(&tool) {
+                    self.reported.push(tool);
                     diags.push(Diagnostic::new(Fault::LengthByHand { tool }, stmt.span));
                 }
             }
@@ -125,7 +125,7 @@ impl LengthByHandState {
 
     fn refuse(&mut self, what: String, stmt: &Stmt, diags: &mut Vec<Diagnostic>) {
         if !std::mem::replace(&mut self.refused, true) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
     }
 }

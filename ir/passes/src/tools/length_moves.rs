@@ -67,7 +67,7 @@ impl LengthMovesState {
                 let fault = match self.write(&mut block, called, &walk) {
                     Ok(true) => Some(Fault::SideEffectWritten { behaviour: Behaviour::LengthWithoutAxis }),
                     Ok(false) => None,
-                    Err(what) => Some(Fault::CannotSay { what: what.into() }),
+                    Err(what) => Some(Fault::TargetLacks { what: what.into() }),
                 };
                 diags.extend(fault.map(|fault| Diagnostic::new(fault, at)));
             }

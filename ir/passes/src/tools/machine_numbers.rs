@@ -75,7 +75,7 @@ pub struct Renumbering {
     /// What was put in: kind, the source's number or name, the target's.
     used: BTreeSet<(Numbered, Text, Text)>,
     /// What was refused.
-    told: BTreeSet<(Numbered, u32)>,
+    reported: BTreeSet<(Numbered, u32)>,
 }
 
 impl Renumbering {
@@ -326,7 +326,7 @@ impl Renumbering {
                 Numbered::WorkOffset => "a computed work offset, where work offsets go by name",
                 Numbered::Program => "a computed call, where programs go by name",
             };
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, at));
             return;
         };
         if let Some(new) = self.put(what, number, at, diags).filter(|new| *new != number) {
@@ -358,8 +358,8 @@ impl Renumbering {
     /// Refuses a number, once.
     fn refuse(&mut self, what: Numbered, number: u32, at: Span, diags: &mut Vec<Diagnostic>) {
         // The tool with the number of an entry has been refused: so is its length.
-        let with_tool = what == Numbered::LengthEntry && self.told.contains(&(Numbered::Tool, number));
-        if self.told.insert((what, number)) && !with_tool {
+        let with_tool = what == Numbered::LengthEntry && self.reported.contains(&(Numbered::Tool, number));
+        if self.reported.insert((what, number)) && !with_tool {
             let name = self.maps.unmatched.get(&(what, number)).cloned();
             diags.push(Diagnostic::new(Fault::NotInMap { what, number, name }, at));
         }

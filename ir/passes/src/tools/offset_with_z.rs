@@ -49,7 +49,7 @@ struct Waiting {
     /// Number of its block.
     block: u64,
     /// It has been reported.
-    told: bool,
+    reported: bool,
     /// Whether it is in force already: where no move along Z comes, nothing is lost without it.
     in_force: bool,
 }
@@ -140,7 +140,7 @@ pub(crate) fn over(
                     span: stmt.span,
                     skip: stmt.skip,
                     block: state.block,
-                    told: false,
+                    reported: false,
                     in_force,
                 });
                 made.leave_out(stmt);
@@ -197,7 +197,7 @@ fn leaves(op: &Op) -> bool {
 
 fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
     let what = "a tool-length offset without a block that commands Z".into();
-    diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+    diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
 }
 
 /// Puts a waiting offset into the block of the statement that takes it up.
@@ -208,9 +208,9 @@ fn take_up(stmt: Stmt, state: &mut OffsetWithZState, made: &mut Rebuild, diags: 
     }
     let mut offset = waiting.clone().into_stmt();
     offset.skip = stmt.skip;
-    if !waiting.told && waiting.block != state.block {
+    if !waiting.reported && waiting.block != state.block {
         diags.push(Diagnostic::new(Fault::AssumedOffsetWithZ, waiting.span));
-        waiting.told = true;
+        waiting.reported = true;
     }
     // A block that may be skipped takes it up only then: the next one has to say it again.
     if stmt.skip == waiting.skip {

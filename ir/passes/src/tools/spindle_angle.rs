@@ -52,7 +52,7 @@ pub(crate) fn over(
         if angle.is_none() && !target.caps.moves.own_stop {
             let Some(own) = target.orientation else {
                 let what = "a stop of the spindle at the control's own angle".into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                 continue;
             };
             *angle = Some(Expr::Num(own));

@@ -45,7 +45,7 @@ pub(crate) struct ToolAxisState {
     /// The work offset that was said already, before the word that it stands behind in the source.
     offset: Option<u16>,
     /// Whether each was told.
-    told: [bool; 2],
+    reported: [bool; 2],
 }
 
 /// Whether something is in force.
@@ -134,7 +134,7 @@ impl ToolAxisState {
         if needless && !on {
             self.tip.leave_out();
         }
-        if on && target.other_control && !std::mem::replace(&mut self.told[0], true) {
+        if on && target.other_control && !std::mem::replace(&mut self.reported[0], true) {
             diags.push(Diagnostic::new(Fault::AssumedTip, stmt.span));
         }
         self.tip.set(if on { Now::On } else { Now::Off }, stmt.skip.is_some());
@@ -174,7 +174,7 @@ impl ToolAxisState {
             }
         };
         self.tilt.set(Now::On, stmt.skip.is_some());
-        if target.other_control && !std::mem::replace(&mut self.told[1], true) {
+        if target.other_control && !std::mem::replace(&mut self.reported[1], true) {
             diags.push(Diagnostic::new(Fault::AssumedTilt, stmt.span));
         }
         let set = Op::SetSlot(Box::new(Slot::Tilt(Box::new(said))));
@@ -232,14 +232,14 @@ pub(crate) fn over(
         let before = walk.at.modes;
         walk.step(&stmt);
         let mut refuse = |what: &str| {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
         };
         let skipped = stmt.skip.is_some();
         match &stmt.op {
             Op::UseToolCentrePoint(_) => {
                 let behind = said_behind.get(place).copied().unwrap_or_default();
                 if let Err(what) = state.switch_tip(stmt, behind, &before, target, made, diags) {
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
                 }
             }
             Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
@@ -266,7 +266,7 @@ pub(crate) fn over(
             Op::SetSlot(_) => {
                 let oriented = oriented.get(place).copied().flatten();
                 if let Err(what) = state.set_tilt(stmt, oriented, target, made, diags) {
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
                 }
             }
             Op::ClearFrame(FrameSlot::Tilt) => {

@@ -64,7 +64,7 @@ impl ToolChangeState {
                 Op::EndCycle | moves!() => self.cycle &= !sure,
                 Op::ChangeTool if up && self.cycle => {
                     let what = "a tool change while a canned cycle is active";
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
                 }
                 _ => {}
             }
@@ -96,7 +96,7 @@ impl ToolChangeState {
 
 fn goes_on(at: Span) -> Diagnostic {
     let what = "a spindle that goes on turning when the tool is changed";
-    Diagnostic::new(Fault::CannotSay { what: what.into() }, at)
+    Diagnostic::new(Fault::TargetLacks { what: what.into() }, at)
 }
 
 /// Whether a statement cuts nothing, and goes nowhere but rapidly.

@@ -38,7 +38,7 @@ pub(crate) const PASS: Pass = Pass {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ToolEdgeState {
     /// Tools of which the assumption has been told.
-    told: Vec<u32>,
+    reported: Vec<u32>,
     /// A tool change, or the edge that comes with it, after which Z has not been commanded.
     waiting: Option<Waiting>,
 }
@@ -87,8 +87,8 @@ impl ToolEdgeState {
     }
 
     fn tell(&mut self, tool: u32, span: Span, diags: &mut Vec<Diagnostic>) {
-        if !self.told.contains(&tool) {
-            self.told.push(tool);
+        if !self.reported.contains(&tool) {
+            self.reported.push(tool);
             diags.push(Diagnostic::new(Fault::AssumedEdge { tool }, span));
         }
     }
@@ -136,7 +136,7 @@ fn tool(walk: &Walk) -> Option<u32> {
 }
 
 fn cannot(what: String) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }
 
 /// One statement for a control with a table.

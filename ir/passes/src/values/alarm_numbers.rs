@@ -29,12 +29,12 @@ pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<
         true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
         false => &[NO_SUCH_CODE],
     };
-    let mut told: Vec<(String, Span)> = Vec::new();
+    let mut reported: Vec<(String, Span)> = Vec::new();
     for procedure in &mut program.procedures {
-        body(&mut procedure.body, alarms, own, &mut told);
+        body(&mut procedure.body, alarms, own, &mut reported);
     }
-    if let Some((_, at)) = told.first() {
-        let all: Vec<&str> = told.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
+    if let Some((_, at)) = reported.first() {
+        let all: Vec<&str> = reported.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
         let map = all.join(", ").into();
         diags.push(Diagnostic::new(Fault::AlarmsRenumbered { map }, *at));
     }
@@ -62,7 +62,7 @@ fn characters(stmts: &mut [Stmt], alarms: &Alarms, diags: &mut Vec<Diagnostic>) 
     }
 }
 
-fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], told: &mut Vec<(String, Span)>) {
+fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], reported: &mut Vec<(String, Span)>) {
     for stmt in stmts {
         match &mut stmt.op {
             Op::Alarm(alarm) => {
@@ -78,13 +78,13 @@ fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], told: &mut Vec<(Strin
                     if other.number.is_some() && other.text.chars().count() < alarm.text.chars().count() {
                         what.push_str(&format!(" with the text {:?}", &*other.text));
                     }
-                    if !told.iter().any(|(known, _)| *known == what) {
-                        told.push((what, stmt.span));
+                    if !reported.iter().any(|(known, _)| *known == what) {
+                        reported.push((what, stmt.span));
                     }
                     **alarm = other;
                 }
             }
-            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, own, told)),
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, own, reported)),
             _ => {}
         }
     }

@@ -46,7 +46,7 @@ pub fn run(program: &mut Program, computes: &Computes, own: Option<Num>, diags: 
 /// Tells once what is taken for granted.
 fn tell(what: &str, how: &str, at: Span, diags: &mut Vec<Diagnostic>) {
     let fault = Fault::AssumedParameter { parameter: what.into(), value: how.into() };
-    if !diags.iter().any(|told| told.fault == fault) {
+    if !diags.iter().any(|reported| reported.fault == fault) {
         diags.push(Diagnostic::new(fault, at));
     }
 }

@@ -76,22 +76,22 @@ pub(crate) fn worth(value: &Expr, known: &Modes) -> Option<i64> {
 }
 
 /// Puts the answers into an expression that the target cannot say.
-pub(crate) fn put_in(value: &mut Expr, known: &Modes, there: &Computes) {
-    let asks = |part: &Node| matches!(part, Node::Var(Var::System(asked)) if !there.system.contains(asked));
+pub(crate) fn put_in(value: &mut Expr, known: &Modes, target: &Computes) {
+    let asks = |part: &Node| matches!(part, Node::Var(Var::System(asked)) if !target.system.contains(asked));
     if !value.has(&asks) {
         return;
     }
     let mut answered = value.clone();
-    if fill(&mut answered, known, Some(there)) {
+    if fill(&mut answered, known, Some(target)) {
         *value = answered;
     }
 }
 
 /// `false` where one of them is not known. Sums of products of what is whole are worked out.
-fn fill(value: &mut Expr, known: &Modes, there: Option<&Computes>) -> bool {
+fn fill(value: &mut Expr, known: &Modes, target: Option<&Computes>) -> bool {
     let Expr::Node(node) = value else { return true };
     if let Node::Var(Var::System(asked)) = &**node {
-        if there.is_some_and(|there| there.system.contains(asked)) {
+        if target.is_some_and(|target| target.system.contains(asked)) {
             return true;
         }
         let Some(worth) = answer(asked, known) else { return false };
@@ -100,7 +100,7 @@ fn fill(value: &mut Expr, known: &Modes, there: Option<&Computes>) -> bool {
     }
     let mut all = true;
     for part in value.parts_mut() {
-        all &= fill(part, known, there);
+        all &= fill(part, known, target);
     }
     if let Expr::Node(node) = value
         && let Node::Binary(operator @ (Binary::Add | Binary::Multiply), Expr::Num(a), Expr::Num(b)) = &**node

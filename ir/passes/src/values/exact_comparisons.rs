@@ -25,17 +25,17 @@ pub fn run(program: &mut Program, computes: &Computes, diags: &mut Vec<Diagnosti
     if computes.near || computes.equal_within.is_some() {
         return;
     }
-    let mut told = None;
+    let mut reported = None;
     for procedure in &mut program.procedures {
         expressions(&mut procedure.body, &mut |stmt, value| {
             let mut found = false;
             over(value, &mut found);
             if found {
-                told.get_or_insert(stmt.span);
+                reported.get_or_insert(stmt.span);
             }
         });
     }
-    if let Some(at) = told {
+    if let Some(at) = reported {
         let parameter = "numbers that are compared".into();
         let value = "the same, or further apart than the control's tolerance".into();
         diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));

@@ -56,7 +56,7 @@ pub fn run(
     if !own || computes.handed != Handed::Names {
         references::copied(program);
     }
-    let vacant = Vacant { there: computes.vacant, here: from.vacant };
+    let vacant = Vacant { target: computes.vacant, source: from.vacant };
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
         && let Err(refused) = empty_variables::resolve(program, vacant, diags)

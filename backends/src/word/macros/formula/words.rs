@@ -11,7 +11,7 @@ use super::{LOOSEST, Spelling, rounding};
 use crate::common::Sink;
 use crate::common::codes::Letter;
 use crate::common::fault::cannot_compute;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::word::Writer;
 
 impl Writer {
@@ -109,7 +109,7 @@ impl Writer {
         value: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         let value = if letter.format.counts { self.spelling(None)?.whole(value) } else { value };
         let (said, inner) = rounding(value);
         let rounds = letter.format.rounds.filter(|_| self.dialect.formula.rounds);

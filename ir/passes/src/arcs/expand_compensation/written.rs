@@ -128,7 +128,7 @@ impl Written<'_> {
 
 pub(super) fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
     let what = format!("{what} under cutter radius compensation that is worked out");
-    Err(Diagnostic::new(Fault::CannotSay { what: what.into() }, span))
+    Err(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span))
 }
 
 pub(super) fn mm(nanos: Nanos) -> f64 {

@@ -207,8 +207,8 @@ impl Frames<'_> {
         };
         if is_change {
             match self.change(&stmt, &said) {
-                Ok((told, mut ops)) => {
-                    if told {
+                Ok((reported, mut ops)) => {
+                    if reported {
                         diags.push(Diagnostic::new(Fault::FramesExpanded, stmt.span));
                     }
                     // What an earlier program left is another's business.
@@ -370,13 +370,13 @@ impl Frames<'_> {
                 return Err(cannot("a frame that moves the drilling axis of the cycle in force"));
             }
         }
-        let told = sets && fresh && worked_in != Chain::NONE;
+        let reported = sets && fresh && worked_in != Chain::NONE;
         self.set.chain = worked_in;
         self.set.whole = new;
         self.set.slots = slots;
         self.arcs.step(stmt, &mut self.inner);
         self.inner.at.position = self.set.whole.unplace_known(&here);
-        Ok((told, ops))
+        Ok((reported, ops))
     }
 
     /// The statements that say the frames in the target's own form; `None` if it has none for them.

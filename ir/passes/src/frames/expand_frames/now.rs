@@ -52,5 +52,5 @@ pub(super) fn value_of(at: &Tracker, value: &Expr) -> Result<Nanos, Fault> {
 
 /// The target lacks this.
 pub(super) fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }

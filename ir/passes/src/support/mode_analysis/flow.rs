@@ -49,7 +49,7 @@ struct Ways {
 pub(super) struct Flow<'t> {
     names: HashMap<Text, usize>,
     /// What the target can say, where only saved codes and answers are put in.
-    pub(super) there: Option<&'t Computes>,
+    pub(super) target: Option<&'t Computes>,
     /// Those that give back what their callers had.
     pub(super) gives: Vec<bool>,
     ways: Vec<Ways>,
@@ -173,9 +173,9 @@ impl Flow<'_> {
             }
             Op::Goto(name) => {
                 if let Some(state) = &state {
-                    let mut there = self.ways[self.at].labels.remove(name);
-                    self.changed |= meet(&mut there, Some(state));
-                    self.ways[self.at].labels.extend(there.map(|there| (name.clone(), there)));
+                    let mut jumped = self.ways[self.at].labels.remove(name);
+                    self.changed |= meet(&mut jumped, Some(state));
+                    self.ways[self.at].labels.extend(jumped.map(|jumped| (name.clone(), jumped)));
                 }
                 None
             }
@@ -214,12 +214,12 @@ impl Flow<'_> {
             op => {
                 let reached = state.is_some();
                 let mut state = state.unwrap_or_else(|| self.text.clone());
-                if let Some(there) = self.there {
+                if let Some(target) = self.target {
                     if let Op::Assign(_, value) = op
                         && self.settles
                         && reached
                     {
-                        constant_queries::put_in(value, &state.at.modes, there);
+                        constant_queries::put_in(value, &state.at.modes, target);
                     }
                 } else if self.settles {
                     let hole = matches!(op, Op::Hole(_) | Op::Pattern(_)) && self.holes && !self.called;

@@ -34,10 +34,10 @@ pub use elsewhere::{Question, questions};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vacant {
     /// The target's does: only what must have a value is looked at.
-    pub(super) there: bool,
+    pub(super) target: bool,
     /// The source's does: the main program's own variables that it reads unset may have been given values, and may
     /// not, as a macro is called with arguments.
-    pub(super) here: bool,
+    pub(super) source: bool,
 }
 
 /// Decides what a program decides by whether variables have a value.
@@ -49,20 +49,20 @@ pub(super) fn resolve(
     vacant: Vacant,
     diags: &mut Vec<Diagnostic>,
 ) -> Result<(), Diagnostic> {
-    if vacant.there {
+    if vacant.target {
         return settled(program, vacant).map_err(|unsure| unsure.refused);
     }
     defaults::hand_over(program);
     let mut first = None;
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     loop {
         let Err(unsure) = settled(program, vacant) else {
-            diags.append(&mut told);
+            diags.append(&mut reported);
             return Ok(());
         };
         let refused = first.get_or_insert(unsure.refused);
         let Some(apart) = unsure.apart else { return Err(refused.clone()) };
-        told.extend(apart.told);
+        reported.extend(apart.reported);
         *program = apart.program;
     }
 }
@@ -80,11 +80,11 @@ struct Unsure {
 /// A variable that may or may not have a value where it is read.
 fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
     let before = program.clone();
-    let open = if vacant.here { free_variables(program) } else { Vec::new() };
+    let open = if vacant.source { free_variables(program) } else { Vec::new() };
     let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
     let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
     let mut entries = BTreeMap::from([(0, Known { vars, lost: false })]);
-    if vacant.here {
+    if vacant.source {
         // What no call of this program leads to, other programs call, with values or without.
         let theirs = not_called(program).into_iter();
         entries.extend(theirs.map(|at| (at, elsewhere::begins(&program.procedures[at]))));
@@ -101,7 +101,7 @@ fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
     let mut refused = BTreeMap::new();
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         let was = &before.procedures[at].body;
-        let mut settle = Settle { facts: &facts, vacant: vacant.there, decided: false };
+        let mut settle = Settle { facts: &facts, vacant: vacant.target, decided: false };
         match settle.body(was, std::mem::take(&mut procedure.body)) {
             Ok(body) => procedure.body = body,
             Err(fault) => drop(refused.insert(at, fault)),
@@ -111,7 +111,7 @@ fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
     if let Some((_, refused)) = refused.pop_first() {
         return Err(Box::new(Unsure { refused, apart: apart::by_arguments(&before, &facts, unsure) }));
     }
-    if !vacant.there {
+    if !vacant.target {
         let handed = |procedure: &Procedure, at: usize| -> Vec<bool> {
             let entry = entries.get(&at);
             let has = |var: &Var| entry.is_none_or(|entry| entry.of(&var.name()) != May::Nothing);

@@ -19,7 +19,7 @@
 //! Refused: a variable for which there is no room; variables of a caller that is itself called with its own; variables
 //! by computed numbers of which not all stay, or move by 100.
 
-mod told;
+mod reported;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 

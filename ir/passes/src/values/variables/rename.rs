@@ -28,8 +28,8 @@ pub(super) fn rename_variables(
     let own: Vec<bool> = (0..program.procedures.len()).map(|at| plan.has_own(at)).collect();
     let names: Vec<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
-        let told = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
-        let mut rename = Rename { plan: &plan, locals: plan.locals_of(at), told, refused: None };
+        let reported = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
+        let mut rename = Rename { plan: &plan, locals: plan.locals_of(at), reported, refused: None };
         rename.body(&mut procedure.body);
         if let Some(refused) = rename.refused {
             diags.push(refused);
@@ -58,7 +58,7 @@ pub(super) struct Rename<'p, 'c> {
     pub(super) plan: &'p Plan<'c>,
     pub(super) locals: &'p Map,
     /// Names that stand beside where they were first given a value.
-    pub(super) told: BTreeSet<Text>,
+    pub(super) reported: BTreeSet<Text>,
     pub(super) refused: Option<Diagnostic>,
 }
 
@@ -161,7 +161,7 @@ impl Rename<'_, '_> {
     /// Puts the name that a variable had beside where it is first given a value, if it is a number now.
     fn beside(&mut self, old: &Var, stmt: &mut Stmt) -> bool {
         let name = old.name();
-        if number_of(old, self.plan.from).is_some() || !self.told.insert(name.as_ref().into()) {
+        if number_of(old, self.plan.from).is_some() || !self.reported.insert(name.as_ref().into()) {
             return false;
         }
         let is_number = self.new_of(old).is_some_and(|new| number_of(new, self.plan.computes).is_some());

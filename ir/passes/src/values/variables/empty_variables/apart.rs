@@ -28,7 +28,7 @@ struct Given {
 /// A program with macros apart, and which were one.
 pub(super) struct Apart {
     pub(super) program: Program,
-    pub(super) told: Vec<Diagnostic>,
+    pub(super) reported: Vec<Diagnostic>,
 }
 
 /// The program with the macros apart that are `unsure` of a variable: nothing if none has calls that differ.
@@ -36,7 +36,7 @@ pub(super) fn by_arguments(program: &Program, facts: &Facts, mut unsure: Vec<usi
     let mut apart = program.clone();
     let mut names: BTreeSet<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
     names.extend(program.name.number.map(|n| n.to_string().into()));
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     let mut next = 0;
     while let Some(&at) = unsure.get(next) {
         next += 1;
@@ -76,8 +76,8 @@ pub(super) fn by_arguments(program: &Program, facts: &Facts, mut unsure: Vec<usi
             });
         }
         let head = program.procedures[at].body.first().map_or(Span::default(), |stmt| stmt.span);
-        let fault = Fault::MacroApart { name: (&*name).into(), names: own.join(", ").into() };
-        told.push(Diagnostic::new(fault, head));
+        let fault = Fault::MacroCloned { name: (&*name).into(), names: own.join(", ").into() };
+        reported.push(Diagnostic::new(fault, head));
         let copy = apart.procedures.iter().find(|p| p.name == name).cloned()?;
         for name in own.into_iter().skip(1) {
             let mut copy = copy.clone();
@@ -85,7 +85,8 @@ pub(super) fn by_arguments(program: &Program, facts: &Facts, mut unsure: Vec<usi
             apart.procedures.push(copy);
         }
     }
-    (!told.is_empty() && apart.procedures.len() <= MOST_PROGRAMS).then_some(Apart { program: apart, told })
+    (!reported.is_empty() && apart.procedures.len() <= MOST_PROGRAMS)
+        .then_some(Apart { program: apart, reported })
 }
 
 /// The calls of a procedure in the order of the text; nothing if it must stay one.

@@ -14,7 +14,7 @@ const MOST_TOLD: usize = 40;
 impl<'c> Plan<'c> {
     /// Tells which variables are called otherwise, once.
     pub(in crate::values::variables) fn tell(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
-        let mut told: Vec<String> = Vec::new();
+        let mut reported: Vec<String> = Vec::new();
         let (from, to) = (&self.from.mark, &self.computes.mark);
         let mut done: HashSet<(usize, &Var)> = HashSet::new();
         for (at, inventory) in self.inventories.iter().enumerate() {
@@ -33,17 +33,17 @@ impl<'c> Plan<'c> {
                 if other && done.insert((of, old)) {
                     let whose =
                         if of == 0 { String::new() } else { format!(" of {}", program.procedures[of].name) };
-                    told.push(format!("{from}{}{whose} is {to}{}", old.name(), new.name()));
+                    reported.push(format!("{from}{}{whose} is {to}{}", old.name(), new.name()));
                 }
             }
         }
-        if told.is_empty() {
+        if reported.is_empty() {
             return;
         }
-        let more = told.len().saturating_sub(MOST_TOLD);
-        told.truncate(MOST_TOLD);
+        let more = reported.len().saturating_sub(MOST_TOLD);
+        reported.truncate(MOST_TOLD);
         if more > 0 {
-            told.push(format!("and {more} more"));
+            reported.push(format!("and {more} more"));
         }
         let first = self
             .inventories
@@ -51,7 +51,7 @@ impl<'c> Plan<'c> {
             .flat_map(|inventory| &inventory.seen)
             .map(|seen| seen.at)
             .min_by_key(|at| at.start);
-        let map = told.join(", ").into();
+        let map = reported.join(", ").into();
         diags.push(Diagnostic::new(Fault::VariablesRenamed { map }, first.unwrap_or_default()));
     }
 }
