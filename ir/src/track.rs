@@ -369,7 +369,7 @@ impl Tracker {
                     let turns = turn.is_some();
                     self.lose(&std::array::from_fn(|axis| words[axis].is_some() || turns && axis < 2));
                 }
-                Data::ToolInSpindle(tool) => self.tool = tool.literal().and_then(|n| n.whole()),
+                Data::ToolInSpindle(tool) => self.tool = tool.literal().and_then(|n| n.whole_number()),
                 Data::Tool { entry, which, .. } if which.is_offset() => {
                     self.aside |= matches!(which, ToolValue::OffsetX | ToolValue::OffsetY);
                     self.change_entry(*entry);
@@ -382,7 +382,7 @@ impl Tracker {
             },
             Op::UseToolEdge { edge, .. } => {
                 self.move_aside();
-                let edge = edge.literal().and_then(|n| n.whole());
+                let edge = edge.literal().and_then(|n| n.whole_number());
                 self.modes.length_offset = match (edge, self.tool) {
                     (Some(0), _) | (Some(_), Some(0)) => Some(0),
                     // Edge 1 of a tool is the table's entry with its number.
@@ -397,7 +397,8 @@ impl Tracker {
             }
             Op::UseToolLengthOffset(entry) => {
                 self.move_aside();
-                let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+                let entry =
+                    entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;
             }
             Op::ChangeTool => {
@@ -407,7 +408,7 @@ impl Tracker {
                 }
             }
             Op::SelectToolByName(_) => self.selected = None,
-            Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
+            Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole_number()),
             // One of them does what it says, and nothing else.
             Op::Control(control) if computed_code(control).is_some_and(|code| is_about_entries(&code)) => {
                 let code = computed_code(control);

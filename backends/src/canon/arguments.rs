@@ -44,7 +44,7 @@ pub(super) fn literal(e: &Expr) -> Result<Num, Fault> {
 
 /// A whole number that is no less than zero.
 pub(super) fn count(e: &Expr, call: &str) -> Result<u64, Fault> {
-    let whole = literal(e)?.whole().and_then(|n| u64::try_from(n).ok());
+    let whole = literal(e)?.whole_number().and_then(|n| u64::try_from(n).ok());
     whole.ok_or(Fault::TargetRange { word: call.into() })
 }
 

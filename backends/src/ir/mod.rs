@@ -22,7 +22,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Stmt, Type};
 use ncc_ir::source::Span;
 
-use crate::common::quoted::{quote, whole};
+use crate::common::quoted::{quote, write_whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
 
@@ -119,7 +119,7 @@ impl Writer {
             out.extend_from_slice(b"program");
             if let Some(number) = head.name.number {
                 out.push(b' ');
-                whole(u64::from(number), out);
+                write_whole(u64::from(number), out);
             }
             if let Some(title) = &head.name.title {
                 out.push(b' ');
@@ -195,13 +195,13 @@ impl Writer {
         let inherited = if s.joined { self.skip } else { None };
         if s.skip != inherited {
             out.push(b'/');
-            whole(u64::from(s.skip.unwrap_or(0)), out);
+            write_whole(u64::from(s.skip.unwrap_or(0)), out);
             out.push(b' ');
         }
         self.skip = s.skip;
         if let Some(number) = s.number {
             out.push(b'N');
-            whole(u64::from(number), out);
+            write_whole(u64::from(number), out);
             out.push(b' ');
         }
         op::op(&s.op, out);

@@ -12,7 +12,7 @@ use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
 use super::polar::{polar_point, pole, rotary_ways};
 use super::words::{coord, further, name, plane, point, put, return_level, text_argument, turn};
-use crate::common::quoted::whole;
+use crate::common::quoted::write_whole;
 
 /// Writes what a statement does; of a control statement what stands before its body.
 pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
@@ -118,10 +118,10 @@ fn with_values(pieces: &[Piece], out: &mut Vec<u8>) {
                 expr(value, out);
                 if *places > 0 {
                     put(" places ", out);
-                    whole(u64::from(*places), out);
+                    write_whole(u64::from(*places), out);
                 }
                 put(" digits ", out);
-                whole(u64::from(*digits), out);
+                write_whole(u64::from(*digits), out);
                 put(if *short { " short" } else { "" }, out);
             }
         }
@@ -157,7 +157,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::SelectPlane(p) => put(plane(*p), out),
         Op::SetFeedMode(f) => put(feed_mode(*f), out),
         Op::SetReturnLevel(r) => put(return_level(*r), out),
-        Op::SetOriginOffsets(n) => whole(u64::from(*n), out),
+        Op::SetOriginOffsets(n) => write_whole(u64::from(*n), out),
         Op::ClearFrame(s) => put(slot(*s), out),
         Op::SetFrame(f) => frame(f, out),
         Op::SetSlot(s) => filled(s, out),
@@ -374,7 +374,7 @@ fn arc_form(a: &ArcForm, out: &mut Vec<u8>) {
     }
     if a.turns > 0 {
         put(", turns ", out);
-        whole(u64::from(a.turns), out);
+        write_whole(u64::from(a.turns), out);
     }
 }
 
@@ -382,7 +382,7 @@ fn call(c: &Call, out: &mut Vec<u8>) {
     name(&c.name, out);
     if c.times != 1 {
         put(", times ", out);
-        whole(u64::from(c.times), out);
+        write_whole(u64::from(c.times), out);
     }
     if c.shared {
         put(", shared", out);

@@ -312,7 +312,7 @@ impl Writer {
         }
         let opened = self.words.open(stmt, sink);
         let before = self.standing;
-        let tilt = tilt::of(rest);
+        let tilt = tilt::first_swivel(rest);
         let both = self.speed_and_feed(rest);
         let defined = variable::defined_together(rest);
         let said = match (tilt, both) {

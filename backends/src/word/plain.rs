@@ -83,14 +83,14 @@ impl Writer {
             (Numbering::Off, _, _) => {}
             (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
                 line[at] = letter as u8;
-                at = number::whole(line, at + 1, number);
+                at = number::write_digits(line, at + 1, number);
                 line[at] = b' ';
                 at += blanks;
             }
             (Numbering::Keep, _, None) => {}
             (Numbering::Every { first, step }, Some(letter), _) if next < 100_000_000 => {
                 line[at] = letter as u8;
-                at = number::whole(line, at + 1, next);
+                at = number::write_digits(line, at + 1, next);
                 line[at] = b' ';
                 at += blanks;
                 next = next.saturating_add(step);

@@ -185,7 +185,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let letters = self.dialect.repeat.letters().ok_or_else(|| cannot("a repetition of blocks"))?;
-        let times = repeat.times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let times = repeat.times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let times = times.ok_or_else(|| cannot("a computed repetition"))?;
         if times == 0 {
             return Ok(());

@@ -71,7 +71,7 @@ impl Writer {
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
             | Op::SetSpindleMode(SpindleMode::Turns)
-            | Op::StopCutterRadiusCompensation => match Setting::of(&stmt.op) {
+            | Op::StopCutterRadiusCompensation => match Setting::from_op(&stmt.op) {
                 Some(setting) => self.write_setting(setting, sink),
                 None => Err(cannot("clearing this frame")),
             },
@@ -480,7 +480,7 @@ impl Writer {
     /// The length of the tool in the spindle, whichever that is.
     fn own_length(&mut self, edge: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.length.filter(|_| self.codes.own_length && !self.tip);
-        let code = code.filter(|_| edge.literal().and_then(|n| n.whole()) == Some(1));
+        let code = code.filter(|_| edge.literal().and_then(|n| n.whole_number()) == Some(1));
         let code = code.ok_or_else(|| cannot("an edge of a tool"))?;
         self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
         self.block.code(Part::Offset, &code);

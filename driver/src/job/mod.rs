@@ -257,7 +257,7 @@ impl Job {
             known,
             radii: self.machines.from.as_ref().map(|machine| machine.tables().radii).unwrap_or_default(),
             listing: false,
-            arc_feed: ArcFeed::of(&self.source_behaviours()),
+            arc_feed: ArcFeed::from_behaviours(&self.source_behaviours()),
             feed_decimals: self.to.dialect.caps.modes.feed_decimals,
         }
     }

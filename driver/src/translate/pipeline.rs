@@ -172,7 +172,7 @@ impl Translation<'_> {
                 self.state_given(stmts);
                 let renumbers = self.renumbering.touches(stmts);
                 piece.there = self.taken_there(stmts, &assumed, found);
-                let lines = Lines::of(stmts);
+                let lines = Lines::from_statements(stmts);
                 piece.lines = lines;
                 let plain = lines.is_some_and(|lines| self.side_effects.passes(lines));
                 let switches = !plain && self.side_effects.touches(stmts);
@@ -203,7 +203,7 @@ impl Translation<'_> {
         match part {
             Part::Piece(Piece { stmts, lines, found, .. }) => {
                 if !lines.is_some_and(|lines| self.side_effects.passes(lines)) {
-                    self.side_effects.over(stmts, found);
+                    self.side_effects.write_effects(stmts, found);
                     ran("side-effects", stmts);
                 }
             }
@@ -296,7 +296,7 @@ impl Translation<'_> {
         match part {
             Part::Piece(Piece { stmts, original, found, .. }) => {
                 if original.is_some() {
-                    self.renumbering.over(stmts, found);
+                    self.renumbering.renumber(stmts, found);
                     ran("machine-numbers", stmts);
                 }
             }

@@ -321,8 +321,8 @@ impl Exec {
     }
 
     #[inline]
-    fn whole(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
-        match value.literal().and_then(|n| n.whole()) {
+    fn whole_number(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
+        match value.literal().and_then(|n| n.whole_number()) {
             Some(n) => Ok(n),
             None => self.fault(Fault::OutOfRange { word: "".into() }, span),
         }
@@ -512,7 +512,7 @@ impl Exec {
             Op::Polar(polar) => self.polar(polar, span, out)?,
             Op::SetSpindleSpeed(speed) => self.set_speed(speed, span, out)?,
             Op::SelectTool(tool) => {
-                let tool = self.whole(tool, span)?;
+                let tool = self.whole_number(tool, span)?;
                 self.select(tool);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
@@ -523,14 +523,14 @@ impl Exec {
             Op::ChangeTool => self.change_tool(span, out)?,
             Op::UseToolLength(length) => self.use_length(length, span)?,
             Op::UseToolLengthOffset(entry) => {
-                let entry = u32::try_from(self.whole(entry, span)?);
+                let entry = u32::try_from(self.whole_number(entry, span)?);
                 let Ok(entry) = entry else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
                 self.call_up_zeroed(Length::Entry(entry), span)?;
             }
             Op::UseToolEdge { edge, .. } => {
-                let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
+                let Ok(edge @ 0..=9) = u32::try_from(self.whole_number(edge, span)?) else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
                 self.call_up_zeroed(self.edge(edge), span)?;

@@ -163,13 +163,13 @@ impl Legaliser {
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
         self.shared.states.forget::<ImmediateEffectsState>();
-        self.shared.states.of::<OffsetWithZState>().stands_alone();
+        self.shared.states.state_mut::<OffsetWithZState>().stands_alone();
         self.nothing_before();
     }
 
     /// The program is called by another, which has given each axis a word after its last change of frame.
     pub fn nothing_before(&mut self) {
-        self.shared.states.of::<FrameIncrementsState>().stands_alone();
+        self.shared.states.state_mut::<FrameIncrementsState>().stands_alone();
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
@@ -199,7 +199,7 @@ impl Legaliser {
         diags: &mut Vec<Diagnostic>,
     ) {
         self.shared.walk.assume(assumed);
-        self.shared.states.of::<ExpandFramesState>().assume(assumed);
+        self.shared.states.state_mut::<ExpandFramesState>().assume(assumed);
         let lines = self.absolute(lines);
         // Nothing is mended on arrival, and no walk begins there.
         let nowhere = Walk::default();
@@ -263,14 +263,14 @@ impl Legaliser {
     /// Notes what cycles and threads behind a piece may rely on that has none itself.
     fn follow_cycles(&mut self, piece: &Piece) {
         let states = &mut self.shared.states;
-        states.of::<ThreadsState>().said = states.ask(|taps: &TapsState| taps.said);
+        states.state_mut::<ThreadsState>().said = states.ask(|taps: &TapsState| taps.said);
         if !piece.needs(CYCLE | THREAD) && self.shared.target.caps.moves.threads.turned {
-            let threads = states.of::<ThreadsState>();
+            let threads = states.state_mut::<ThreadsState>();
             piece.stmts.iter().for_each(|stmt| threads.note(stmt));
         }
         if !piece.needs(CYCLE) {
             // Feeds and speeds that a tap may rely on.
-            let taps = states.of::<TapsState>();
+            let taps = states.state_mut::<TapsState>();
             piece.stmts.iter().for_each(|stmt| taps.note(stmt));
         }
     }
@@ -279,13 +279,13 @@ impl Legaliser {
     fn follow_piece(&mut self, piece: &Piece) {
         let stmts = &*piece.stmts;
         if !piece.needs(MOVE) && self.shared.lacks & MOVE != 0 {
-            self.shared.states.of::<OneMoveState>().note(stmts);
+            self.shared.states.state_mut::<OneMoveState>().note(stmts);
         }
         if !piece.needs(FRAME) && self.shared.lacks & FRAME != 0 {
-            self.shared.states.of::<ExpandFramesState>().note(stmts);
+            self.shared.states.state_mut::<ExpandFramesState>().note(stmts);
         }
         if self.shared.measures && !self.shared.target.caps.arcs.forms && !piece.needs(ARC) {
-            arc_form::follow(stmts, &mut self.shared.walk, self.shared.states.of::<ArcFormState>());
+            arc_form::follow(stmts, &mut self.shared.walk, self.shared.states.state_mut::<ArcFormState>());
         } else if self.shared.follow {
             self.shared.walk.pass(stmts);
         }
@@ -401,7 +401,11 @@ impl Legaliser {
             self.shared.walk = piece.start.clone();
             if piece.needs(FRAME) && !piece.needs(ARC) {
                 self.shared.states.forget::<ArcFormState>();
-                arc_form::follow(piece.stmts, &mut self.shared.walk, self.shared.states.of::<ArcFormState>());
+                arc_form::follow(
+                    piece.stmts,
+                    &mut self.shared.walk,
+                    self.shared.states.state_mut::<ArcFormState>(),
+                );
             } else {
                 self.shared.walk.pass(piece.stmts);
             }
@@ -411,11 +415,11 @@ impl Legaliser {
 
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        self.shared.states.of::<ExpandCornersState>().flush(stmts, diags);
-        self.shared.states.of::<OffsetWithZState>().flush(stmts, diags);
-        self.shared.states.of::<OneMoveState>().flush(stmts);
-        self.shared.states.of::<ThreadsState>().finish(stmts, diags);
-        self.shared.states.of::<ToolChangeState>().finish(diags);
-        self.shared.states.of::<ToolEdgeState>().finish(diags);
+        self.shared.states.state_mut::<ExpandCornersState>().flush(stmts, diags);
+        self.shared.states.state_mut::<OffsetWithZState>().flush(stmts, diags);
+        self.shared.states.state_mut::<OneMoveState>().flush(stmts);
+        self.shared.states.state_mut::<ThreadsState>().finish(stmts, diags);
+        self.shared.states.state_mut::<ToolChangeState>().finish(diags);
+        self.shared.states.state_mut::<ToolEdgeState>().finish(diags);
     }
 }

@@ -11,7 +11,9 @@ pub fn may_fail(value: &Expr) -> bool {
         Expr::Num(_) => false,
         Expr::Node(node) => match &**node {
             Node::Binary(Binary::Divide | Binary::Modulo, _, by) => by.literal().is_none_or(|n| n.is_zero()),
-            Node::Binary(Binary::Power, _, by) => by.literal().and_then(|n| n.whole()).is_none_or(|n| n < 0),
+            Node::Binary(Binary::Power, _, by) => {
+                by.literal().and_then(|n| n.whole_number()).is_none_or(|n| n < 0)
+            }
             Node::Element(_) => true,
             Node::Call(function, of) => fails(*function, of),
             Node::Var(_) | Node::Vacant | Node::Unary(..) | Node::Binary(..) => false,

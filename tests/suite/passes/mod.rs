@@ -356,7 +356,7 @@ fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
         whole |= matches!(&stmt.op, Op::SynchronisedFeed(m) if !m.back);
         piece.push(stmt);
         if rest.peek().is_none_or(|next| !next.joined && !whole) {
-            let lines = Lines::of(&piece);
+            let lines = Lines::from_statements(&piece);
             legaliser.run(&mut piece, &before.assumed, lines, &mut diags);
             out.append(&mut piece);
         }

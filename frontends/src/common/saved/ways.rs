@@ -470,7 +470,7 @@ fn where_it(condition: &Expr, holds: bool, known: Known) -> Option<Known> {
     };
     // A condition that is worth nothing does not hold.
     if let (Binary::Equal | Binary::NotEqual, Expr::Node(inner), Some(0)) =
-        (operator, a, b.literal().and_then(|n| n.whole()))
+        (operator, a, b.literal().and_then(|n| n.whole_number()))
         && let Node::Binary(decision, ..) = &**inner
         && decision.decides()
     {

@@ -224,7 +224,7 @@ impl Lower {
                 self.not_supported(&src.text(place.span), what, place.span, out);
                 return None;
             };
-            match at.whole().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
+            match at.whole_number().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
                 Some(at) => found.push(at),
                 None => {
                     return self.refuse(Fault::OutOfRange { word: src.text(place.span) }, place.span, out);

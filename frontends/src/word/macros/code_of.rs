@@ -38,7 +38,7 @@ impl Lower {
         let Target::Var(var) = to else { return };
         let node = match value {
             Expr::Num(number) => {
-                let number = number.whole().filter(|_| !matches!(var, Var::System(_)));
+                let number = number.whole_number().filter(|_| !matches!(var, Var::System(_)));
                 self.computes.saved.numbers.extend(number.map(|number| (own, var.clone(), number)));
                 return;
             }

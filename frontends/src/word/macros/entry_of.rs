@@ -62,7 +62,7 @@ impl Number {
 /// An expression as such a number.
 fn number(e: &Expr) -> Option<Number> {
     let node = match e {
-        Expr::Num(n) => return Some(Number { of: None, times: 0, more: n.whole()? }),
+        Expr::Num(n) => return Some(Number { of: None, times: 0, more: n.whole_number()? }),
         Expr::Node(node) => node,
     };
     match &**node {

@@ -256,7 +256,7 @@ impl Exec {
         let sum = match length {
             ToolLength::Value(value) => Some(self.value(value, span)?),
             ToolLength::Added(value) => before.checked_add(self.value(value, span)?),
-            ToolLength::AddedEntry(entry) => match u32::try_from(self.whole(entry, span)?) {
+            ToolLength::AddedEntry(entry) => match u32::try_from(self.whole_number(entry, span)?) {
                 Ok(entry) => before.checked_add(self.world.tool_length(entry)),
                 Err(_) => None,
             },
@@ -268,7 +268,7 @@ impl Exec {
             },
         };
         if let ToolLength::AddedEntry(entry) = length
-            && let Ok(entry) = u32::try_from(self.whole(entry, span)?)
+            && let Ok(entry) = u32::try_from(self.whole_number(entry, span)?)
         {
             let [x, y] = self.world.tool_offsets(entry);
             self.use_aside([self.aside[0].wrapping_add(x), self.aside[1].wrapping_add(y)], span)?;

@@ -188,7 +188,7 @@ impl Exec {
         let none =
             || self.fault(Fault::NotExecuted { what: "compensation by a radius of no entry".into() }, span);
         let entry = match radius {
-            CutterRadius::Entry(entry) => match u32::try_from(self.whole(entry, span)?) {
+            CutterRadius::Entry(entry) => match u32::try_from(self.whole_number(entry, span)?) {
                 Ok(entry) => entry,
                 Err(_) => return self.fault(Fault::OutOfRange { word: "".into() }, span),
             },
@@ -335,7 +335,7 @@ impl Exec {
             let feed = match (self.state.advice & arc_feed::ADVICE) >> AdviceKind::CompensatedFeed.bits() {
                 0 => {
                     self.asked |= Behaviour::FeedOnArcs.bit();
-                    ArcFeed::of(&self.world.behaviours)
+                    ArcFeed::from_behaviours(&self.world.behaviours)
                 }
                 value => ArcFeed::stated(value as u8 - 1),
             };
@@ -410,12 +410,12 @@ impl Exec {
             Op::SynchronisedFeed(_) => Some("a thread under cutter radius compensation"),
             Op::ChangeTool => Some("a tool change under cutter radius compensation"),
             Op::UseToolLengthOffset(entry) => {
-                let entry = u32::try_from(self.whole(entry, span)?).unwrap_or(u32::MAX);
+                let entry = u32::try_from(self.whole_number(entry, span)?).unwrap_or(u32::MAX);
                 (length != Length::Entry(entry)).then_some("another length under cutter radius compensation")
             }
             Op::UseToolLength(_) => Some("another length under cutter radius compensation"),
             Op::UseToolEdge { edge, .. } => {
-                let edge = u32::try_from(self.whole(edge, span)?).unwrap_or(u32::MAX);
+                let edge = u32::try_from(self.whole_number(edge, span)?).unwrap_or(u32::MAX);
                 (length != self.edge(edge)).then_some("another edge under cutter radius compensation")
             }
             Op::SetData(data) => match **data {

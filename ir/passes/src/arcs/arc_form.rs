@@ -27,7 +27,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(ARC) && !l.target.caps.arcs.forms,
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ArcFormState>(), &l.target, p.diags),
+        |l, p| {
+            convert_arc_form(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ArcFormState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -51,11 +59,13 @@ enum Heading {
 
 /// Writes them by their centre.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut ArcFormState::default(), target, diags));
+    each_body(program, entry, |body, walk| {
+        convert_arc_form(body, walk, &mut ArcFormState::default(), target, diags)
+    });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_arc_form(
     body: &mut [Stmt],
     walk: &mut Walk,
     state: &mut ArcFormState,

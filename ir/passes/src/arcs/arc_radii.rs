@@ -31,7 +31,7 @@ pub(crate) enum Judged {
 
 /// Judges an arc by the target's rule, for the walk that stands before it. What the source's rule refuses is left to
 /// the source's execution.
-pub(crate) fn over(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
+pub(crate) fn judge_radii(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
     let Some(plane) = walk.at.plane(arc.plane) else { return Judged::Kept };
     let (first, second, _) = plane.axes();
     let unknown = |axis: Axis| walk.at.position[axis as usize].is_none();

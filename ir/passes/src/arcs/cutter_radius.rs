@@ -25,7 +25,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(RADIUS),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<CutterRadiusState>(), &l.target, p.diags),
+        |l, p| {
+            convert_radius(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<CutterRadiusState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -43,11 +51,11 @@ pub(crate) struct CutterRadiusState {
 /// Names radii as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = CutterRadiusState::default();
-    each_body(program, entry, |body, walk| over(body, walk, &mut state, target, diags));
+    each_body(program, entry, |body, walk| convert_radius(body, walk, &mut state, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_radius(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut CutterRadiusState,
@@ -93,7 +101,9 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRa
     let length = at.modes.length_offset.filter(|n| *n > 0);
     // Where the tables have it, as far as the program shows.
     let (entry, can) = match radius {
-        CutterRadius::Entry(entry) => (entry.literal().and_then(|n| n.whole()).and_then(number), radii.entry),
+        CutterRadius::Entry(entry) => {
+            (entry.literal().and_then(|n| n.whole_number()).and_then(number), radii.entry)
+        }
         CutterRadius::Tool => (tool, radii.tool),
         CutterRadius::InForce => (length, radii.in_force),
         CutterRadius::Diameter(_) => (None, radii.diameter),

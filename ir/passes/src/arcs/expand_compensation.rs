@@ -235,7 +235,7 @@ impl Expansion<'_> {
                 let radius = mm(at.nanos(diameter).ok_or(fault)?) / 2.0;
                 return Ok(contour(plane, side, radius, span));
             }
-            CutterRadius::Entry(n) => entry(n.literal().and_then(|n| n.whole())),
+            CutterRadius::Entry(n) => entry(n.literal().and_then(|n| n.whole_number())),
             CutterRadius::Tool => entry(at.tool),
             CutterRadius::InForce => at.modes.length_offset.filter(|n| *n > 0),
         };
@@ -452,7 +452,7 @@ impl Expansion<'_> {
                 let named = m.to.get(first).is_some() || m.to.get(second).is_some();
                 if named || self.how.rules.left_at_once {
                     let writer = Written { walk, decimals: self.decimals, plane };
-                    m.to = writer.whole(&m.to).map_err(|fault| Diagnostic::new(fault, span))?;
+                    m.to = writer.absolute_point(&m.to).map_err(|fault| Diagnostic::new(fault, span))?;
                     self.leaving = None;
                 }
             }

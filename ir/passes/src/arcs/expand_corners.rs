@@ -31,10 +31,10 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| {
             let (found, whole) = (p.diags.len(), p.needs(FRAME));
             let keep = if whole { Keep::None } else { Keep::Sayable };
-            over(
+            expand_corners(
                 p.stmts,
                 &mut p.start.clone(),
-                l.states.of::<ExpandCornersState>(),
+                l.states.state_mut::<ExpandCornersState>(),
                 &l.target,
                 keep,
                 p.diags,
@@ -86,7 +86,7 @@ fn cannot(what: &str) -> Fault {
 pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = ExpandCornersState::default();
-        over(body, walk, &mut state, target, Keep::Sayable, diags);
+        expand_corners(body, walk, &mut state, target, Keep::Sayable, diags);
         state.flush(body, diags);
     });
 }
@@ -124,7 +124,7 @@ struct Before {
 }
 
 /// The same for one piece of a body. What waits for its next move stays behind.
-pub(crate) fn over(
+pub(crate) fn expand_corners(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ExpandCornersState,

@@ -24,7 +24,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(ARC) && !l.target.caps.arcs.turns,
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| expand_turns(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -35,11 +35,16 @@ const MOST_TURNS: u32 = 10_000;
 
 /// Splits the arcs.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| expand_turns(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn expand_turns(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     rebuild(body, |stmt, made| {
         walk.enter(stmt.skip);
         let arcs = match &stmt.op {

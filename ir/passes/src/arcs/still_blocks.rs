@@ -26,7 +26,14 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, _| l.states.ask(|own: &StillBlocksState| own.looked_over),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<StillBlocksState>(), p.diags),
+        |l, p| {
+            drop_still_blocks(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<StillBlocksState>(),
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -45,7 +52,7 @@ pub(crate) struct StillBlocksState {
 const WITHOUT_WAY: &str = "block of a compensated contour that goes nowhere";
 
 /// Leaves them out.
-pub(crate) fn over(
+pub(crate) fn drop_still_blocks(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut StillBlocksState,

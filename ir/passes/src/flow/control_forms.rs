@@ -39,8 +39,8 @@ pub(crate) const PASS: Pass = Pass::parametric(
 
 /// Says a program's control in the target's forms.
 pub fn run(program: &mut Program, computes: &Computes) {
-    let mut taken = Names::of(program);
-    worked_out::over(program, computes, &mut taken);
+    let mut taken = Names::from_program(program);
+    worked_out::compute_missing_words(program, computes, &mut taken);
     let by_subprograms = AssignedVariables::by_subprograms(&program.procedures);
     let mut forms = Forms { computes, by_subprograms, taken, turning: Vec::new(), open: 0, split: false };
     for procedure in &mut program.procedures {
@@ -49,7 +49,7 @@ pub fn run(program: &mut Program, computes: &Computes) {
         }
         forms.taken.only_once(procedure);
         if !computes.has(Said::Jump) && computes.blocks && computes.has(Said::Leave) {
-            structures::over(procedure, &mut forms.taken, computes.opposite);
+            structures::structure_jumps(procedure, &mut forms.taken, computes.opposite);
         }
         let body = std::mem::take(&mut procedure.body);
         procedure.body = forms.body(body);

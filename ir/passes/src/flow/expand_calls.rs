@@ -27,7 +27,7 @@ pub(crate) const PASS: Pass = Pass {
         // The walk is needed again for the other passes.
         run: |l, p| match p.subprograms {
             Subprograms::ExpandNamed(names) => some(p.program, &mut l.walk.clone(), names, p.diags),
-            _ => over(p.program, &mut l.walk.clone(), p.diags),
+            _ => inline_subprograms(p.program, &mut l.walk.clone(), p.diags),
         },
     }],
     parametric: None,
@@ -35,11 +35,11 @@ pub(crate) const PASS: Pass = Pass {
 
 /// Writes the subprograms out; only the main procedure is left.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, &mut Walk::new(entry.clone()), diags);
+    inline_subprograms(program, &mut Walk::new(entry.clone()), diags);
 }
 
 /// The same, with a walk that stands before the main procedure.
-fn over(program: &mut Program, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+fn inline_subprograms(program: &mut Program, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     let names = program.procedures.iter().skip(1).map(|sub| sub.name.clone()).collect();
     some(program, walk, &names, diags);
 }

@@ -32,7 +32,11 @@ pub(crate) const PASS: Pass = Pass {
     name: "expand-repeats",
     about: "writes counted repetitions out",
     alone: Some(run),
-    step: Step::at(Moment::Placing, |_, p| p.needs(CONTROL), |l, p| over(p.stmts, &l.target, p.diags)),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(CONTROL),
+        |l, p| expand_repetitions(p.stmts, &l.target, p.diags),
+    ),
     program: &[
         ProgramStep {
             moment: ProgramMoment::Repetitions,
@@ -54,12 +58,12 @@ const DEEPEST: u32 = 64;
 /// Writes them out, or says them in the target's form.
 pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, target, diags);
+        expand_repetitions(&mut procedure.body, target, diags);
     }
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn expand_repetitions(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagnostic>) {
     let caps = &target.caps;
     if !caps.flow.repeats {
         if caps.flow.repeat_blocks {
@@ -98,7 +102,7 @@ pub(crate) fn repeats_blocks(program: &Program) -> bool {
 /// Writes every repetition out.
 fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, &Target::default(), diags);
+        expand_repetitions(&mut procedure.body, &Target::default(), diags);
     }
 }
 
@@ -213,7 +217,8 @@ fn flatten(
                     *full = true;
                     return;
                 }
-                let written = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+                let written =
+                    times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
                 if let (None, Some(times)) = (under, written) {
                     diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
                 }
@@ -250,7 +255,8 @@ fn by_labels(body: &mut Vec<Stmt>, known: &BTreeSet<Text>, last: &mut u32, diags
     rebuild(body, |mut stmt, made| {
         let Stmt { span, skip, .. } = stmt;
         let Some((times, mut inner)) = repeat_of(&mut stmt) else { return made.push(stmt) };
-        let Some(times) = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok()) else {
+        let Some(times) = times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
+        else {
             cannot("a computed repetition", span, diags);
             return made.push(stmt);
         };
@@ -319,7 +325,7 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         let Stmt { span, skip, .. } = stmt;
         let (times, inner) = match &stmt.op {
             Op::Control(control) => match &**control {
-                Control::Repeat { times, body } => (times.literal().and_then(|n| n.whole()), body),
+                Control::Repeat { times, body } => (times.literal().and_then(|n| n.whole_number()), body),
                 Control::Loop { .. }
                 | Control::While { .. }
                 | Control::Until { .. }

@@ -22,7 +22,7 @@ pub(crate) const PASS: Pass = Pass {
     program: &[ProgramStep {
         moment: ProgramMoment::Names,
         needed: |_, _| true,
-        run: |l, p| over(p.program, &l.target, p.known.is_some(), p.diags),
+        run: |l, p| number_subprograms(p.program, &l.target, p.known.is_some(), p.diags),
     }],
     parametric: None,
 };
@@ -32,11 +32,11 @@ const FIRST: u32 = 1001;
 
 /// Numbers them.
 pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, target, false, diags);
+    number_subprograms(program, target, false, diags);
 }
 
 /// The same; `computes` is whether calls have variables of their own.
-fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
+fn number_subprograms(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
     // No digits leave every name.
     let digits = target.caps.flow.call_digits;
     let fits = |name: &str| {

@@ -18,7 +18,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(SKIP),
-        |l, p| over(p.stmts, l.states.of::<SkipLevelsState>(), &l.target, p.diags),
+        |l, p| limit_skip_levels(p.stmts, l.states.state_mut::<SkipLevelsState>(), &l.target, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -33,11 +33,11 @@ pub(crate) struct SkipLevelsState {
 /// Makes the levels one, or refuses them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = SkipLevelsState::default();
-    each_body(program, entry, |body, _| over(body, &mut state, target, diags));
+    each_body(program, entry, |body, _| limit_skip_levels(body, &mut state, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn limit_skip_levels(
     body: &mut [Stmt],
     state: &mut SkipLevelsState,
     target: &Target,

@@ -25,7 +25,7 @@ pub(crate) const PASS: Pass = Pass {
     program: &[ProgramStep {
         moment: ProgramMoment::Calls,
         needed: |_, p| p.subprograms == Subprograms::Specialise,
-        run: |l, p| over(p.program, &l.walk, l.target.caps.flow.inherits_motion, p.diags),
+        run: |l, p| specialise_subprograms(p.program, &l.walk, l.target.caps.flow.inherits_motion, p.diags),
     }],
     parametric: None,
 };
@@ -35,13 +35,13 @@ const MOST_TURNS: u32 = 8;
 
 /// Settles the subprograms.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, &Walk::new(entry.clone()), false, diags);
+    specialise_subprograms(program, &Walk::new(entry.clone()), false, diags);
 }
 
 /// The same, with a walk that stands before the main procedure. With `inherits`, positions under a
 /// caller's cycle stay what they are: the target's subprograms take the cycle from their callers too,
 /// so that one serves under several.
-fn over(program: &mut Program, walk: &Walk, inherits: bool, diags: &mut Vec<Diagnostic>) {
+fn specialise_subprograms(program: &mut Program, walk: &Walk, inherits: bool, diags: &mut Vec<Diagnostic>) {
     let Some((main, subs)) = program.procedures.split_first() else { return };
     let mut names: BTreeSet<Text> = subs.iter().map(|p| p.name.clone()).collect();
     names.extend(program.name.number.map(|n| n.to_string().into()));

@@ -85,7 +85,7 @@ fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<(), Diagnost
     }
     if used.unsaid {
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
-            over(&mut procedure.body, &used, caps, Held::at_start(&used, at == 0))?;
+            state_frames(&mut procedure.body, &used, caps, Held::at_start(&used, at == 0))?;
         }
     }
     Ok(())
@@ -223,7 +223,7 @@ fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
 }
 
 /// `held` is what is in force where the body begins.
-fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Result<(), Diagnostic> {
+fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Result<(), Diagnostic> {
     if !body.iter().any(|stmt| is_frame(&stmt.op) || matches!(stmt.op, Op::Control(_))) {
         return Ok(());
     }
@@ -236,7 +236,7 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Resul
         if !is_frame(&stmt.op) {
             if let Op::Control(control) = &mut stmt.op {
                 held = held.across(control, used);
-                let within = |body: &mut Vec<Stmt>| over(body, used, caps, held.clone());
+                let within = |body: &mut Vec<Stmt>| state_frames(body, used, caps, held.clone());
                 refused = refused.take().or(control.bodies_mut().try_for_each(within).err());
             } else {
                 held.behind(&stmt.op, used);

@@ -36,10 +36,10 @@ pub(crate) const PASS: Pass = Pass {
             p.lines.is_none()
                 && l.states.ask(|own: &FrameIncrementsState| own.concerns(p.stmts, l.walk.at.modes.distance))
         },
-        run: |l, p| l.states.of::<FrameIncrementsState>().over(p.stmts, &l.walk, p.diags),
+        run: |l, p| l.states.state_mut::<FrameIncrementsState>().count_increments(p.stmts, &l.walk, p.diags),
         otherwise: |l, p| match p.lines {
-            Some(lines) => l.states.of::<FrameIncrementsState>().note_lines(lines),
-            None => l.states.of::<FrameIncrementsState>().note(p.stmts, &l.walk),
+            Some(lines) => l.states.state_mut::<FrameIncrementsState>().note_lines(lines),
+            None => l.states.state_mut::<FrameIncrementsState>().note(p.stmts, &l.walk),
         },
         first: None,
     }),
@@ -48,14 +48,16 @@ pub(crate) const PASS: Pass = Pass {
             moment: ProgramMoment::SourceIncrements,
             needed: |_, _| true,
             run: |l, p| {
-                let mut source = l.states.of::<FrameIncrementsState>().take_source();
-                source.whole(p.program, &l.walk.at, p.diags);
+                let mut source = l.states.state_mut::<FrameIncrementsState>().take_source();
+                source.count_program(p.program, &l.walk.at, p.diags);
             },
         },
         ProgramStep {
             moment: ProgramMoment::Increments,
             needed: |_, _| true,
-            run: |l, p| l.states.of::<FrameIncrementsState>().whole(p.program, &l.walk.at, p.diags),
+            run: |l, p| {
+                l.states.state_mut::<FrameIncrementsState>().count_program(p.program, &l.walk.at, p.diags)
+            },
         },
     ],
     parametric: None,
@@ -117,7 +119,7 @@ impl FrameIncrementsState {
     }
 
     /// Statements of a program that streams.
-    pub(crate) fn over(&mut self, stmts: &mut [Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn count_increments(&mut self, stmts: &mut [Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
         if !self.is_used() {
             return;
         }
@@ -165,7 +167,7 @@ impl FrameIncrementsState {
         if self.from && stmts.iter().any(changes) {
             // Where the program had put the axes before it counts.
             let mut own = stmts.to_vec();
-            return self.over(&mut own, start, &mut Vec::new());
+            return self.count_increments(&mut own, start, &mut Vec::new());
         }
         for stmt in stmts {
             note(&mut self.pending, &stmt.op, None, stmt.skip.is_some());
@@ -173,7 +175,7 @@ impl FrameIncrementsState {
     }
 
     /// A program that is kept whole, from its first statement that was not seen yet. It is done then.
-    pub fn whole(&mut self, program: &mut Program, start: &Tracker, diags: &mut Vec<Diagnostic>) {
+    pub fn count_program(&mut self, program: &mut Program, start: &Tracker, diags: &mut Vec<Diagnostic>) {
         if !self.is_used() {
             return;
         }

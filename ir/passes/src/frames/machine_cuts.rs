@@ -197,7 +197,7 @@ pub fn read(program: &mut Program, entry: &Tracker, caps: &Caps, diags: &mut Vec
     }
     let known = mode_analysis::run(&mut program.clone(), entry, false);
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, &known, diags);
+        settle_cuts(&mut procedure.body, &known, diags);
     }
 }
 
@@ -210,14 +210,14 @@ fn any(body: &[Stmt]) -> bool {
     })
 }
 
-fn over(body: &mut Vec<Stmt>, known: &Known, diags: &mut Vec<Diagnostic>) {
+fn settle_cuts(body: &mut Vec<Stmt>, known: &Known, diags: &mut Vec<Diagnostic>) {
     let mut at: Option<Tracker> = None;
     let mut out = Vec::with_capacity(body.len());
     for mut stmt in std::mem::take(body) {
         if matches!(stmt.op, flow!()) {
             at = None;
             if let Op::Control(control) = &mut stmt.op {
-                control.bodies_mut().for_each(|body| over(body, known, diags));
+                control.bodies_mut().for_each(|body| settle_cuts(body, known, diags));
             }
             out.push(stmt);
             continue;

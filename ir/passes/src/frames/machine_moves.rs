@@ -42,10 +42,16 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(MACHINE),
         |l, p| {
             let found = p.diags.len();
-            over(p.stmts, &mut p.start.clone(), l.states.of::<MachineMovesState>(), &l.target, p.diags);
+            expand_machine_moves(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<MachineMovesState>(),
+                &l.target,
+                p.diags,
+            );
             let cut = p.diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
             if let Some(at) = cut.map(|cut| cut.span) {
-                origin_shift::take(l.states.of::<origin_shift::OriginShiftState>(), at, p.diags);
+                origin_shift::take(l.states.state_mut::<origin_shift::OriginShiftState>(), at, p.diags);
             }
             p.needs |= l.lacks & (EDGE | TABLE | LENGTH);
         },
@@ -93,12 +99,12 @@ impl MachineMovesState {
 /// Brings the moves into the target's form.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, walk, &mut MachineMovesState::default(), target, diags)
+        expand_machine_moves(body, walk, &mut MachineMovesState::default(), target, diags)
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn expand_machine_moves(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut MachineMovesState,
@@ -119,7 +125,7 @@ pub(crate) fn over(
         take(stmt, walk, state, target, &mut made, diags);
     }
     *body = made.out;
-    around::over(body, before);
+    around::drop_distance_mode(body, before);
 }
 
 fn take(

@@ -24,7 +24,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(WORK),
-        |l, p| over(p.stmts, l.states.of::<WorkOffsetState>(), p.assumed, &l.target, p.diags),
+        |l, p| {
+            select_work_offset(
+                p.stmts,
+                l.states.state_mut::<WorkOffsetState>(),
+                p.assumed,
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -111,11 +119,11 @@ fn cannot_name(offset: u16, span: Span) -> Diagnostic {
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = WorkOffsetState::default();
     let assumed = entry.modes;
-    each_body(program, entry, |body, _| over(body, &mut state, &assumed, target, diags));
+    each_body(program, entry, |body, _| select_work_offset(body, &mut state, &assumed, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn select_work_offset(
     body: &mut Vec<Stmt>,
     state: &mut WorkOffsetState,
     assumed: &Modes,

@@ -23,7 +23,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(CYCLE) && !l.target.caps.holes.incremental,
-        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+        |_, p| state_positions(p.stmts, &mut p.start.clone(), p.diags),
     ),
     program: &[],
     parametric: None,
@@ -45,11 +45,11 @@ pub(crate) const ALIKE: Pass = Pass {
 
 /// Makes them absolute.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, diags));
+    each_body(program, entry, |body, walk| state_positions(body, walk, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn state_positions(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     for stmt in body {
         walk.enter(stmt.skip);
         let before = walk.clone();

@@ -27,7 +27,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| convert_approach(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -84,11 +84,16 @@ pub(crate) fn length_decides(walk: &Walk, own: Approach, way: Approach) -> bool 
 
 /// Writes out first legs that the target would make in another order.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| convert_approach(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn convert_approach(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     let Some(way) = target.caps.holes.approach else { return };
     let mut i = 0;
     let in_force = walk.at.cycle.as_ref();

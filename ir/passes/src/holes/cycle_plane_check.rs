@@ -26,14 +26,14 @@ pub(crate) const PASS: Pass = Pass::parametric(
 /// how far one plane is above the other.
 pub fn run(program: &mut Program, alarm: i64, decimals: u8) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, alarm, decimals);
+        drop_plane_checks(&mut procedure.body, alarm, decimals);
     }
 }
 
-fn over(body: &mut Vec<Stmt>, alarm: i64, decimals: u8) {
+fn drop_plane_checks(body: &mut Vec<Stmt>, alarm: i64, decimals: u8) {
     for stmt in body.iter_mut() {
         if let Op::Control(control) = &mut stmt.op {
-            control.bodies_mut().for_each(|body| over(body, alarm, decimals));
+            control.bodies_mut().for_each(|body| drop_plane_checks(body, alarm, decimals));
         }
     }
     let mut at = 0;
@@ -52,7 +52,7 @@ fn is_made_by(check: &Stmt, rest: &[Stmt], alarm: i64, decimals: u8) -> bool {
     let Op::Control(control) = &check.op else { return false };
     let Control::If { condition, then, otherwise } = &**control else { return false };
     let [Stmt { op: Op::Alarm(given), .. }] = &then[..] else { return false };
-    let number = given.number.as_ref().and_then(Expr::literal).and_then(Num::whole);
+    let number = given.number.as_ref().and_then(Expr::literal).and_then(Num::whole_number);
     let mut of_block = rest.iter().take_while(|stmt| stmt.joined && stmt.skip == check.skip);
     // A rigid tap's speed is said before its call.
     let call = of_block.find(|stmt| !matches!(stmt.op, Op::SetSpindleSpeed(_)));

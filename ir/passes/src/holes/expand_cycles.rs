@@ -45,7 +45,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandCyclesState>(), &l.target, p.diags),
+        |l, p| {
+            expand_cycles(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ExpandCyclesState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -71,7 +79,7 @@ struct Owed {
 
 /// Expands the cycles that the target cannot say, and their patterns.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut Default::default(), target, diags));
+    each_body(program, entry, |body, walk| expand_cycles(body, walk, &mut Default::default(), target, diags));
 }
 
 impl ExpandCyclesState {
@@ -82,7 +90,7 @@ impl ExpandCyclesState {
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn expand_cycles(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ExpandCyclesState,

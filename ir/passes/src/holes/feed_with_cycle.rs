@@ -18,12 +18,12 @@ pub(crate) const PASS: Pass =
 /// Moves the feeds.
 pub fn run(program: &mut Program, _: &Target, _: &Tracker, _: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body);
+        join_feed(&mut procedure.body);
     }
 }
 
 /// The same for one body.
-fn over(body: &mut Vec<Stmt>) {
+fn join_feed(body: &mut Vec<Stmt>) {
     let mut moved: Option<Expr> = None;
     let takes: Vec<bool> = (0..body.len()).map(|at| is_taken(&body[at..])).collect();
     let mut takes = takes.into_iter();

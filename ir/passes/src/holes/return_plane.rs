@@ -31,7 +31,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| convert_return_plane(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -39,11 +39,16 @@ pub(crate) const PASS: Pass = Pass {
 
 /// Puts one in the other's place, as the target has it.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| convert_return_plane(body, walk, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn convert_return_plane(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     match target.caps.holes.returns {
         ReturnsTo::Plane => by_planes(body, walk),
         ReturnsTo::Level => by_levels(body, walk, target, diags),
@@ -307,8 +312,8 @@ fn level_is_free(body: &[Stmt]) -> bool {
 /// what the program says; for a decision before the passes run.
 pub(crate) fn mends(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
     let (mut trial, mut diags) = (body.to_vec(), Vec::new());
-    over(&mut trial, &mut walk.clone(), target, &mut diags);
+    convert_return_plane(&mut trial, &mut walk.clone(), target, &mut diags);
     let mut state = expand_cycles::ExpandCyclesState::default();
-    expand_cycles::over(&mut trial, &mut walk.clone(), &mut state, target, &mut diags);
+    expand_cycles::expand_cycles(&mut trial, &mut walk.clone(), &mut state, target, &mut diags);
     diags.is_empty()
 }

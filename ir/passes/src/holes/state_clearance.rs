@@ -23,7 +23,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, p.start.clone(), &l.target, p.diags),
+        |l, p| state_clearance(p.stmts, p.start.clone(), &l.target, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -31,11 +31,16 @@ pub(crate) const PASS: Pass = Pass {
 
 /// States them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk.clone(), target, diags));
+    each_body(program, entry, |body, walk| state_clearance(body, walk.clone(), target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn state_clearance(
+    body: &mut [Stmt],
+    mut walk: Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     for stmt in body {
         walk.enter(stmt.skip);
         walk.step(stmt);

@@ -90,8 +90,14 @@ impl Legaliser {
                 _ => None,
             };
             let inherits = has_positions(&procedure.body);
-            let mut region =
-                Region { fresh: &fresh, known, inherits, levels, diags, shift: *self.shared.states.of() };
+            let mut region = Region {
+                fresh: &fresh,
+                known,
+                inherits,
+                levels,
+                diags,
+                shift: *self.shared.states.state_mut(),
+            };
             region.body(&mut procedure.body, start);
             self.shared.states.put(region.shift);
         }
@@ -100,7 +106,7 @@ impl Legaliser {
     /// The feed that has to be said again before a statement of control.
     fn feed_before(&mut self, control: &Stmt, behind: &[Stmt]) -> Option<Result<Stmt, Diagnostic>> {
         let Shared { states, walk, target, .. } = &mut self.shared;
-        feed_unit::before_control(states.of(), &walk.at, target, control, behind)
+        feed_unit::before_control(states.state_mut(), &walk.at, target, control, behind)
     }
 
     /// The same legaliser where nothing is known of what was before but this.
@@ -114,7 +120,7 @@ impl Legaliser {
             (self.shared.source_arcs, self.shared.feed_again, self.shared.times_differ);
         own.shared.walk = crate::legalise::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.shared.walk.at.z_lost_at_change = self.shared.walk.at.z_lost_at_change;
-        own.shared.states.of::<CompensatedModesState>().refused =
+        own.shared.states.state_mut::<CompensatedModesState>().refused =
             self.shared.states.ask(|here: &CompensatedModesState| here.refused);
         own.shared.entries.clone_from(&self.shared.entries);
         own.shared.states.put(self.shared.states.ask(StillBlocksState::clone));
@@ -123,7 +129,7 @@ impl Legaliser {
         own.shared.states.forget::<ImmediateEffectsState>();
         own.shared.states.put(self.shared.states.ask(FrameIncrementsState::clone));
         own.shared.states.put(self.shared.states.ask(ZAfterChangeState::clone));
-        own.shared.states.of::<ZAfterChangeState>().start_over();
+        own.shared.states.state_mut::<ZAfterChangeState>().start_over();
         own
     }
 }
@@ -300,7 +306,7 @@ impl Region<'_> {
             Some(Err(refusal)) => found.push(refusal),
             None => {}
         }
-        self.shift = *own.shared.states.of();
+        self.shift = *own.shared.states.state_mut();
         if own.shared.states.ask(ExpandFramesState::is_worked_in)
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)
         {

@@ -34,7 +34,7 @@ fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<
             work_offset::leave_straight(&mut stmt.op);
         }
         if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &shared.source_arcs) {
-            match arc_radii::over(arc, walk, source, &shared.target) {
+            match arc_radii::judge_radii(arc, walk, source, &shared.target) {
                 arc_radii::Judged::Kept => {}
                 arc_radii::Judged::ByCentre => {
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));

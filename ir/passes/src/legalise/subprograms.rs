@@ -148,23 +148,23 @@ impl Legaliser {
             self.shared.states.forget::<TapsState>();
             self.shared.states.forget::<FeedUnitState>();
             self.shared.states.forget::<ThreadsState>();
-            self.shared.states.of::<ToolEdgeState>().start_over();
-            self.shared.states.of::<ToolAxisState>().start_over();
-            self.shared.states.of::<PathControlState>().start_over();
+            self.shared.states.state_mut::<ToolEdgeState>().start_over();
+            self.shared.states.state_mut::<ToolAxisState>().start_over();
+            self.shared.states.state_mut::<PathControlState>().start_over();
             self.shared.states.forget::<OneMoveState>();
             self.shared.states.forget::<PolarWordsState>();
             self.shared.states.forget::<ExpandCornersState>();
             self.shared.states.forget::<ArcFormState>();
-            self.shared.states.of::<ExpandFramesState>().start_over();
+            self.shared.states.state_mut::<ExpandFramesState>().start_over();
             self.shared.states.forget::<MachineMovesState>();
-            self.shared.states.of::<ToolChangeState>().start_over();
+            self.shared.states.state_mut::<ToolChangeState>().start_over();
             self.shared.states.forget::<ImmediateEffectsState>();
-            self.shared.states.of::<ZAfterChangeState>().start_over();
+            self.shared.states.state_mut::<ZAfterChangeState>().start_over();
             self.enter(procedure.body.first());
             self.run(&mut procedure.body, &Modes::default(), None, diags);
-            self.shared.states.of::<ToolChangeState>().start_over();
+            self.shared.states.state_mut::<ToolChangeState>().start_over();
             self.finish(&mut procedure.body, diags);
-            self.shared.states.of::<ImmediateEffectsState>().end_of_sub(&procedure.body, diags);
+            self.shared.states.state_mut::<ImmediateEffectsState>().end_of_sub(&procedure.body, diags);
         }
     }
 
@@ -205,9 +205,9 @@ impl Legaliser {
         let at = first.and_then(|first| entries.as_ref()?.before(first));
         let path = first.and_then(|first| entries.as_ref()?.path_before(first));
         let unknown = Tracker { compensated: self.shared.walk.at.compensated, ..Tracker::unknown() };
-        self.shared.states.of::<CompensatedModesState>().enter(at.unwrap_or(&unknown), path);
-        self.shared.states.of::<FeedUnitState>().enter();
-        self.shared.states.of::<FeedTimeState>().enter();
+        self.shared.states.state_mut::<CompensatedModesState>().enter(at.unwrap_or(&unknown), path);
+        self.shared.states.state_mut::<FeedUnitState>().enter();
+        self.shared.states.state_mut::<FeedTimeState>().enter();
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what

@@ -28,11 +28,11 @@ pub(crate) const PASS: Pass =
 
 /// Leaves out what changes nothing.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
-    each_body(program, entry, over);
+    each_body(program, entry, drop_statements);
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk) {
+pub(crate) fn drop_statements(body: &mut Vec<Stmt>, walk: &mut Walk) {
     // What the program itself has said.
     let start = Tracker { modes: Modes::default(), ..walk.at.clone() };
     let mut said = Walk::new(start);

@@ -45,11 +45,18 @@ pub(crate) const PASS: Pass = Pass {
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            over(p.stmts, &mut l.walk.clone(), l.states.of::<FeedTimeState>(), &l.target, known, p.diags);
+            convert_feed_time(
+                p.stmts,
+                &mut l.walk.clone(),
+                l.states.state_mut::<FeedTimeState>(),
+                &l.target,
+                known,
+                p.diags,
+            );
         },
         otherwise: |l, p| {
             if l.times_differ && p.lines.is_none() {
-                l.states.of::<FeedTimeState>().note(p.stmts);
+                l.states.state_mut::<FeedTimeState>().note(p.stmts);
             }
         },
         first: None,
@@ -127,12 +134,12 @@ impl FeedTimeState {
 /// Runs it alone.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, walk, &mut FeedTimeState::default(), target, None, diags)
+        convert_feed_time(body, walk, &mut FeedTimeState::default(), target, None, diags)
     });
 }
 
 /// Writes such moves so that the target takes the same time.
-pub(crate) fn over(
+pub(crate) fn convert_feed_time(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut FeedTimeState,

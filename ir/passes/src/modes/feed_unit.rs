@@ -46,11 +46,18 @@ pub(crate) const AGAIN: Pass = Pass {
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            again(p.stmts, &mut l.walk.clone(), l.states.of::<FeedUnitState>(), &l.target, known, p.diags);
+            again(
+                p.stmts,
+                &mut l.walk.clone(),
+                l.states.state_mut::<FeedUnitState>(),
+                &l.target,
+                known,
+                p.diags,
+            );
         },
         otherwise: |l, p| {
             if follows(l) {
-                let own = l.states.of::<FeedUnitState>();
+                let own = l.states.state_mut::<FeedUnitState>();
                 p.stmts.iter().for_each(|stmt| own.note(&stmt.op));
             }
         },
@@ -68,7 +75,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| is_measured(l, p) && !l.target.caps.modes.feed_apart,
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
+        |l, p| convert_feed_unit(p.stmts, &mut p.start.clone(), &l.target),
     ),
     program: &[],
     parametric: None,
@@ -281,13 +288,13 @@ pub(crate) fn again(
 /// Writes them in the unit in force.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, &mut walk.clone(), target);
+        convert_feed_unit(body, &mut walk.clone(), target);
         again(body, walk, &mut FeedUnitState::default(), target, None, diags);
     });
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], walk: &mut Walk, target: &Target) {
+pub(crate) fn convert_feed_unit(body: &mut [Stmt], walk: &mut Walk, target: &Target) {
     for stmt in body {
         walk.enter(stmt.skip);
         let units = walk.at.modes.units;

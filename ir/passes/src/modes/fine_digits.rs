@@ -46,7 +46,7 @@ impl FineDigitsState {
     }
 
     /// Cuts the digits off in further statements.
-    pub(crate) fn over(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn cut_digits(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
         let Some(increments) = self.increments else { return };
         for stmt in stmts {
             match &stmt.op {

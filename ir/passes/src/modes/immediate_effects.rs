@@ -25,7 +25,13 @@ pub(crate) const PASS: Pass = Pass {
         Moment::Wording,
         |_, p| p.needs(AT_ONCE),
         |l, p| {
-            over(p.stmts, &mut p.start.clone(), l.states.of::<ImmediateEffectsState>(), &l.target, p.diags)
+            check_effects(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ImmediateEffectsState>(),
+                &l.target,
+                p.diags,
+            )
         },
     ),
     program: &[],
@@ -71,7 +77,7 @@ impl ImmediateEffectsState {
 }
 
 /// Looks at one piece of a body.
-pub(crate) fn over(
+pub(crate) fn check_effects(
     stmts: &[Stmt],
     walk: &mut Walk,
     state: &mut ImmediateEffectsState,

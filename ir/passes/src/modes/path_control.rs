@@ -26,7 +26,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(PATH),
-        |l, p| over(p.stmts, l.states.of::<PathControlState>(), &l.target, p.diags),
+        |l, p| convert_path_control(p.stmts, l.states.state_mut::<PathControlState>(), &l.target, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -67,12 +67,12 @@ pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags
     let mut state = PathControlState::default();
     each_body(program, entry, |body, _| {
         state.start_over();
-        over(body, &mut state, target, diags);
+        convert_path_control(body, &mut state, target, diags);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_path_control(
     body: &mut Vec<Stmt>,
     state: &mut PathControlState,
     target: &Target,

@@ -206,13 +206,13 @@ impl SideEffects {
     }
 
     /// Rewrites further statements of the main procedure.
-    pub fn over(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+    pub fn write_effects(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.way_up.check(stmts, &[], diags);
         self.rewrite(stmts, diags);
     }
 
     fn rewrite(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        self.fine.over(stmts, diags);
+        self.fine.cut_digits(stmts, diags);
         if !self.touches(stmts) {
             return stmts.iter().for_each(|stmt| self.note(stmt));
         }

@@ -99,10 +99,10 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
     flow.holes = holes;
     for _ in 0..MOST_ROUNDS {
         flow.changed = false;
-        flow.over(program);
+        flow.visit_program(program);
         if !flow.changed {
             flow.settles = true;
-            flow.over(program);
+            flow.visit_program(program);
             call_up_all(program, &flow.cycles, true);
             return Known { starts: flow.starts, paths: flow.paths, cycles: flow.cycles };
         }

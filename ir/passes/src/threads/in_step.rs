@@ -51,7 +51,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ThreadsState>(), &l.target, p.diags),
+        |l, p| {
+            convert_threads(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ThreadsState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -127,13 +135,13 @@ impl ThreadsState {
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = ThreadsState::default();
-        over(body, walk, &mut state, target, diags);
+        convert_threads(body, walk, &mut state, target, diags);
         state.finish(body, diags);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_threads(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ThreadsState,
@@ -341,7 +349,7 @@ fn said(
     };
     if m.chuck {
         return match (&m.pitch, m.turn, threads.chuck) {
-            (Pitch::Feed, None, true) if !m.back => Ok(vec![whole(m)]),
+            (Pitch::Feed, None, true) if !m.back => Ok(vec![thread_op(m)]),
             (_, _, false) => cannot("a thread with a compensating chuck"),
             _ => cannot("a thread with a compensating chuck in this form"),
         };
@@ -350,9 +358,9 @@ fn said(
         m.pitch = Pitch::Stated(taps::pitch_of(speed.feed, speed.speed, walk)?.into());
     }
     match (m.turn, m.back) {
-        (None, false) if threads.plain => Ok(vec![whole(m)]),
-        (None, true) if threads.back => Ok(vec![whole(m)]),
-        (Some(_), false) if threads.turned && state.held => Ok(vec![whole(m)]),
+        (None, false) if threads.plain => Ok(vec![thread_op(m)]),
+        (None, true) if threads.back => Ok(vec![thread_op(m)]),
+        (Some(_), false) if threads.turned && state.held => Ok(vec![thread_op(m)]),
         (Some(_), false) if threads.turned => {
             cannot("a rigid thread whose spindle has not been stopped at an angle before it")
         }
@@ -388,6 +396,6 @@ fn said(
     }
 }
 
-fn whole(m: &Synchronised) -> Op {
+fn thread_op(m: &Synchronised) -> Op {
     Op::SynchronisedFeed(Box::new(m.clone()))
 }

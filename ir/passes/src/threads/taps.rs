@@ -34,7 +34,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<TapsState>(), &l.target, p.diags),
+        |l, p| {
+            convert_taps(p.stmts, &mut p.start.clone(), l.states.state_mut::<TapsState>(), &l.target, p.diags)
+        },
     ),
     program: &[],
     parametric: None,
@@ -166,11 +168,13 @@ impl Said {
 
 /// Says them as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut TapsState::default(), target, diags));
+    each_body(program, entry, |body, walk| {
+        convert_taps(body, walk, &mut TapsState::default(), target, diags)
+    });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_taps(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut TapsState,

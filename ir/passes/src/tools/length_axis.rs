@@ -23,7 +23,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Arrival,
         |l, _| l.states.ask(LengthAxisState::is_used),
-        |l, p| l.states.of::<LengthAxisState>().check(p.stmts, &l.walk, p.diags),
+        |l, p| l.states.state_mut::<LengthAxisState>().check(p.stmts, &l.walk, p.diags),
     ),
     program: &[],
     parametric: None,
@@ -60,7 +60,7 @@ impl LengthAxisState {
     /// Refuses what is not the same on both, and writes the moves that a length makes.
     pub(crate) fn check(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
         if self.moves.is_used() {
-            self.moves.over(stmts, start, diags);
+            self.moves.rewrite_moves(stmts, start, diags);
         }
         let mut walk = start.clone();
         for stmt in stmts.iter() {

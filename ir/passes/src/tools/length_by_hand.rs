@@ -26,7 +26,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(TABLE) && l.target.caps.tools.change_by_hand,
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<LengthByHandState>(), p.diags),
+        |l, p| {
+            drop_lengths(p.stmts, &mut p.start.clone(), l.states.state_mut::<LengthByHandState>(), p.diags)
+        },
     ),
     program: &[],
     parametric: None,
@@ -53,7 +55,7 @@ impl LengthByHandState {
 }
 
 /// Leaves lengths out of a piece of a body.
-pub(crate) fn over(
+pub(crate) fn drop_lengths(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut LengthByHandState,
@@ -70,7 +72,7 @@ pub(crate) fn over(
                 false
             }
             Op::UseToolLengthOffset(entry) => {
-                let entry = entry.literal().and_then(|n| n.whole());
+                let entry = entry.literal().and_then(|n| n.whole_number());
                 let ends_stated = entry == Some(0) && state.stated;
                 state.stated = false;
                 state.calls(entry, &stmt, walk, diags);

@@ -51,7 +51,7 @@ impl LengthMovesState {
     }
 
     /// Rewrites further statements, which are whole blocks.
-    pub(crate) fn over(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn rewrite_moves(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
         let mut walk = start.clone();
         let mut made: Vec<Stmt> = Vec::with_capacity(stmts.len() + 2);
         let mut rest = std::mem::take(stmts).into_iter().peekable();

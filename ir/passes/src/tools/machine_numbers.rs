@@ -138,7 +138,7 @@ impl Renumbering {
     }
 
     /// Puts the target's numbers in further statements of a body.
-    pub fn over(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
+    pub fn renumber(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
         if self.maps.is_empty() {
             return;
         }
@@ -212,7 +212,7 @@ impl Renumbering {
                 }
                 Op::Control(control) => {
                     for body in control.bodies_mut() {
-                        self.over(body, diags);
+                        self.renumber(body, diags);
                     }
                 }
                 Op::SelectTool(_) | Op::UseToolLengthOffset(_) | unnumbered!() => {}
@@ -276,7 +276,7 @@ impl Renumbering {
                     }
                 }
             }
-            self.over(&mut procedure.body, diags);
+            self.renumber(&mut procedure.body, diags);
         }
     }
 
@@ -318,7 +318,7 @@ impl Renumbering {
 
     /// Puts a number in the place of a literal one.
     fn put_in(&mut self, value: &mut Expr, what: Numbered, at: Span, diags: &mut Vec<Diagnostic>) {
-        let number = value.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let number = value.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let Some(number) = number else {
             let what = match what {
                 Numbered::Tool => "a computed tool, where tools go by name",

@@ -25,7 +25,7 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(LENGTH),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<OffsetWithZState>(), p.diags),
+        |l, p| delay_offset(p.stmts, &mut p.start.clone(), l.states.state_mut::<OffsetWithZState>(), p.diags),
     ),
     program: &[],
     parametric: None,
@@ -58,7 +58,7 @@ struct Waiting {
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = OffsetWithZState::default();
-        over(body, walk, &mut state, diags);
+        delay_offset(body, walk, &mut state, diags);
         state.flush(body, diags);
     });
 }
@@ -100,7 +100,7 @@ impl Waiting {
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn delay_offset(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut OffsetWithZState,
@@ -174,7 +174,7 @@ pub(crate) fn over(
 
 /// Whether an entry is surely in force, and its values are those that it was called up with.
 fn is_in_force(walk: &Walk, entry: &Expr) -> bool {
-    let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+    let entry = entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
     !walk.waiting && entry.is_some() && walk.at.modes.length_offset == entry
 }
 

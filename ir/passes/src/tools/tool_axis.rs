@@ -29,7 +29,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(TOOL_AXIS),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolAxisState>(), &l.target, p.diags),
+        |l, p| {
+            convert_axis_lengths(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ToolAxisState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -208,12 +216,12 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
         if !std::mem::replace(&mut first, false) {
             state.start_over();
         }
-        over(body, walk, &mut state, target, diags);
+        convert_axis_lengths(body, walk, &mut state, target, diags);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_axis_lengths(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ToolAxisState,
@@ -370,7 +378,7 @@ fn with_length(
 }
 
 fn number(entry: &Expr) -> Option<u32> {
-    entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok())
+    entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
 }
 
 /// What is said behind a word that switches control of the tip, before anything moves.

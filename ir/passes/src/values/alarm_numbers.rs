@@ -68,7 +68,8 @@ fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], reported: &mut Vec<(S
             Op::Alarm(alarm) => {
                 if let Some(other) = other(alarm, alarms, own) {
                     let number = |alarm: &Alarm| {
-                        let number = alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole());
+                        let number =
+                            alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole_number());
                         number.map_or_else(
                             || format!("the one with the text {:?}", &*alarm.text),
                             |n| n.to_string(),
@@ -95,7 +96,7 @@ fn other(alarm: &Alarm, alarms: &Alarms, own: &[&str]) -> Option<Alarm> {
     let own = alarm.number.is_none() && own.contains(&&*alarm.text);
     let number = match &alarm.number {
         None => None,
-        Some(number) => Some(number.literal().and_then(|n| n.whole())?),
+        Some(number) => Some(number.literal().and_then(|n| n.whole_number())?),
     };
     let (said, text) = alarms.said(number, &alarm.text).filter(|_| !own)?;
     let same = said == number && text == alarm.text;

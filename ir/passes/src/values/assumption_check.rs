@@ -87,7 +87,7 @@ pub fn other_reading(
     for procedure in &mut other.procedures {
         expressions(&mut procedure.body, &mut |stmt, expr| {
             if stmt.span.start <= until {
-                over(expr, assumed, target, &mut found);
+                read_otherwise(expr, assumed, target, &mut found);
             }
         });
     }
@@ -100,7 +100,7 @@ pub fn assumed_places(program: &Program, assumed: &[Assumption], target: TargetN
     for procedure in &mut program.clone().procedures {
         expressions(&mut procedure.body, &mut |stmt, expr| {
             let mut found = false;
-            over(expr, assumed, target, &mut found);
+            read_otherwise(expr, assumed, target, &mut found);
             places.extend(found.then_some(stmt.span));
         });
     }
@@ -135,8 +135,8 @@ fn nearly(operator: Binary, a: &Expr, b: &Expr) -> Option<Node> {
     })
 }
 
-fn over(e: &mut Expr, assumed: &[Assumption], target: TargetNumerics, found: &mut bool) {
-    e.parts_mut().for_each(|part| over(part, assumed, target, found));
+fn read_otherwise(e: &mut Expr, assumed: &[Assumption], target: TargetNumerics, found: &mut bool) {
+    e.parts_mut().for_each(|part| read_otherwise(part, assumed, target, found));
     let Expr::Node(node) = e else { return };
     let functions = target.functions;
     let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));

@@ -66,11 +66,11 @@ impl Saved {
 /// The whole number that an expression is worth, where modes that it asks for are known.
 pub(crate) fn worth(value: &Expr, known: &Modes) -> Option<i64> {
     if let Expr::Num(n) = value {
-        return n.whole();
+        return n.whole_number();
     }
     let mut value = value.clone();
     match fill(&mut value, known, None) {
-        true => value.literal().and_then(|n| n.whole()),
+        true => value.literal().and_then(|n| n.whole_number()),
         false => None,
     }
 }
@@ -104,7 +104,7 @@ fn fill(value: &mut Expr, known: &Modes, target: Option<&Computes>) -> bool {
     }
     if let Expr::Node(node) = value
         && let Node::Binary(operator @ (Binary::Add | Binary::Multiply), Expr::Num(a), Expr::Num(b)) = &**node
-        && let (Some(a), Some(b)) = (a.whole(), b.whole())
+        && let (Some(a), Some(b)) = (a.whole_number(), b.whole_number())
     {
         let worth = if *operator == Binary::Add { a.checked_add(b) } else { a.checked_mul(b) };
         if let Some(worth) = worth {

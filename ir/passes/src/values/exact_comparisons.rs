@@ -29,7 +29,7 @@ pub fn run(program: &mut Program, computes: &Computes, diags: &mut Vec<Diagnosti
     for procedure in &mut program.procedures {
         expressions(&mut procedure.body, &mut |stmt, value| {
             let mut found = false;
-            over(value, &mut found);
+            compare_exactly(value, &mut found);
             if found {
                 reported.get_or_insert(stmt.span);
             }
@@ -85,10 +85,10 @@ fn exact(e: &Expr) -> Option<Expr> {
     (same == Some((a, b))).then(|| equal(*operator, (a, b)))
 }
 
-fn over(e: &mut Expr, found: &mut bool) {
+fn compare_exactly(e: &mut Expr, found: &mut bool) {
     if let Some(plain) = exact(e) {
         *e = plain;
         *found = true;
     }
-    e.parts_mut().for_each(|part| over(part, found));
+    e.parts_mut().for_each(|part| compare_exactly(part, found));
 }

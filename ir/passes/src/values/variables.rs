@@ -70,7 +70,7 @@ pub fn run(
     remainders::run(program, from, computes, diags);
     if !own {
         program.procedures.iter_mut().for_each(|procedure| {
-            expressions(&mut procedure.body, &mut |_, value| words::whole(value));
+            expressions(&mut procedure.body, &mut |_, value| words::round_literal(value));
         });
     }
     let pairs = if own { Vec::new() } else { rename::rename_variables(program, from, computes, diags) };

@@ -110,7 +110,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<WordValue, Fault> {
-        let value = if letter.format.counts { self.spelling(None)?.whole(value) } else { value };
+        let value = if letter.format.counts { self.spelling(None)?.without_rounding(value) } else { value };
         let (said, inner) = rounding(value);
         let rounds = letter.format.rounds.filter(|_| self.dialect.formula.rounds);
         let digits = match (said, rounds) {

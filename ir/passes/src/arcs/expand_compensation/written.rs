@@ -77,7 +77,7 @@ impl Written<'_> {
     }
 
     /// All words from program zero, and those of both axes of the plane among them.
-    pub(super) fn whole(&self, words: &Point) -> Result<Point, Fault> {
+    pub(super) fn absolute_point(&self, words: &Point) -> Result<Point, Fault> {
         let (first, second, _) = self.plane.axes();
         self.absolute_words(words, |axis| axis == first || axis == second || words.get(axis).is_some())
     }

@@ -49,11 +49,16 @@ const MOST_HOLES: usize = 4096;
 
 /// Folds what the target can say.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| fold_positions(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn fold_positions(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     let caps = &target.caps;
     let none =
         !caps.holes.circles && caps.holes.grid_upto == 0 && !caps.holes.lines && caps.holes.list_upto == 0;

@@ -46,7 +46,15 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(FRAME),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandFramesState>(), &l.target, p.diags),
+        |l, p| {
+            expand_frames(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ExpandFramesState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
     program: &[],
     parametric: None,
@@ -66,7 +74,7 @@ pub(crate) struct ExpandFramesState {
 
 /// Works the frames in.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut Default::default(), target, diags));
+    each_body(program, entry, |body, walk| expand_frames(body, walk, &mut Default::default(), target, diags));
 }
 
 impl ExpandFramesState {
@@ -105,7 +113,7 @@ impl ExpandFramesState {
 }
 
 /// The same for one piece of a body. The walk stands before what is made of it.
-pub(crate) fn over(
+pub(crate) fn expand_frames(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ExpandFramesState,

@@ -23,7 +23,7 @@ pub struct ActiveCycles {
 impl ActiveCycles {
     /// Looks at a whole program. `entered` says whether a cycle may be active at its first statement. `None` if the
     /// program has a statement that this analysis does not follow.
-    pub fn of(procedures: &[Procedure], entered: bool) -> Option<ActiveCycles> {
+    pub fn from_procedures(procedures: &[Procedure], entered: bool) -> Option<ActiveCycles> {
         if procedures.iter().any(|procedure| repeats_blocks(&procedure.body)) {
             return None;
         }

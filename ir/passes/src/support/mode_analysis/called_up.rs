@@ -25,12 +25,12 @@ pub(super) fn call_up_all(program: &mut Program, cycles: &HashMap<u32, Option<Ca
 
 /// The calls of cycles, by their places.
 fn calls_of(program: &Program) -> HashMap<u32, Cycle> {
-    fn over(body: &[Stmt], out: &mut HashMap<u32, Cycle>) {
+    fn collect_calls(body: &[Stmt], out: &mut HashMap<u32, Cycle>) {
         for stmt in body {
             match &stmt.op {
                 Op::StartCycle(cycle) => out.insert(stmt.span.start, (**cycle).clone()),
                 Op::Control(control) => {
-                    control.bodies().for_each(|body| over(body, out));
+                    control.bodies().for_each(|body| collect_calls(body, out));
                     None
                 }
                 _ => None,
@@ -38,7 +38,7 @@ fn calls_of(program: &Program) -> HashMap<u32, Cycle> {
         }
     }
     let mut out = HashMap::new();
-    program.procedures.iter().for_each(|procedure| over(&procedure.body, &mut out));
+    program.procedures.iter().for_each(|procedure| collect_calls(&procedure.body, &mut out));
     out
 }
 

@@ -105,17 +105,17 @@ impl Flow<'_> {
     pub(super) fn until_settled(&mut self, program: &mut Program) -> bool {
         for _ in 0..MOST_ROUNDS {
             self.changed = false;
-            self.over(program);
+            self.visit_program(program);
             if !self.changed {
                 self.settles = true;
-                self.over(program);
+                self.visit_program(program);
                 return true;
             }
         }
         false
     }
 
-    pub(super) fn over(&mut self, program: &mut Program) {
+    pub(super) fn visit_program(&mut self, program: &mut Program) {
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             self.at = at;
             let entry = self.ways[at].entry.clone();

@@ -95,7 +95,7 @@ fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
         let parameters = main.parameters.iter().map(|own| (Text::from(&*own.name()), May::Number));
         known.vars.extend(parameters);
     }
-    let mut ways = Ways::over(&before.procedures, entries);
+    let mut ways = Ways::follow_paths(&before.procedures, entries);
     let facts = std::mem::take(&mut ways.facts);
     let entries = std::mem::take(&mut ways.entries);
     let mut refused = BTreeMap::new();
@@ -114,7 +114,7 @@ fn settled(program: &mut Program, vacant: Vacant) -> Result<(), Box<Unsure>> {
     if !vacant.target {
         let handed = |procedure: &Procedure, at: usize| -> Vec<bool> {
             let entry = entries.get(&at);
-            let has = |var: &Var| entry.is_none_or(|entry| entry.of(&var.name()) != May::Nothing);
+            let has = |var: &Var| entry.is_none_or(|entry| entry.value_of(&var.name()) != May::Nothing);
             procedure.parameters.iter().map(has).collect()
         };
         let all = program.procedures.iter().enumerate().skip(1);

@@ -193,7 +193,7 @@ impl Rename<'_, '_> {
                     return None;
                 };
                 let whole =
-                    |e: &Expr| e.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+                    |e: &Expr| e.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
                 let known: Option<Vec<u32>> = element.at.iter().map(whole).collect();
                 if let Some(known) = known {
                     if known.iter().zip(&**sizes).any(|(at, size)| at >= size) {

@@ -42,7 +42,7 @@ pub fn questions(program: &Program) -> Vec<Question> {
 }
 
 fn asked_in(program: &Program, entries: BTreeMap<usize, Known>) -> Vec<Question> {
-    let ways = Ways::over(&program.procedures, entries);
+    let ways = Ways::follow_paths(&program.procedures, entries);
     let mut found = Vec::new();
     program.procedures.iter().for_each(|procedure| asks(&procedure.body, &ways.facts, &mut found));
     found

@@ -31,7 +31,7 @@ pub(in crate::values::variables) struct Known {
 }
 
 impl Known {
-    pub(in crate::values::variables) fn of(&self, name: &str) -> May {
+    pub(in crate::values::variables) fn value_of(&self, name: &str) -> May {
         let otherwise = if self.lost { May::Either } else { May::Nothing };
         self.vars.get(name).copied().unwrap_or(otherwise)
     }
@@ -79,7 +79,7 @@ pub(in crate::values::variables) fn may(e: &Expr, known: &Known) -> May {
     let Expr::Node(node) = e else { return May::Number };
     match &**node {
         Node::Vacant => May::Nothing,
-        Node::Var(Var::Local(name)) => known.of(name),
+        Node::Var(Var::Local(name)) => known.value_of(name),
         Node::Unary(Unary::Negate, a) => may(a, known),
         Node::Call(Function::RoundTo, arguments) => {
             arguments.first().map_or(May::Number, |first| may(first, known))

@@ -80,7 +80,7 @@ impl Settle<'_> {
                 if let Target::Element(element) = to {
                     element.at.iter_mut().try_for_each(|index| values.number(index))?;
                 }
-                values.whole(value)?;
+                values.settle_word(value)?;
                 if !self.vacant && is_nothing(value) && matches!(to, Target::Var(Var::Local(_))) {
                     return Ok(gone(stmt));
                 }
@@ -100,7 +100,7 @@ impl Settle<'_> {
                 let mut all = std::mem::take(pieces).into_vec();
                 for piece in &mut all {
                     if let Piece::Value { value, .. } = piece {
-                        values.whole(value)?;
+                        values.settle_word(value)?;
                     }
                 }
                 if !self.vacant {
@@ -219,7 +219,7 @@ impl Values<'_> {
             if let Expr::Node(node) = e
                 && let Node::Var(Var::Local(name)) = &**node
             {
-                return (known.of(name) != May::Number).then_some(&**name);
+                return (known.value_of(name) != May::Number).then_some(&**name);
             }
             e.parts().find_map(|part| first(part, known))
         }
@@ -227,7 +227,7 @@ impl Values<'_> {
     }
 
     /// What may be nothing: a word, what a variable is given.
-    fn whole(&self, e: &mut Expr) -> Result<(), Diagnostic> {
+    fn settle_word(&self, e: &mut Expr) -> Result<(), Diagnostic> {
         self.settled(e, nothing())
     }
 
@@ -239,7 +239,7 @@ impl Values<'_> {
             *e = Expr::int(0);
             return Ok(());
         }
-        self.whole(e)
+        self.settle_word(e)
     }
 
     /// What counts as zero where it is nothing.
@@ -268,7 +268,7 @@ impl Values<'_> {
         let mut left = true;
         arguments::each(op, &mut |argument, _| {
             let takes = |value: &mut Expr| {
-                self.whole(value)?;
+                self.settle_word(value)?;
                 Ok(!self.vacant && is_nothing(value))
             };
             match argument {

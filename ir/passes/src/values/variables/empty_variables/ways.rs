@@ -37,7 +37,7 @@ pub(super) struct Ways<'p> {
 
 impl<'p> Ways<'p> {
     /// Begins where `entries` tell what procedures begin with.
-    pub(super) fn over(procedures: &'p [Procedure], entries: BTreeMap<usize, Known>) -> Ways<'p> {
+    pub(super) fn follow_paths(procedures: &'p [Procedure], entries: BTreeMap<usize, Known>) -> Ways<'p> {
         let mut ways = Ways {
             procedures,
             facts: Facts::new(),
