@@ -37,7 +37,7 @@ pub struct Tracker {
     /// Position in the program's frame, nanos; `None` is not known.
     pub position: [Option<Nanos>; AXES],
     /// The cycle in force.
-    pub cycle: Option<InForce>,
+    pub cycle: Option<ActiveCycle>,
     /// Whether another cycle than `cycle` may be in force, because of a block that may be skipped.
     pub cycle_in_doubt: bool,
     /// From which level it then works, if it is in force.
@@ -99,7 +99,7 @@ pub struct Tracker {
 
 /// A cycle in force, with its planes resolved as far as they are known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InForce {
+pub struct ActiveCycle {
     /// The cycle.
     pub cycle: Cycle,
     /// Level of the drilling axis when it was called up.

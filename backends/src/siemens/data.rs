@@ -35,11 +35,11 @@ impl Writer {
             return self.put(data, span, sink);
         };
         self.alone(mm, sink)?;
-        let in_force = self.words.force.units.replace(Units::Mm);
+        let in_force = self.words.active.units.replace(Units::Mm);
         self.words.tracker.modes.units = Some(Units::Mm);
         let put = self.put(&metric, span, sink);
         self.words.tracker.modes.units = units;
-        self.words.force.units = in_force;
+        self.words.active.units = in_force;
         put?;
         // A code of units loses the feed.
         self.standing.feed_said = false;

@@ -387,7 +387,7 @@ impl Writer {
     /// Writes a feed. One of the machine's basic system needs its own code of units.
     fn feed(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let Expr::Num(n) = feed else { return self.words.feed_rate(feed, span, sink) };
-        let (units, in_force) = match (n.unit, self.words.force.units) {
+        let (units, in_force) = match (n.unit, self.words.active.units) {
             (Unit::Mm, Some(in_force)) => (Units::Mm, in_force),
             (Unit::Inch, Some(in_force)) => (Units::Inch, in_force),
             _ => return self.words.feed_rate(feed, span, sink),
@@ -461,7 +461,7 @@ impl Writer {
 
     /// A length that the translation knows, in the unit in force.
     fn length(&self, nanos: Nanos, letter: &Letter) -> Result<String, Fault> {
-        let unit = match self.words.force.units {
+        let unit = match self.words.active.units {
             Some(Units::Mm) => Unit::Mm,
             Some(Units::Inch) => Unit::Inch,
             None => return Err(cannot("a length in a unit that is not known")),

@@ -193,7 +193,7 @@ impl Writer {
             Op::Polar(polar) => self.polar(polar, span, sink),
             Op::Position(_) => {
                 self.pay_call(sink)?;
-                let open = self.words.force.motion.is_none() && stmt.skip.is_none();
+                let open = self.words.active.motion.is_none() && stmt.skip.is_none();
                 if self.cycled && self.standing.modal == Modal::Off && open {
                     return Err(cannot("axis words whose motion is left open, behind a cycle"));
                 }

@@ -133,13 +133,13 @@ impl Writer {
 
     /// Lets words without a code be rapid moves.
     fn position_in_rapid(&mut self, sink: &mut Sink) -> Result<(), Fault> {
-        if self.words.force.motion == Some(Motion::Traverse) {
+        if self.words.active.motion == Some(Motion::Traverse) {
             return Ok(());
         }
         let code = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
         self.words.admit(&Need::new(Rank::Motion).code(Some(code)), sink)?;
         self.words.block.code(Part::Motion, &code);
-        self.words.force.motion = Some(Motion::Traverse);
+        self.words.active.motion = Some(Motion::Traverse);
         Ok(())
     }
 

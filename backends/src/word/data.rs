@@ -24,7 +24,7 @@ impl Writer {
     pub(crate) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         // The code's words count as the distance mode says; where nobody knows it, the control's variable is set.
         if self.dialect.program.macro_b
-            && self.force.distance != Some(Distance::Absolute)
+            && self.active.distance != Some(Distance::Absolute)
             && let Some(text) = self.data_setting(data, span, sink)?
         {
             return self.statement_alone(&text, sink);
@@ -216,7 +216,7 @@ impl Writer {
         if table.row.adds {
             // Whether values are added, the text says where it is read.
             if std::mem::take(&mut self.computing.unsaid) {
-                self.force.distance = None;
+                self.active.distance = None;
             }
             let distance = if added { Distance::Incremental } else { Distance::Absolute };
             let counted =

@@ -80,7 +80,7 @@ impl Writer {
             }
             Op::SetMotionControlMode(control) => self.path_control(control, span, sink),
             Op::TurnRotaryAxes(_) => Err(cannot("which way round a rotary axis goes")),
-            Op::ExactStop if self.held.is_some() || self.force.motion == Some(Motion::Cycle) => {
+            Op::ExactStop if self.held.is_some() || self.active.motion == Some(Motion::Cycle) => {
                 // Of which ways of a cycle it would be the end, no source tells.
                 Err(cannot("an exact stop in a block of a cycle"))
             }
@@ -425,7 +425,7 @@ impl Writer {
         self.feed_apart(sink);
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
         self.block.word(Part::Feed, letter.letter, value);
-        self.force.feed = feed.literal();
+        self.active.feed = feed.literal();
         // A later feed takes the place of the one that a cycle brought.
         if let Some(held) = &mut self.held {
             held.cycle.feed = None;

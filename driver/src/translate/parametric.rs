@@ -7,7 +7,7 @@ use ncc_dialects::{
     BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity, SystemRow,
 };
 use ncc_ir::canon::Modes;
-use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Computes};
 use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
@@ -132,7 +132,7 @@ pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     alarm_numbers::in_its_characters(program, alarms, found);
     ran_whole("alarm-texts", program);
     if job.from.dialect.id != job.to.dialect.id {
-        alarm_numbers::run(program, alarms, there.has(Said::CallOf), found);
+        alarm_numbers::run(program, alarms, there.has(ComputeFeature::CallOf), found);
         ran_whole("alarm-numbers", program);
     }
 }

@@ -50,7 +50,7 @@ use frames::frame::Length;
 use moves::arcs::Heading;
 use moves::centre_path::CentrePath;
 use moves::compensation::Contour;
-use moves::holes::InForce;
+use moves::holes::ActiveCycle;
 use ncc_ir::canon::{
     AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, RotaryWay, Spindle, Units,
     same_point,
@@ -142,7 +142,7 @@ pub struct Exec {
     state: State,
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
-    cycle: Option<InForce>,
+    cycle: Option<ActiveCycle>,
     /// Behaviours of the control that the program has come to, a bit each.
     asked: u64,
     /// Whether the program has ended.

@@ -5,7 +5,7 @@
 //! legaliser brings within the target's capabilities.
 
 use ncc_ir::computed::computed_code;
-use ncc_ir::computed::computes::Said;
+use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
 
@@ -32,7 +32,7 @@ impl Parametric<'_> {
 pub(crate) const CODES_PUT_BACK: Pass = Pass::parametric(
     "codes-put-back",
     "puts modes that a program saves and puts back into words, where the target cannot save them",
-    |own, _| own.others && !own.target.has(Said::CodeOf),
+    |own, _| own.others && !own.target.has(ComputeFeature::CodeOf),
     |program, own, _| mode_analysis::put_back(program, &own.entry, own.target),
 );
 

@@ -14,7 +14,7 @@ use crate::program::{Control, Op, Stmt, Text};
 
 /// A statement of programs that compute which not every language has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Said {
+pub enum ComputeFeature {
     /// [`Op::Goto`].
     Jump,
     /// [`Op::Declare`] of a single value.
@@ -192,7 +192,7 @@ pub struct Computes {
     /// What stands before a variable's name in a program.
     pub mark: Text,
     /// Statements that not every language has.
-    pub statements: Vec<Said>,
+    pub statements: Vec<ComputeFeature>,
     /// Operators.
     pub operators: Vec<Binary>,
     /// Functions.
@@ -237,7 +237,7 @@ pub struct Computes {
 
 impl Computes {
     /// Whether there is such a statement.
-    pub fn has(&self, statement: Said) -> bool {
+    pub fn has(&self, statement: ComputeFeature) -> bool {
         self.statements.contains(&statement)
     }
 
@@ -245,8 +245,8 @@ impl Computes {
     pub fn decides(&self, then: &[Stmt]) -> bool {
         match then {
             [only] if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => true,
-            [only] if matches!(only.op, Op::Alarm(_)) => self.has(Said::Alarm),
-            then => self.has(Said::Stop) && stops(then),
+            [only] if matches!(only.op, Op::Alarm(_)) => self.has(ComputeFeature::Alarm),
+            then => self.has(ComputeFeature::Stop) && stops(then),
         }
     }
 
@@ -254,7 +254,8 @@ impl Computes {
     /// does.
     pub fn computed_entry<'c>(&self, control: &'c Control) -> Option<ComputedEntry<'c>> {
         let entry = computed_entry(&computed_code(control)?, &self.entries)?;
-        let said = if entry.sets.is_empty() { Said::EntriesRead } else { Said::EntriesSet };
+        let said =
+            if entry.sets.is_empty() { ComputeFeature::EntriesRead } else { ComputeFeature::EntriesSet };
         self.has(said).then_some(entry)
     }
 
@@ -263,7 +264,7 @@ impl Computes {
         let Some(code) = computed_code(control) else { return false };
         match is_about_entries(&code) {
             true => self.computed_entry(control).is_some(),
-            false => self.has(Said::CodeOf),
+            false => self.has(ComputeFeature::CodeOf),
         }
     }
 

@@ -30,7 +30,7 @@ use ncc_exec::{Event, Exec, Progress, Runner};
 use ncc_frontends::{Batch, ir::Reader};
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::{Caps, LengthsOf, ReturnsTo};
-use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Computes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::geometry::offset_path::Rules;
@@ -157,11 +157,11 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
         "blocks" => computes(caps)?.blocks = says()?,
         "opposite" => computes(caps)?.opposite = says()?,
         "loops" => computes(caps)?.loops = value.parse().map_err(|e| format!("{value}: {e}"))?,
-        "jump" => statement(caps, Said::Jump, says()?)?,
-        "endless" => statement(caps, Said::Endless, says()?)?,
-        "leave" => statement(caps, Said::Leave, says()?)?,
-        "next-turn" => statement(caps, Said::NextTurn, says()?)?,
-        "until" => statement(caps, Said::Until, says()?)?,
+        "jump" => statement(caps, ComputeFeature::Jump, says()?)?,
+        "endless" => statement(caps, ComputeFeature::Endless, says()?)?,
+        "leave" => statement(caps, ComputeFeature::Leave, says()?)?,
+        "next-turn" => statement(caps, ComputeFeature::NextTurn, says()?)?,
+        "until" => statement(caps, ComputeFeature::Until, says()?)?,
         _ => return Err(format!("no capability {name}")),
     }
     Ok(())
@@ -172,7 +172,7 @@ fn computes(caps: &mut Caps) -> Result<&mut Computes, String> {
     caps.flow.computes.as_mut().map(Arc::make_mut).ok_or_else(|| "a target that does not compute".into())
 }
 
-fn statement(caps: &mut Caps, statement: Said, has: bool) -> Result<(), String> {
+fn statement(caps: &mut Caps, statement: ComputeFeature, has: bool) -> Result<(), String> {
     let computes = computes(caps)?;
     computes.statements.retain(|own| *own != statement);
     computes.statements.extend(has.then_some(statement));

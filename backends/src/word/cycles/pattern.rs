@@ -24,7 +24,7 @@ impl Writer {
                 self.held = Some(held);
                 return Err(cannot("a pattern of holes"));
             }
-            Some(held) if !held.in_text || self.force.motion != Some(Motion::Cycle) => {
+            Some(held) if !held.in_text || self.active.motion != Some(Motion::Cycle) => {
                 self.call_up(held, None, true, stmt, sink)?;
             }
             Some(held) => self.held = Some(held),

@@ -96,10 +96,10 @@ impl Writer {
             return;
         }
         self.forgotten = false;
-        self.computing.unsaid = self.force.distance.is_none();
-        self.force.distance = self.force.distance.or(known.distance);
-        self.force.plane = self.force.plane.or(known.plane);
-        self.force.units = self.force.units.or(known.units);
+        self.computing.unsaid = self.active.distance.is_none();
+        self.active.distance = self.active.distance.or(known.distance);
+        self.active.plane = self.active.plane.or(known.plane);
+        self.active.units = self.active.units.or(known.units);
         self.tracker.modes.work_offset = self.tracker.modes.work_offset.or(known.work_offset);
     }
 

@@ -18,7 +18,7 @@ const MAX_PECKS: i64 = 100_000;
 
 /// A cycle in force, in program coordinates.
 #[derive(Clone, Debug)]
-pub(crate) struct InForce {
+pub(crate) struct ActiveCycle {
     plane: Plane,
     initial: Nanos,
     /// The work offset in which the initial level was found.
@@ -37,7 +37,7 @@ pub(crate) struct InForce {
     way: Way,
 }
 
-impl InForce {
+impl ActiveCycle {
     /// Its plane, the retract plane and the bottom.
     pub(crate) fn levels(&self) -> (Plane, Nanos, Nanos) {
         (self.plane, self.retract, self.depth)
@@ -220,7 +220,7 @@ impl Exec {
             self.counts_z(true);
         }
         self.modes.motion = Motion::Cycle;
-        self.cycle = Some(InForce {
+        self.cycle = Some(ActiveCycle {
             plane,
             initial,
             initial_in,
@@ -316,7 +316,7 @@ impl Exec {
 
     fn hole_at(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         first: usize,
         second: usize,
         at: [Nanos; 2],
@@ -333,7 +333,7 @@ impl Exec {
     /// commanded in the plane, which takes a waiting length up.
     fn make_hole(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         next: [Nanos; AXES],
         z: bool,
         span: Span,
@@ -380,7 +380,7 @@ impl Exec {
     }
 
     /// Refuses a hole of which the level to return to is not known: that of another work offset or length.
-    fn level_is_known(&mut self, cycle: &InForce, level: Nanos, span: Span) -> Result<(), Diagnostic> {
+    fn level_is_known(&mut self, cycle: &ActiveCycle, level: Nanos, span: Span) -> Result<(), Diagnostic> {
         let normal = cycle.plane.axes().2 as usize;
         if cycle.return_plane.is_none()
             && level != cycle.retract
@@ -405,7 +405,7 @@ impl Exec {
     /// to return to.
     fn cut_hole(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         out_to: Nanos,
         span: Span,
         out: &mut Vec<Event>,
@@ -508,7 +508,7 @@ impl Exec {
     /// What the spindle does after the hole, at the level to return to; `turned` is what it did before.
     fn after_hole(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         turned: Spindle,
         span: Span,
         out: &mut Vec<Event>,

@@ -23,7 +23,7 @@ use names::{Names, one_label_a_place};
 use crate::pass::Pass;
 use ncc_ir::computed::assigned_variables::AssignedVariables;
 use ncc_ir::computed::computed_call::computed_call;
-use ncc_ir::computed::computes::{Computes, Handed, Said, counted};
+use ncc_ir::computed::computes::{ComputeFeature, Computes, Handed, counted};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
@@ -48,7 +48,7 @@ pub fn run(program: &mut Program, computes: &Computes) {
             continue;
         }
         forms.taken.only_once(procedure);
-        if !computes.has(Said::Jump) && computes.blocks && computes.has(Said::Leave) {
+        if !computes.has(ComputeFeature::Jump) && computes.blocks && computes.has(ComputeFeature::Leave) {
             structures::structure_jumps(procedure, &mut forms.taken, computes.opposite);
         }
         let body = std::mem::take(&mut procedure.body);
@@ -106,7 +106,7 @@ struct Forms<'c> {
 }
 
 impl Forms<'_> {
-    fn has(&self, statement: Said) -> bool {
+    fn has(&self, statement: ComputeFeature) -> bool {
         self.computes.has(statement)
     }
 
@@ -219,7 +219,7 @@ impl Forms<'_> {
 
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Control(mut control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
-        if self.has(Said::CallOf) && computed_call(&control).is_some() {
+        if self.has(ComputeFeature::CallOf) && computed_call(&control).is_some() {
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
         if self.computes.says_number(&control) {
@@ -262,20 +262,20 @@ impl Forms<'_> {
             Control::Loop { body } => {
                 self.turns(Loop { span, head: None, body, tail: Vec::new(), until: None }, out);
             }
-            Control::Until { condition, body } if !self.has(Said::Until) => {
+            Control::Until { condition, body } if !self.has(ComputeFeature::Until) => {
                 let until = Some(condition);
                 self.turns(Loop { span, head: None, body, tail: Vec::new(), until }, out);
             }
             Control::Until { condition, body } => {
                 self.kept(span, body, |body| Control::Until { condition, body }, out);
             }
-            Control::For { variable, from, to, step, body } if !self.has(Said::Count) => {
+            Control::For { variable, from, to, step, body } if !self.has(ComputeFeature::Count) => {
                 self.counted(span, variable, [from, to, step], body, out);
             }
             Control::For { variable, from, to, step, body } => {
                 self.kept(span, body, |body| Control::For { variable, from, to, step, body }, out);
             }
-            Control::Repeat { times, body } if !self.has(Said::Times) => {
+            Control::Repeat { times, body } if !self.has(ComputeFeature::Times) => {
                 self.times(span, times, body, out);
             }
             Control::Repeat { times, body } => {
@@ -315,12 +315,12 @@ impl Forms<'_> {
 
     /// The body of a loop that stays one, of which every turn ends with `tail`; and what stands behind the loop.
     fn turning(&mut self, body: Vec<Stmt>, span: Span, tail: &[Stmt]) -> (Vec<Stmt>, Option<Stmt>) {
-        let jumps = self.has(Said::Jump);
-        let leave = match self.has(Said::Leave) || !jumps {
+        let jumps = self.has(ComputeFeature::Jump);
+        let leave = match self.has(ComputeFeature::Leave) || !jumps {
             true => Way::Own,
             false => Way::Jump(self.taken.label("LEFT"), false),
         };
-        let next = match self.has(Said::NextTurn) || !jumps {
+        let next = match self.has(ComputeFeature::NextTurn) || !jumps {
             true if tail.is_empty() => Way::Own,
             true => Way::Behind(tail.to_vec()),
             false => Way::Jump(self.taken.label("NEXT"), false),
@@ -353,7 +353,7 @@ impl Forms<'_> {
         let when = |condition: Expr, stmt: Stmt| decided(span, condition, stmt);
         let then = self.body(then);
         let otherwise = self.body(otherwise);
-        if self.computes.blocks || !self.has(Said::Jump) {
+        if self.computes.blocks || !self.has(ComputeFeature::Jump) {
             let control = Control::If { condition, then, otherwise };
             return out.push(Stmt::new(span, Op::Control(Box::new(control))));
         }
@@ -452,7 +452,7 @@ impl Forms<'_> {
     }
 
     fn turns(&mut self, of: Loop, out: &mut Vec<Stmt>) {
-        let stays = of.until.is_none() && self.open < self.computes.loops || !self.has(Said::Jump);
+        let stays = of.until.is_none() && self.open < self.computes.loops || !self.has(ComputeFeature::Jump);
         if stays { self.stays_loop(of, out) } else { self.as_jumps(of, out) }
     }
 
@@ -470,7 +470,7 @@ impl Forms<'_> {
             Some(condition) if condition.literal().is_none_or(|n| n.is_zero()) => {
                 Control::While { condition, body }
             }
-            _ if self.has(Said::Endless) => Control::Loop { body },
+            _ if self.has(ComputeFeature::Endless) => Control::Loop { body },
             _ => Control::While { condition: Expr::int(1), body },
         };
         out.push(Stmt::new(span, Op::Control(Box::new(control))));

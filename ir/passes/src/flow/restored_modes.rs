@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 use crate::support::mode_analysis::{At, at_calls};
 use ncc_ir::canon::{FeedMode, Motion, SpindleMode, Units};
 use ncc_ir::caps::Caps;
-use ncc_ir::computed::computes::Said;
+use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::kinds::{drilling, flow, moves, polar, tooling, variables};
 use ncc_ir::program::{Attribute, Data, FrameSlot, Move, Op, Procedure, Program, Stmt, Text};
@@ -48,7 +48,7 @@ pub fn run(program: &mut Program, entry: &Tracker, word: &str, diags: &mut Vec<D
 
 /// Tells which attributes a target does not say that are advice.
 pub fn left_out(program: &Program, target: &Caps) -> Vec<Diagnostic> {
-    let says = target.flow.computes.as_ref().is_some_and(|computes| computes.has(Said::Attributes));
+    let says = target.flow.computes.as_ref().is_some_and(|computes| computes.has(ComputeFeature::Attributes));
     let mut reported = Vec::new();
     for procedure in program.procedures.iter().filter(|_| !says) {
         let at = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);

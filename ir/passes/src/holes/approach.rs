@@ -17,7 +17,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::{Approach, Cycle};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
-use ncc_ir::track::{InForce, Tracker};
+use ncc_ir::track::{ActiveCycle, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -34,7 +34,7 @@ pub(crate) const PASS: Pass = Pass {
 };
 
 /// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
-pub(crate) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
+pub(crate) fn is_one_way(walk: &Walk, in_force: &ActiveCycle, way: Approach) -> bool {
     let cycle = &in_force.cycle;
     if length_decides(walk, cycle.approach, way) {
         return false;

@@ -35,7 +35,7 @@ use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::track::{InForce, Tracker};
+use ncc_ir::track::{ActiveCycle, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -333,7 +333,7 @@ fn in_force_before(walk: &Walk) -> [bool; 2] {
 
 fn must_expand(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     kept: bool,
     target: &Target,
     span: Span,
@@ -350,7 +350,7 @@ fn must_expand(
 /// The moves of one hole; `true` marks those that stand in the block of the one before.
 pub(crate) fn hole(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     to: &Point,
     feed: Option<&Expr>,
     target: &Target,
@@ -463,7 +463,7 @@ pub(crate) fn hole(
 }
 
 /// Where the tool is left above the hole, if that is not the retract plane.
-fn way_out(walk: &Walk, in_force: &InForce, normal: Axis) -> Result<Option<Point>, Fault> {
+fn way_out(walk: &Walk, in_force: &ActiveCycle, normal: Axis) -> Result<Option<Point>, Fault> {
     let cycle = &in_force.cycle;
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
     match cycle.return_level.known().or(walk.at.modes.return_level) {

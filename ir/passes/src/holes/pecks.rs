@@ -16,14 +16,14 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::cycle::{Clearance, CycleKind, absolute, next_peck};
 use ncc_ir::program::{Op, Point};
-use ncc_ir::track::InForce;
+use ncc_ir::track::ActiveCycle;
 
 /// Most pecks of one hole; more is a slip of the pen.
 const MAX_PECKS: i64 = 100_000;
 
 /// Whether a control that returns to where the tool stood before the block, and not before the series, comes to the
 /// same level.
-pub(super) fn level_is_here(walk: &Walk, in_force: &InForce, target: &Target) -> bool {
+pub(super) fn level_is_here(walk: &Walk, in_force: &ActiveCycle, target: &Target) -> bool {
     let cycle = &in_force.cycle;
     let retract = cycle.return_level.known().or(walk.at.modes.return_level) == Some(ReturnLevel::Retract);
     if !target.caps.holes.level_of_block || retract || cycle.return_plane.is_some() {
@@ -45,7 +45,7 @@ enum Between<'c> {
 /// All pecks but the last.
 pub(super) fn pecks(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     [retract_word, left]: [&Point; 2],
     target: &Target,
     stated: bool,

@@ -21,7 +21,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
-use ncc_ir::track::{InForce, Tracker};
+use ncc_ir::track::{ActiveCycle, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -201,7 +201,13 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
 }
 
 /// Writes the first hole of the cycle called up at `i` out, if others follow.
-fn behind_first(body: &[Stmt], i: usize, in_force: &InForce, walk: &Walk, target: &Target) -> Option<Split> {
+fn behind_first(
+    body: &[Stmt],
+    i: usize,
+    in_force: &ActiveCycle,
+    walk: &Walk,
+    target: &Target,
+) -> Option<Split> {
     let cycle = &in_force.cycle;
     let normal = walk.at.plane(cycle.plane)?.axes().2;
     let mut new = cycle.clone();

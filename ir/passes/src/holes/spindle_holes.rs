@@ -18,12 +18,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::cycle::{BoreStop, Cycle, CycleKind, FineBore, Shift, Tap, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Synchronised};
-use ncc_ir::track::InForce;
+use ncc_ir::track::ActiveCycle;
 
 /// A hole in which the cycle drives the spindle, from the retract plane on.
 struct Driven<'h> {
     walk: &'h Walk,
-    in_force: &'h InForce,
+    in_force: &'h ActiveCycle,
     to: &'h Point,
     retract: Point,
     depth: Point,
@@ -36,7 +36,7 @@ struct Driven<'h> {
 /// The moves of a hole in which the cycle drives the spindle, from the retract plane on.
 pub(crate) fn with_spindle(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     to: &Point,
     [retract, depth]: [Point; 2],
     out: Option<Point>,
@@ -245,7 +245,7 @@ impl Driven<'_> {
 /// The cycle with which a target taps one hole over which the tool stands at the retract plane, to leave it
 /// there: where its own cycle would go on at feed to the level of return, or has no such level.
 fn own_tap(
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     kind: &CycleKind,
     plane: Plane,
     [retract, depth]: [&Point; 2],

@@ -3,7 +3,7 @@
 
 use crate::pass::Pass;
 use ncc_ir::caps::Caps;
-use ncc_ir::computed::computes::Said;
+use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Output, Piece, Program, Stmt, Text};
 use ncc_ir::source::Span;
@@ -61,7 +61,7 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
 /// Messages with values become comments where the target shows no message while the program runs. What they read has no
 /// effect on the cut.
 pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let says = caps.flow.computes.as_ref().is_some_and(|there| there.has(Said::Values));
+    let says = caps.flow.computes.as_ref().is_some_and(|there| there.has(ComputeFeature::Values));
     if !caps.modes.messages && !says {
         program.procedures.iter_mut().for_each(|procedure| values(&mut procedure.body, diags));
     }
@@ -69,7 +69,7 @@ pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diag
 
 /// Text for devices becomes comments where the target writes to none.
 pub fn leave_out_output(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    if !caps.flow.computes.as_ref().is_some_and(|there| there.has(Said::Output)) {
+    if !caps.flow.computes.as_ref().is_some_and(|there| there.has(ComputeFeature::Output)) {
         program.procedures.iter_mut().for_each(|procedure| output(&mut procedure.body, diags));
     }
 }

@@ -24,7 +24,7 @@ mod reported;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use crate::values::variables::inventory::{Inventory, Seen, number_of};
-use ncc_ir::computed::computes::{Computes, Handed, LETTERS, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Computes, Handed, LETTERS};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Numbers, Scope, Var};
 use ncc_ir::program::valid::returns_alone;
@@ -293,7 +293,7 @@ impl<'c> Plan<'c> {
         for seen in all {
             // Arrays that the target does not have come last.
             let stays = match seen.elements {
-                Some(_) => self.computes.has(Said::Array) && self.computes.says(&seen.var),
+                Some(_) => self.computes.has(ComputeFeature::Array) && self.computes.says(&seen.var),
                 None => self.computes.says(&seen.var) && !matches!(seen.var, Var::Local(_)),
             };
             if stays && (!by_number || self.further == 0 || number_of(&seen.var, self.from).is_none()) {
@@ -375,7 +375,7 @@ impl<'c> Plan<'c> {
         let mut map = Map::new();
         let mut numbers = BTreeSet::new();
         for seen in &all {
-            let array = seen.elements.is_some() && !self.computes.has(Said::Array);
+            let array = seen.elements.is_some() && !self.computes.has(ComputeFeature::Array);
             if self.computes.says(&seen.var) && !array {
                 numbers.extend(number_of(&seen.var, self.computes));
                 map.insert(seen.var.clone(), seen.var.clone());
@@ -402,7 +402,7 @@ impl<'c> Plan<'c> {
             }
             let name = seen.var.name();
             let number = number_of(&seen.var, self.from);
-            let array = seen.elements.is_some() && !self.computes.has(Said::Array);
+            let array = seen.elements.is_some() && !self.computes.has(ComputeFeature::Array);
             if let Some(named) = self.computes.named.as_ref().filter(|_| !array) {
                 let is_parameter = self.parameters[at].contains(&seen.var);
                 let wanted = match number {
@@ -460,7 +460,7 @@ impl<'c> Plan<'c> {
                 }
             }
         }
-        if self.computes.has(Said::Declare) && self.roots.get(at) == Some(&at) {
+        if self.computes.has(ComputeFeature::Declare) && self.roots.get(at) == Some(&at) {
             let declared = &self.inventories[at].declared;
             for seen in &self.inventories[at].seen {
                 let Some(new) = locals.get(&seen.var) else { continue };

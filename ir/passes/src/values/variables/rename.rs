@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::values::variables::expressions;
 use crate::values::variables::inventory::{leave_out_results, number_of};
 use crate::values::variables::names::{Map, Plan};
-use ncc_ir::computed::computes::{Computes, Handed, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Computes, Handed};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Binary, Element, Expr, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
@@ -125,7 +125,8 @@ impl Rename<'_, '_> {
         let computes = self.plan.computes;
         let array = !declare.sizes.is_empty();
         let new = self.new_of(&declare.var).cloned().unwrap_or_else(|| declare.var.clone());
-        let stays = if array { computes.has(Said::Array) } else { computes.has(Said::Declare) };
+        let stays =
+            if array { computes.has(ComputeFeature::Array) } else { computes.has(ComputeFeature::Declare) };
         let named = number_of(&new, computes).is_none();
         if stays && named {
             declare.var = new;

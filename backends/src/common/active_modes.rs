@@ -5,7 +5,7 @@ use ncc_ir::expr::num::Num;
 
 /// Modes of the written text. `None` is not known: at the start, after a call, where ways meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct InForce {
+pub(crate) struct ActiveModes {
     pub motion: Option<Motion>,
     pub distance: Option<Distance>,
     pub units: Option<Units>,
@@ -26,9 +26,9 @@ pub(crate) struct InForce {
     pub our_level: bool,
 }
 
-impl InForce {
+impl ActiveModes {
     /// What holds if the block between `before` and now may have been skipped.
-    pub(crate) fn join(&mut self, before: &InForce) {
+    pub(crate) fn join(&mut self, before: &ActiveModes) {
         fn both<T: PartialEq>(a: &mut Option<T>, b: &Option<T>) {
             if a != b {
                 *a = None;
