@@ -121,10 +121,10 @@ impl Writer {
     /// Says what program it is, of those that compute, before any of it is written, and the places of statements
     /// whose words say their own distance mode, where others rely on the one in force. `stands` are modes that are in
     /// force where stretches of blocks begin, by the places of their first statements.
-    pub fn know(&mut self, program: &Program, own_distance: &BTreeSet<u32>, entries: HashMap<u32, Modes>) {
+    pub fn know(&mut self, program: &Program, word_distance: &BTreeSet<u32>, entries: HashMap<u32, Modes>) {
         match &mut self.kind {
             Kind::Word(writer) => writer.know(program, entries),
-            Kind::Siemens(writer) => writer.know(&program.procedures, own_distance, entries),
+            Kind::Siemens(writer) => writer.know(&program.procedures, word_distance, entries),
             // The text form says them all by itself; the other writes no such programs.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }

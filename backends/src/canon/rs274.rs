@@ -83,7 +83,7 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables, arcs: ArcRule) -
     // The interpreter makes a call of a move that goes nowhere too.
     exec.every_move();
     let straight = flatten::by(program, &start, exec.clone())?;
-    let program = &beside(straight.as_ref().unwrap_or(program), &start, tables)?;
+    let program = &write_offset_path(straight.as_ref().unwrap_or(program), &start, tables)?;
     let mut printer = Printer {
         exec,
         program,
@@ -159,7 +159,7 @@ struct Printer<'p> {
 }
 
 /// The program with coordinates in place of polar words, and the path of the tool's centre in place of contours.
-fn beside(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
+fn write_offset_path(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
     let compensating = Compensating {
         rules: Rules::INTERPRETER,
         known: true,

@@ -32,7 +32,7 @@ pub(super) struct Computing {
     /// Whether there are cycles in it, each of which is called up in the stretch of blocks that makes its holes.
     cycles: bool,
     /// Statements whose words say their own distance mode, where others rely on the one in force, by their places.
-    pub(super) own_distance: BTreeSet<u32>,
+    pub(super) word_distance: BTreeSet<u32>,
     told_number: bool,
     told_comparison: bool,
     /// How many structures are open.
@@ -45,11 +45,11 @@ impl Writer {
     pub(crate) fn know(
         &mut self,
         procedures: &[Procedure],
-        own_distance: &BTreeSet<u32>,
+        word_distance: &BTreeSet<u32>,
         entries: HashMap<u32, Modes>,
     ) {
         self.computing.program = true;
-        self.computing.own_distance.clone_from(own_distance);
+        self.computing.word_distance.clone_from(word_distance);
         self.words.is_kept(entries);
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
         // Holes that rely on a cycle called up elsewhere: it stays in force over jumps and labels, as in the source.

@@ -23,7 +23,7 @@ impl Writer {
     /// # Errors
     /// The control cannot say it.
     pub(super) fn statement(&mut self, stmt: &Stmt, with: usize, sink: &mut Sink) -> Result<(), Fault> {
-        self.words.says_distance = self.computing.own_distance.contains(&stmt.span.start);
+        self.words.says_distance = self.computing.word_distance.contains(&stmt.span.start);
         self.before_statement(stmt, sink)?;
         if self.words.preamble.is_some() && !matches!(stmt.op, Op::Declare(_)) {
             // No edge is no length, which belongs to the start.

@@ -316,7 +316,7 @@ fn level_is_free(body: &[Stmt]) -> bool {
 
 /// Whether a cycle that the target cannot say becomes sayable by this pass, with nothing known but
 /// what the program says; for a decision before the passes run.
-pub(crate) fn mends(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
+pub(crate) fn converts_all(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
     let (mut trial, mut diags) = (body.to_vec(), Vec::new());
     convert_return_plane(&mut trial, &mut walk.clone(), target, &mut diags);
     let mut state = expand_cycles::ExpandCyclesState::default();

@@ -46,7 +46,7 @@ impl Legaliser {
             .iter_mut()
             .map(|p| mode_analysis::positions(&mut p.body))
             .fold(false, |a, b| a | b);
-        if any && self.shared.target.caps.flow.computes.as_ref().is_some_and(|there| !there.restates) {
+        if any && self.shared.target.caps.flow.computes.as_ref().is_some_and(|target| !target.restates) {
             self.stretches(&mut bare, known, &mut found);
             if found.iter().all(|d| d.fault.gravity() != Gravity::Error) {
                 *program = bare;

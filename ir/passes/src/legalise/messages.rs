@@ -37,7 +37,7 @@ fn stops_first(stmts: &[Stmt]) -> Option<bool> {
 /// stop or in the one before it, in the characters that it shows. One without a text, which takes another back, is none
 /// where none stays.
 pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let alarms = caps.flow.computes.as_ref().and_then(|there| there.alarms.as_ref());
+    let alarms = caps.flow.computes.as_ref().and_then(|target| target.alarms.as_ref());
     for at in 0..stmts.len() {
         let (before, behind) = stmts.split_at_mut(at + 1);
         let Some(stmt) = before.last_mut() else { continue };
@@ -61,7 +61,7 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
 /// Messages with values become comments where the target shows no message while the program runs. What they read has no
 /// effect on the cut.
 pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let says = caps.flow.computes.as_ref().is_some_and(|there| there.has(ComputeFeature::Values));
+    let says = caps.flow.computes.as_ref().is_some_and(|target| target.has(ComputeFeature::Values));
     if !caps.modes.messages && !says {
         program.procedures.iter_mut().for_each(|procedure| values(&mut procedure.body, diags));
     }
@@ -69,7 +69,7 @@ pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diag
 
 /// Text for devices becomes comments where the target writes to none.
 pub fn leave_out_output(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    if !caps.flow.computes.as_ref().is_some_and(|there| there.has(ComputeFeature::Output)) {
+    if !caps.flow.computes.as_ref().is_some_and(|target| target.has(ComputeFeature::Output)) {
         program.procedures.iter_mut().for_each(|procedure| output(&mut procedure.body, diags));
     }
 }

@@ -253,7 +253,7 @@ impl Legaliser {
         bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
             Op::StartCycle(cycle) if !planes.says(cycle.return_plane.is_some()) => {
                 let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
-                !return_plane::mends(body, &stands(at), &self.shared.target)
+                !return_plane::converts_all(body, &stands(at), &self.shared.target)
             }
             Op::StartCycle(cycle) => {
                 let other = self.shared.target.caps.holes.approach.is_some_and(|a| a != cycle.approach);

@@ -85,9 +85,9 @@ pub(crate) const PASS: Pass = Pass {
 /// something else of them than the source.
 pub(crate) fn says_again(target: &Target) -> bool {
     let fact = Behaviour::FeedAtUnits;
-    let (own, there) = (target.source, target.caps.behaviours);
-    let open = own.is_open(fact) || there.is_open(fact);
-    target.caps.modes.feed_again || target.other_control && open || own.get(fact) != there.get(fact)
+    let (own, other) = (target.source, target.caps.behaviours);
+    let open = own.is_open(fact) || other.is_open(fact);
+    target.caps.modes.feed_again || target.other_control && open || own.get(fact) != other.get(fact)
 }
 
 /// Feed in force, and whether the units have changed since it was said, or a code has ended it.

@@ -64,7 +64,7 @@ impl Saved {
 }
 
 /// The whole number that an expression is worth, where modes that it asks for are known.
-pub(crate) fn worth(value: &Expr, known: &Modes) -> Option<i64> {
+pub(crate) fn constant_value(value: &Expr, known: &Modes) -> Option<i64> {
     if let Expr::Num(n) = value {
         return n.whole_number();
     }

@@ -274,7 +274,7 @@ impl Flow<'_> {
         }
         let gives = self.gives.get(found) == Some(&true);
         let behind = behind.map(|behind| Held { saved: behind.saved.left(&caller.saved, shared), ..behind });
-        behind.map(|behind| if gives { behind.given_back(&caller) } else { behind })
+        behind.map(|behind| if gives { behind.with_restored_modes(&caller) } else { behind })
     }
 
     fn control(&mut self, control: &mut Control, mut state: Option<Held>) -> Option<Held> {

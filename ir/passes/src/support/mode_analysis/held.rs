@@ -41,7 +41,7 @@ impl Held {
     }
 
     /// Behind a call that gives back what its caller had.
-    pub(super) fn given_back(mut self, caller: &Held) -> Held {
+    pub(super) fn with_restored_modes(mut self, caller: &Held) -> Held {
         let (own, before) = (&mut self.at, &caller.at);
         let (modes, had) = (&mut own.modes, &before.modes);
         modes.motion = had.motion;
@@ -70,7 +70,7 @@ impl Held {
     pub(super) fn apply(&mut self, op: &Op, at: u32) {
         if let Op::Assign(to, value) = op {
             self.sets(to);
-            self.saved.set(to, constant_queries::worth(value, &self.at.modes));
+            self.saved.set(to, constant_queries::constant_value(value, &self.at.modes));
         } else if let Op::Declare(_) = op {
             self.saved.forget();
         } else if matches!(op, Op::StartCycle(_)) {
