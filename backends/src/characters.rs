@@ -2,7 +2,7 @@
 //!
 //! Not here: which signs a comment may have (`word::comment`).
 
-use ncc_ir::letters::stand_in;
+use ncc_ir::transliterate::stand_in;
 
 use crate::Characters;
 

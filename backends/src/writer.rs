@@ -121,10 +121,10 @@ impl Writer {
     /// Says what program it is, of those that compute, before any of it is written, and the places of statements
     /// whose words say their own distance mode, where others rely on the one in force. `stands` are modes that are in
     /// force where stretches of blocks begin, by the places of their first statements.
-    pub fn know(&mut self, program: &Program, own_distance: &BTreeSet<u32>, stands: HashMap<u32, Modes>) {
+    pub fn know(&mut self, program: &Program, word_distance: &BTreeSet<u32>, entries: HashMap<u32, Modes>) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.know(program, stands),
-            Kind::Siemens(writer) => writer.know(&program.procedures, own_distance, stands),
+            Kind::Word(writer) => writer.know(program, entries),
+            Kind::Siemens(writer) => writer.know(&program.procedures, word_distance, entries),
             // The text form says them all by itself; the other writes no such programs.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }
@@ -132,10 +132,10 @@ impl Writer {
 
     /// Says which modes are in force where stretches of blocks begin, by the places of their first statements, in a
     /// program that does not compute.
-    pub fn know_modes(&mut self, program: &Program, stands: HashMap<u32, Modes>) {
+    pub fn know_modes(&mut self, program: &Program, entries: HashMap<u32, Modes>) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.know_modes(stands),
-            Kind::Siemens(writer) => writer.know_modes(&program.procedures, stands),
+            Kind::Word(writer) => writer.know_modes(entries),
+            Kind::Siemens(writer) => writer.know_modes(&program.procedures, entries),
             // The text form says what is in force with every word; the other writes no subprograms.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }

@@ -144,7 +144,7 @@ impl Order {
         };
         let mut from = from;
         for (name, value) in &self.values {
-            value.whole().into_iter().for_each(|value| from.state_value(name, value));
+            value.whole_number().into_iter().for_each(|value| from.state_value(name, value));
         }
         Ok(Job {
             from,

@@ -521,7 +521,7 @@ impl Verifier {
                 _ => "what its caller has in force, where this control begins otherwise",
             };
             let what = what.into();
-            return Err(Stop::Source(Diagnostic::new(Fault::CannotSay { what }, self.last)));
+            return Err(Stop::Source(Diagnostic::new(Fault::TargetLacks { what }, self.last)));
         }
         for run in self.runs.iter_mut().chain(&mut self.others) {
             // What the text itself takes for granted goes before what it inherits.
@@ -563,7 +563,7 @@ fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> S
         return Stop::Source(Diagnostic::new(Fault::DoneByTarget { behaviour }, at));
     }
     if let Some(fact) = unsaid {
-        return Stop::Source(Diagnostic::new(Fault::FactUnsaid { fact }, at));
+        return Stop::Source(Diagnostic::new(Fault::ModeNotSet { fact }, at));
     }
     if let Some(fault) = closed_by_rounding(difference) {
         return Stop::Source(Diagnostic::new(fault, at));

@@ -7,8 +7,8 @@
 //!
 //! Not here: what stands for characters that a control does not show (`letters`).
 
-use crate::letters::in_capitals;
 use crate::program::Text;
+use crate::transliterate::in_capitals;
 
 /// How a control says the alarms of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -36,7 +36,7 @@ impl Kind {
     }
 
     /// The kind of a statement, if it has one.
-    pub fn of(op: &Op) -> Option<Kind> {
+    pub fn from_op(op: &Op) -> Option<Kind> {
         match op {
             Op::SetMotionControlMode(_) => Some(Kind::Path),
             Op::SetReturnLevel(_) => Some(Kind::ReturnLevel),
@@ -91,7 +91,7 @@ impl Refused {
 
     /// The kind of a statement, if it is refused.
     pub fn kind(self, op: &Op) -> Option<Kind> {
-        Kind::of(op).filter(|kind| (self.after | self.before) >> *kind as u8 & 1 == 1)
+        Kind::from_op(op).filter(|kind| (self.after | self.before) >> *kind as u8 & 1 == 1)
     }
 
     /// Whether codes of a kind act before those of compensation.

@@ -6,7 +6,7 @@
 use crate::behaviour::{Behaviour, Kept};
 use crate::canon::Axis;
 use crate::expr::num::Num;
-use crate::geometry::beside::Unreachable;
+use crate::geometry::offset_path::Unreachable;
 use crate::program::numbered::Numbered;
 use crate::source::Span;
 
@@ -423,7 +423,7 @@ faults! {
     /// Text for a device that the target does not write to.
     OutputDropped = 424, verdict(Verdict::Reformatted);
     /// A macro whose calls give different arguments written as several, one for each set; under these names.
-    MacroApart { name: Box<str>, names: Box<str> } = 425, verdict(Verdict::Expanded);
+    MacroCloned { name: Box<str>, names: Box<str> } = 425, verdict(Verdict::Expanded);
     /// The text of an alarm has values in it, which no alarm of the output shows.
     AlarmValues = 427, verdict(Verdict::Reformatted);
     /// What the source's control does by itself at a code, written before it as words.
@@ -447,7 +447,7 @@ faults! {
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.
-    CannotSay { what: Box<str> } = 501, Error;
+    TargetLacks { what: Box<str> } = 501, Error;
     /// A second work offset for a control that has one.
     SecondWorkOffset { first: u16, second: u16 } = 502, Error;
     /// The arc is gone after rounding to the target's digits.
@@ -468,7 +468,7 @@ faults! {
     MustBeStated { behaviour: Behaviour } = 509, Error;
     /// A fact that the program leaves to what was in force before it, and that the target's control always
     /// begins with a value of its own for.
-    FactUnsaid { fact: ModeName } = 507, Error;
+    ModeNotSet { fact: ModeName } = 507, Error;
     /// By how many degrees a rotary axis turns is left to the two controls: by what the number says, or another way;
     /// nanos.
     RotaryTurnOpen { axis: Axis, by: i64, or: i64 } = 522, Error;
@@ -490,7 +490,7 @@ faults! {
     VariableGiven { name: Box<str> } = 604, Warning;
     /// A way that the program can go was not gone when it was run against the output: where the decision holds, where
     /// it does not, or both.
-    NotTaken { holds: bool, fails: bool } = 605, Warning;
+    BranchUncovered { holds: bool, fails: bool } = 605, Warning;
     /// The output decides more than the source does, and not all of that went both ways; blocks of it where it did not.
     OutputNotTaken { blocks: Box<str> } = 609, Warning;
     /// A run with another value of an open fact was left before the program's end; `None` is the switch for optional

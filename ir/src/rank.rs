@@ -98,7 +98,7 @@ impl Fault {
             | Fault::ComparedLast { .. }
             | Fault::SkipSettingsSampled { .. }
             | Fault::VariableGiven { .. }
-            | Fault::NotTaken { .. }
+            | Fault::BranchUncovered { .. }
             | Fault::OutputNotTaken { .. }
             | Fault::FactNotTried { .. }
             | Fault::ValueNotRead { .. }
@@ -139,7 +139,7 @@ impl Fault {
             | Fault::FeedByTime
             | Fault::ValuesInFull { .. }
             | Fault::AlarmValues
-            | Fault::MacroApart { .. }
+            | Fault::MacroCloned { .. }
             | Fault::MachineCutExpanded { .. }
             | Fault::MachineCutFolded { .. }
             | Fault::PeckShortened
@@ -198,9 +198,9 @@ impl Fault {
             | Fault::Endless
             | Fault::RadiusUnknown { .. }
             | Fault::ContourUnreachable { .. }
-            | Fault::CannotSay { .. }
+            | Fault::TargetLacks { .. }
             | Fault::SecondWorkOffset { .. }
-            | Fault::FactUnsaid { .. }
+            | Fault::ModeNotSet { .. }
             | Fault::ArcVanishes
             | Fault::DoneByTarget { .. }
             | Fault::MustBeStated { .. }

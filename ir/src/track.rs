@@ -5,23 +5,24 @@
 
 mod frames;
 mod holes;
-mod merge;
-
-pub use self::frames::Shifted;
 mod intermediate;
 mod known;
+mod merge;
+mod shifted;
+
+pub use self::shifted::Shifted;
 
 use known::{Known, Polarly, Turning};
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, Spindle, Units};
-use crate::computed::code_of::code_of;
-use crate::computed::entry_of::is_about_entries;
+use crate::computed::computed_code::computed_code;
+use crate::computed::computed_entry::is_about_entries;
 use crate::expr::Expr;
 use crate::expr::num::{Nanos, Num};
 use crate::geometry;
-use crate::geometry::places::Places;
+use crate::geometry::arc_solver::{MOST_SHORT, solve_arc};
+use crate::geometry::hole_positions::HolePositions;
 use crate::geometry::polar::{self, Pole};
-use crate::geometry::round::{MOST_SHORT, round};
 use crate::program::cycle::{Cycle, Pattern};
 use crate::program::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
 use crate::program::{
@@ -36,7 +37,7 @@ pub struct Tracker {
     /// Position in the program's frame, nanos; `None` is not known.
     pub position: [Option<Nanos>; AXES],
     /// The cycle in force.
-    pub cycle: Option<InForce>,
+    pub cycle: Option<ActiveCycle>,
     /// Whether another cycle than `cycle` may be in force, because of a block that may be skipped.
     pub cycle_in_doubt: bool,
     /// From which level it then works, if it is in force.
@@ -98,7 +99,7 @@ pub struct Tracker {
 
 /// A cycle in force, with its planes resolved as far as they are known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InForce {
+pub struct ActiveCycle {
     /// The cycle.
     pub cycle: Cycle,
     /// Level of the drilling axis when it was called up.
@@ -200,16 +201,16 @@ impl Tracker {
 
     /// Hole positions of a pattern in the plane's two axes, as far as they are known.
     pub fn positions(&self, pattern: &Pattern) -> Option<Vec<[Nanos; 2]>> {
-        let places = self.places(pattern)?;
+        let places = self.hole_positions(pattern)?;
         Some((0..places.count()).map(|k| places.get(k)).collect())
     }
 
     /// The places of a pattern in the plane's two axes, as far as they are known.
-    pub fn places(&self, pattern: &Pattern) -> Option<Places> {
+    pub fn hole_positions(&self, pattern: &Pattern) -> Option<HolePositions> {
         let plane = self.cycle.as_ref().map_or(Fact::Entry, |c| c.cycle.plane);
         let plane = self.plane(plane)?;
         let (first, second, _) = plane.axes();
-        Places::of(pattern, plane, &Known { at: self, axes: [first, second] }).ok()
+        HolePositions::from_pattern(pattern, plane, &Known { at: self, axes: [first, second] }).ok()
     }
 
     /// Forgets everything: after a call, at a label.
@@ -368,7 +369,7 @@ impl Tracker {
                     let turns = turn.is_some();
                     self.lose(&std::array::from_fn(|axis| words[axis].is_some() || turns && axis < 2));
                 }
-                Data::ToolInSpindle(tool) => self.tool = tool.literal().and_then(|n| n.whole()),
+                Data::ToolInSpindle(tool) => self.tool = tool.literal().and_then(|n| n.whole_number()),
                 Data::Tool { entry, which, .. } if which.is_offset() => {
                     self.aside |= matches!(which, ToolValue::OffsetX | ToolValue::OffsetY);
                     self.change_entry(*entry);
@@ -381,7 +382,7 @@ impl Tracker {
             },
             Op::UseToolEdge { edge, .. } => {
                 self.move_aside();
-                let edge = edge.literal().and_then(|n| n.whole());
+                let edge = edge.literal().and_then(|n| n.whole_number());
                 self.modes.length_offset = match (edge, self.tool) {
                     (Some(0), _) | (Some(_), Some(0)) => Some(0),
                     // Edge 1 of a tool is the table's entry with its number.
@@ -396,7 +397,8 @@ impl Tracker {
             }
             Op::UseToolLengthOffset(entry) => {
                 self.move_aside();
-                let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+                let entry =
+                    entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;
             }
             Op::ChangeTool => {
@@ -406,10 +408,10 @@ impl Tracker {
                 }
             }
             Op::SelectToolByName(_) => self.selected = None,
-            Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
+            Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole_number()),
             // One of them does what it says, and nothing else.
-            Op::Control(control) if code_of(control).is_some_and(|code| is_about_entries(&code)) => {
-                let code = code_of(control);
+            Op::Control(control) if computed_code(control).is_some_and(|code| is_about_entries(&code)) => {
+                let code = computed_code(control);
                 code.iter().flat_map(|code| &code.codes).for_each(|(_, op)| self.apply(op));
             }
             flow!() => self.forget(),
@@ -532,7 +534,7 @@ impl Tracker {
         let plane = self.plane(arc.plane)?;
         let (first, second, _) = plane.axes();
         let start = [self.position[first as usize]?, self.position[second as usize]?];
-        let found = round(&arc.shape, plane, start, start, &Turning(self)).ok()?.ok()?;
+        let found = solve_arc(&arc.shape, plane, start, start, &Turning(self)).ok()?.ok()?;
         Some(found.end)
     }
 

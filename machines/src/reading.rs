@@ -175,7 +175,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
             other => (side, Place::Confirmed(slug(other))),
         },
         Fault::UnknownCode { code } if is_m_code(code) => (Side::From, Place::Code(code.to_string())),
-        Fault::CannotSay { what } => match what.strip_prefix(TOOL) {
+        Fault::TargetLacks { what } => match what.strip_prefix(TOOL) {
             Some(name) => (Side::To, Place::Number(Numbered::Tool, name.to_owned())),
             None => (Side::To, Place::Function(what.strip_prefix(FUNCTION)?.to_owned())),
         },

@@ -17,10 +17,12 @@
 mod finding;
 pub mod flow;
 mod limits;
+mod met;
 mod rule;
 mod rules;
 mod seen;
 mod watch;
+mod watched;
 
 pub use finding::{Finding, Findings, LeftOn, Outside, Setting, What};
 pub use limits::{Limits, Unchecked};

@@ -10,10 +10,12 @@ use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{FrameSlot, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
-use crate::finding::{Finding, Findings, LeftOn, What};
+use crate::finding::{Finding, LeftOn, What};
 use crate::limits::{Limits, Unchecked};
+use crate::met::SpindleMet;
 use crate::rules::{feed, left, length, points, rapid, speed, spindle, travel};
-use crate::seen::{Known, Seen};
+use crate::seen::Known;
+use crate::watched::{Step, Watched};
 
 /// A block that was not read, as far as its faults tell.
 #[derive(Clone, Debug, Default)]
@@ -27,40 +29,13 @@ pub struct Refusal {
 /// Checks one program, statement by statement.
 #[derive(Debug)]
 pub struct Checker {
-    pub(crate) limits: Limits,
-    pub(crate) seen: Seen,
-    pub(crate) findings: Findings,
-    pub(crate) unchecked: BTreeSet<Unchecked>,
-    pub(crate) travel: travel::Met,
-    pub(crate) feed: feed::Met,
-    pub(crate) spindle: spindle::Met,
-    pub(crate) points: points::Met,
+    watched: Watched,
     /// Place of the first block that was not read.
     first_refusal: Option<Span>,
-    /// Work offset and length that `seen.base` was found out for.
-    based: Option<Based>,
     events: Vec<Event>,
     /// Where the axes stood after the last event.
     last: [Nanos; AXES],
     ended: bool,
-    /// Whether the program has cancelled a length offset.
-    pub(crate) cancels_length: bool,
-}
-
-/// Work offset in force, entry of the length table, and edge where the length is no entry.
-type Based = (u16, Option<u32>, Option<(i64, u32)>);
-
-/// What of the statement a rule may need besides its events.
-pub(crate) struct Step<'s> {
-    pub(crate) stmt: &'s Stmt,
-    /// Where the axes stood before it, program coordinates.
-    pub(crate) from: [Nanos; AXES],
-    /// Of which axes that was known.
-    pub(crate) from_known: [bool; AXES],
-    /// Whether its words are machine coordinates.
-    pub(crate) raw: bool,
-    /// Whether points were those of the tool's tip, or of a tilted plane.
-    pub(crate) tilted: bool,
 }
 
 impl Checker {
@@ -75,20 +50,11 @@ impl Checker {
             unchecked.insert(Unchecked::NoPlane);
         }
         let mut checker = Checker {
-            limits,
-            seen: Seen::default(),
-            findings: Findings::default(),
-            unchecked,
-            travel: travel::Met::default(),
-            feed: feed::Met::default(),
-            spindle: spindle::Met::default(),
-            points: points::Met::default(),
+            watched: Watched::new(limits, unchecked),
             first_refusal: None,
-            based: None,
             events: Vec::new(),
             last: exec.machine(),
             ended: false,
-            cancels_length: false,
         };
         checker.rebase(exec);
         checker
@@ -103,8 +69,8 @@ impl Checker {
         let step = Step {
             stmt,
             from: exec.position(),
-            from_known: self.seen.program,
-            raw: std::mem::take(&mut self.seen.raw),
+            from_known: self.watched.seen.program,
+            raw: std::mem::take(&mut self.watched.seen.raw),
             tilted: exec.is_tilted(),
         };
         self.before(stmt);
@@ -113,7 +79,7 @@ impl Checker {
         events.clear();
         let mut done = exec.step(stmt, &mut events);
         if let (Err(Diagnostic { fault: Fault::NoFeed, .. }), Some(saved)) = (&done, saved) {
-            feed::missing(self, stmt.span);
+            feed::missing(&mut self.watched, stmt.span);
             *exec = saved;
             events.clear();
             let one = Expr::Num(Num { mantissa: 1, scale: 0, point: true, unit: Unit::Mm });
@@ -141,32 +107,32 @@ impl Checker {
     /// A block that was not read: what it may have changed is not known from here.
     pub fn lose(&mut self, refusal: &Refusal) {
         self.first_refusal.get_or_insert(refusal.span);
-        self.seen.lose();
-        self.spindle = spindle::Met::default();
+        self.watched.seen.lose();
+        self.watched.spindle = SpindleMet::default();
         if let Some(mode) = refusal.on {
-            self.seen.switch_on(mode, refusal.span);
+            self.watched.seen.switch_on(mode, refusal.span);
         }
-        self.based = None;
+        self.watched.based = None;
     }
 
     /// Numbers without a point of the piece of text whose statements come next.
     pub fn bare(&mut self, span: Span, read: Num, with_point: Num, feed: bool) {
-        points::note(self, span, read, with_point, feed);
+        points::note(&mut self.watched, span, read, with_point, feed);
     }
 
     /// The text has a length with a point.
     pub fn pointed(&mut self) {
-        self.points.pointed = true;
+        self.watched.points.pointed = true;
     }
 
     /// Something that was found otherwise.
     pub fn add(&mut self, finding: Finding) {
-        self.findings.add(finding);
+        self.watched.findings.add(finding);
     }
 
     /// The execution was given up: it does not come to an end.
     pub fn give_up(&mut self) {
-        self.unchecked.insert(Unchecked::Endless);
+        self.watched.unchecked.insert(Unchecked::Endless);
         self.ended = true;
     }
 
@@ -178,16 +144,18 @@ impl Checker {
     /// The end of the program at the end of its text; a subprogram alone leaves everything to its caller.
     pub fn finish(mut self, subprogram: bool, end: Span) -> Checked {
         if subprogram {
-            self.findings.retain(|finding| !finding.at_entry && !matches!(finding.what, What::Left(_)));
+            self.watched
+                .findings
+                .retain(|finding| !finding.at_entry && !matches!(finding.what, What::Left(_)));
         } else if !self.ended {
-            left::on(&mut self, end);
+            left::on(&mut self.watched, end);
         }
-        points::finish(&mut self);
-        let left_out = self.findings.left_out().collect();
+        points::finish(&mut self.watched);
+        let left_out = self.watched.findings.left_out().collect();
         Checked {
-            findings: self.findings.sorted(),
+            findings: self.watched.findings.sorted(),
             left_out,
-            unchecked: self.unchecked.into_iter().collect(),
+            unchecked: self.watched.unchecked.into_iter().collect(),
             first_refusal: self.first_refusal,
         }
     }
@@ -195,10 +163,10 @@ impl Checker {
     /// What a statement says before it is executed.
     fn before(&mut self, stmt: &Stmt) {
         match &stmt.op {
-            Op::UseMachineCoordinates { .. } => self.seen.raw = true,
-            Op::StopCutterRadiusCompensation => self.seen.switch_off(LeftOn::Compensation),
+            Op::UseMachineCoordinates { .. } => self.watched.seen.raw = true,
+            Op::StopCutterRadiusCompensation => self.watched.seen.switch_off(LeftOn::Compensation),
             Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(false) => {
-                self.seen.switch_off(LeftOn::Frame);
+                self.watched.seen.switch_off(LeftOn::Frame);
             }
             _ => {}
         }
@@ -212,47 +180,49 @@ impl Checker {
             Op::Position(m) | Op::Hole(m) => self.words(&m.to, step.raw, exec),
             Op::ArcFeed(arc) => self.words(&arc.to, step.raw, exec),
             Op::ArcForm(arc) => self.words(&arc.to, step.raw, exec),
-            Op::StartCutterRadiusCompensation { .. } => self.seen.switch_on(LeftOn::Compensation, at),
-            Op::SetDistanceMode(Distance::Incremental) => self.seen.switch_on(LeftOn::Incremental, at),
-            Op::SetDistanceMode(Distance::Absolute) => self.seen.switch_off(LeftOn::Incremental),
+            Op::StartCutterRadiusCompensation { .. } => self.watched.seen.switch_on(LeftOn::Compensation, at),
+            Op::SetDistanceMode(Distance::Incremental) => {
+                self.watched.seen.switch_on(LeftOn::Incremental, at)
+            }
+            Op::SetDistanceMode(Distance::Absolute) => self.watched.seen.switch_off(LeftOn::Incremental),
             Op::ClearFrame(FrameSlot::Shift) => {}
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) | Op::ClearFrame(_) => {
                 // A shift of zero is none.
                 if !exec.has_program_frames() {
-                    self.seen.switch_off(LeftOn::Frame);
+                    self.watched.seen.switch_off(LeftOn::Frame);
                 } else if !matches!(step.stmt.op, Op::ClearFrame(_)) {
-                    self.seen.switch_on(LeftOn::Frame, at);
+                    self.watched.seen.switch_on(LeftOn::Frame, at);
                 }
                 self.forget_program();
                 if step.tilted != exec.is_tilted() {
-                    self.seen.machine[..3].fill(false);
+                    self.watched.seen.machine[..3].fill(false);
                 }
             }
             Op::UseOriginShift(_) => self.forget_program(),
             Op::UseToolCentrePoint(_) => {
                 self.forget_program();
-                self.seen.machine[..3].fill(false);
+                self.watched.seen.machine[..3].fill(false);
             }
             Op::OrientToolAxis(_) => {
                 self.forget_program();
-                self.seen.machine = [false; AXES];
+                self.watched.seen.machine = [false; AXES];
             }
             Op::SetOriginOffsets(_) => {
                 self.rebase(exec);
                 self.forget_program();
             }
             Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
-                self.seen.length_lost = false;
-                length::said(self, at, exec);
+                self.watched.seen.length_lost = false;
+                length::said(&mut self.watched, at, exec);
                 self.rebase(exec);
             }
             Op::StartCycle(_) => {
-                self.seen.switch_on(LeftOn::Cycle, at);
-                rapid::cycle(self, step, exec);
+                self.watched.seen.switch_on(LeftOn::Cycle, at);
+                rapid::cycle(&mut self.watched, step, exec);
             }
-            Op::EndCycle => self.seen.switch_off(LeftOn::Cycle),
-            Op::FloodOn | Op::MistOn => self.seen.switch_on(LeftOn::Coolant, at),
-            Op::CoolantOff => self.seen.switch_off(LeftOn::Coolant),
+            Op::EndCycle => self.watched.seen.switch_off(LeftOn::Cycle),
+            Op::FloodOn | Op::MistOn => self.watched.seen.switch_on(LeftOn::Coolant, at),
+            Op::CoolantOff => self.watched.seen.switch_off(LeftOn::Coolant),
             _ => {}
         }
     }
@@ -261,56 +231,56 @@ impl Checker {
     fn event(&mut self, step: &Step, event: &Event, exec: &Exec) {
         match &event.kind {
             Kind::Traverse => {
-                rapid::moved(self, step, exec);
+                rapid::moved(&mut self.watched, step, exec);
                 self.moved(step, event);
             }
             Kind::Feed | Kind::Arc { .. } => {
-                spindle::cut(self, event, self.last);
-                feed::cut(self, event, self.last);
+                spindle::cut(&mut self.watched, event, self.last);
+                feed::cut(&mut self.watched, event, self.last);
                 self.moved(step, event);
             }
             // It touches, and cuts nothing.
             Kind::Probe { .. } => {
-                spindle::probed(self);
+                spindle::probed(&mut self.watched);
                 self.moved(step, event);
             }
             Kind::Synchronised { .. } => {
-                spindle::cut(self, event, self.last);
+                spindle::cut(&mut self.watched, event, self.last);
                 self.moved(step, event);
             }
             Kind::Orient(_) => {
-                self.seen.spindle = Known::Said;
-                self.spindle = spindle::Met::held();
-                self.seen.switch_off(LeftOn::Spindle);
+                self.watched.seen.spindle = Known::Said;
+                self.watched.spindle = SpindleMet::held();
+                self.watched.seen.switch_off(LeftOn::Spindle);
             }
             Kind::ToolChange => {
-                spindle::changed(self);
-                length::changed(self, event);
+                spindle::changed(&mut self.watched);
+                length::changed(&mut self.watched, event);
             }
             // Spindle and coolant stay on for the next pass.
             Kind::BeginAgain => self.ended = true,
             Kind::ProgramEnd => {
-                left::on(self, event.span);
+                left::on(&mut self.watched, event.span);
                 self.ended = true;
             }
             Kind::Attribute(Attribute::FeedRate(feed)) => {
-                self.seen.feed = Known::Said;
-                feed::said(self, *feed, event.span);
+                self.watched.seen.feed = Known::Said;
+                feed::said(&mut self.watched, *feed, event.span);
             }
             Kind::Attribute(Attribute::SpindleSpeed(revs)) => {
-                self.seen.speed = Known::Said;
-                self.spindle = spindle::Met::default();
-                speed::said(self, *revs, event.span);
+                self.watched.seen.speed = Known::Said;
+                self.watched.spindle = SpindleMet::default();
+                speed::said(&mut self.watched, *revs, event.span);
             }
             Kind::Attribute(Attribute::StartSpindle(_)) => {
-                self.seen.spindle = Known::Said;
-                self.spindle = spindle::Met::default();
-                self.seen.switch_on(LeftOn::Spindle, event.span);
+                self.watched.seen.spindle = Known::Said;
+                self.watched.spindle = SpindleMet::default();
+                self.watched.seen.switch_on(LeftOn::Spindle, event.span);
             }
             Kind::Attribute(Attribute::StopSpindle) => {
-                self.seen.spindle = Known::Said;
-                self.spindle = spindle::Met::default();
-                self.seen.switch_off(LeftOn::Spindle);
+                self.watched.seen.spindle = Known::Said;
+                self.watched.spindle = SpindleMet::default();
+                self.watched.seen.switch_off(LeftOn::Spindle);
             }
             Kind::Attribute(Attribute::SelectTool(_) | Attribute::Hole | Attribute::Remark)
             | Kind::Dwell(_)
@@ -334,10 +304,10 @@ impl Checker {
             return;
         }
         if !step.raw && event.end[Axis::Z as usize] != self.last[Axis::Z as usize] {
-            length::z_moves(self, event);
+            length::z_moves(&mut self.watched, event);
         }
-        if self.limits.machine {
-            travel::moved(self, event, self.last);
+        if self.watched.limits.machine {
+            travel::moved(&mut self.watched, event, self.last);
         }
     }
 
@@ -347,20 +317,20 @@ impl Checker {
         for (axis, word) in to.axes.iter().enumerate() {
             let Some(word) = word else { continue };
             if raw {
-                self.seen.machine[axis] = axis != Axis::Z as usize || !self.seen.length_lost;
-                self.seen.program[axis] = self.seen.base[axis];
+                self.watched.seen.machine[axis] = axis != Axis::Z as usize || !self.watched.seen.length_lost;
+                self.watched.seen.program[axis] = self.watched.seen.base[axis];
             } else if word.distance.or(exec.distance()) == Distance::Absolute {
-                self.seen.program[axis] = true;
-                self.seen.machine[axis] = self.seen.base[axis];
+                self.watched.seen.program[axis] = true;
+                self.watched.seen.machine[axis] = self.watched.seen.base[axis];
             }
         }
         if exec.is_tilted() && !raw {
-            self.seen.machine[..3].fill(false);
+            self.watched.seen.machine[..3].fill(false);
         }
         if exec.has_frames() && !raw {
             // A turned frame mixes its axes.
-            let all = self.seen.program[..3].iter().all(|known| *known);
-            for known in &mut self.seen.machine[..3] {
+            let all = self.watched.seen.program[..3].iter().all(|known| *known);
+            for known in &mut self.watched.seen.machine[..3] {
                 *known &= all;
             }
         }
@@ -368,52 +338,32 @@ impl Checker {
 
     /// Program zero is elsewhere: places in the program's coordinates are not known any more.
     fn forget_program(&mut self) {
-        self.seen.program = [false; AXES];
+        self.watched.seen.program = [false; AXES];
         // Where the machine stands is as well known as before.
     }
 
     /// Finds out of which axes an absolute word is known in machine coordinates.
     pub(crate) fn rebase(&mut self, exec: &Exec) {
         let key = (exec.offset_in_force(), exec.length_entry(), exec.length_edge());
-        if self.based == Some(key) {
+        if self.watched.based == Some(key) {
             return;
         }
-        self.based = Some(key);
-        let row = self.limits.tables.work_offsets.get(&key.0);
-        let length = !self.seen.length_lost && self.knows_length(exec);
-        self.seen.base = std::array::from_fn(|axis| {
+        self.watched.based = Some(key);
+        let row = self.watched.limits.tables.work_offsets.get(&key.0);
+        let length = !self.watched.seen.length_lost && self.knows_length(exec);
+        self.watched.seen.base = std::array::from_fn(|axis| {
             let zero = row.is_some_and(|row| row[axis].is_some());
-            !self.seen.frame_lost && zero && (axis != Axis::Z as usize || length)
+            !self.watched.seen.frame_lost && zero && (axis != Axis::Z as usize || length)
         });
     }
 
     fn knows_length(&self, exec: &Exec) -> bool {
         match (exec.length_entry(), exec.length_edge()) {
             (Some(0), _) => true,
-            (Some(entry), _) => self.limits.tables.lengths.contains_key(&entry),
+            (Some(entry), _) => self.watched.limits.tables.lengths.contains_key(&entry),
             (None, Some((_, edge))) => edge == 0,
             (None, None) => false,
         }
-    }
-
-    /// Why the place of an axis is not known in machine coordinates.
-    pub(crate) fn why_unknown(&self, axis: usize) -> Unchecked {
-        let (offset, entry, edge) = self.based.unwrap_or((0, None, None));
-        let row = self.limits.tables.work_offsets.get(&offset);
-        if self.seen.frame_lost {
-            Unchecked::Frame(axis as u8)
-        } else if row.is_none_or(|row| row[axis].is_none()) {
-            Unchecked::Offset(offset, axis as u8)
-        } else if !self.seen.base[axis] {
-            let tool = edge.map(|(tool, _)| tool);
-            Unchecked::Length(entry.map(i64::from).or(tool).unwrap_or(-1))
-        } else {
-            Unchecked::Start(axis as u8)
-        }
-    }
-
-    pub(crate) fn find(&mut self, what: What, span: Span) -> Option<usize> {
-        self.findings.add(Finding::new(what, span))
     }
 }
 

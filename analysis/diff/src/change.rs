@@ -12,7 +12,7 @@ use ncc_ir::expr::num::Nanos;
 
 use crate::measure::{Measure, Shift, bits};
 use crate::record::{Length, Record, Still, Style, What};
-use crate::resync::Tape;
+use crate::tape::Tape;
 
 /// Groups that are kept; further ones are counted.
 pub const MOST_GROUPS: usize = 20_000;

@@ -16,6 +16,7 @@ pub mod change;
 pub mod measure;
 pub mod record;
 pub mod resync;
+pub mod tape;
 
 #[cfg(test)]
 mod judge;

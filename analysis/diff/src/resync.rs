@@ -9,12 +9,12 @@ use std::collections::HashMap;
 
 use ncc_ir::canon::AXES;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::Text;
 
 use crate::align::{Run, between_anchors, myers};
 use crate::change::Collector;
 use crate::measure::{Measure, Shift};
-use crate::record::{Batch, Record, Style};
+use crate::record::Record;
+use crate::tape::Tape;
 
 /// Windows that are aligned exactly, and how many records may be without a partner in them.
 const WINDOWS: [(usize, usize); 3] = [(64, 128), (512, 1024), (4096, 1500)];
@@ -22,75 +22,6 @@ const WINDOWS: [(usize, usize); 3] = [(64, 128), (512, 1024), (4096, 1500)];
 const WIDE: [usize; 2] = [1 << 16, 1 << 21];
 /// So many pairs in a row show that two streams have come together, while there is more to come.
 const TOGETHER: usize = 8;
-
-/// A stream of records.
-pub struct Tape<'t> {
-    next: Box<dyn FnMut() -> Option<Batch> + 't>,
-    records: Vec<Record>,
-    /// Records that are behind.
-    from: usize,
-    over: bool,
-    /// With what records are done.
-    pub styles: Vec<Style>,
-    /// Texts of messages and functions.
-    pub texts: Vec<Text>,
-    /// Where the tool stands before the next record; where the axes are that have not moved yet is not
-    /// known.
-    stands: [Nanos; AXES],
-}
-
-impl<'t> Tape<'t> {
-    /// A stream that comes in pieces; `None` is its end.
-    pub fn new(next: Box<dyn FnMut() -> Option<Batch> + 't>) -> Tape<'t> {
-        Tape {
-            next,
-            records: Vec::new(),
-            from: 0,
-            over: false,
-            styles: Vec::new(),
-            texts: Vec::new(),
-            stands: [0; AXES],
-        }
-    }
-
-    /// What is there, at least so many if the stream has them.
-    fn fill(&mut self, wanted: usize) -> usize {
-        while self.records.len() - self.from < wanted && !self.over {
-            match (self.next)() {
-                Some(batch) => {
-                    if self.from > 0 {
-                        self.records.drain(..self.from);
-                        self.from = 0;
-                    }
-                    self.records.extend(batch.records);
-                    self.styles.extend(batch.styles);
-                    self.texts.extend(batch.texts);
-                }
-                None => self.over = true,
-            }
-        }
-        self.records.len() - self.from
-    }
-
-    fn window(&self) -> &[Record] {
-        &self.records[self.from..]
-    }
-
-    fn advance(&mut self, by: usize) {
-        if let Some(last) = by.checked_sub(1).and_then(|last| self.window().get(last)).copied() {
-            self.stands = self.place(&last);
-        }
-        self.from += by;
-    }
-
-    /// Where a record's tool stands after it.
-    pub fn place(&self, record: &Record) -> [Nanos; AXES] {
-        match self.styles.get(record.style as usize) {
-            Some(style) => record.place(style),
-            None => [0; AXES],
-        }
-    }
-}
 
 /// How two streams are compared.
 #[derive(Clone, Copy, Debug)]

@@ -11,8 +11,8 @@
 
 use ncc_ir::canon::Axis;
 
-use crate::clock::Model;
 use crate::machine::Machine;
+use crate::model::Model;
 
 /// A fact that a model needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -3,8 +3,6 @@
 //! They stay where they were put until the caller has done with them: copying one costs as much as a
 //! good part of its planning.
 
-use std::str::FromStr;
-
 use crate::act::Act;
 use crate::ahead::Ahead;
 use crate::assumed::WHOLE_PATH;
@@ -14,61 +12,13 @@ use crate::ideal;
 use crate::junction::Junctions;
 use crate::limits::{Leg, Limits};
 use crate::machine::Machine;
+use crate::model::Model;
 use crate::path::path;
 use crate::plan::Plan;
 use crate::profile::Profile;
 use crate::queue::Queue;
 use crate::ramp::stop_to_stop;
 use crate::smooth::Smooth;
-
-/// A model of how long things take.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Model {
-    /// The case study's: rates and fixed times, no acceleration.
-    #[default]
-    Ideal,
-    /// Rates and accelerations of each axis, speed in corners by the path tolerance, look-ahead over
-    /// the whole path.
-    Trapezoidal,
-    /// The same, with acceleration built up by each axis' jerk.
-    JerkLimited,
-}
-
-impl Model {
-    /// All models.
-    pub const ALL: [Model; 3] = [Model::Ideal, Model::Trapezoidal, Model::JerkLimited];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Model::Ideal => "ideal",
-            Model::Trapezoidal => "trapezoidal",
-            Model::JerkLimited => "jerk-limited",
-        }
-    }
-}
-
-/// No model has this name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownModel(pub String);
-
-impl std::fmt::Display for UnknownModel {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let names = Model::ALL.map(Model::name).join(", ");
-        write!(f, "no model is called {:?}; there are {names}", self.0)
-    }
-}
-
-impl std::error::Error for UnknownModel {}
-
-impl FromStr for Model {
-    type Err = UnknownModel;
-
-    fn from_str(name: &str) -> Result<Model, UnknownModel> {
-        let found = Model::ALL.into_iter().find(|model| model.name() == name);
-        found.ok_or_else(|| UnknownModel(name.to_owned()))
-    }
-}
 
 /// A function with its time.
 #[derive(Clone, Debug, PartialEq)]

@@ -21,6 +21,7 @@ mod ideal;
 mod junction;
 mod limits;
 mod machine;
+mod model;
 mod path;
 mod plan;
 mod profile;
@@ -30,7 +31,8 @@ mod smooth;
 
 pub use act::{Act, Place};
 pub use assumed::{AssumedFact, Fact, WHOLE_PATH};
-pub use clock::{Clock, Model, Timed, UnknownModel};
+pub use clock::{Clock, Timed};
 pub use machine::{AxisFacts, Machine, ToolChangeOn};
+pub use model::{Model, UnknownModel};
 pub use path::{Path, path};
 pub use profile::Profile;

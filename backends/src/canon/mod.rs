@@ -24,7 +24,7 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Poin
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use crate::common::quoted::{quote, whole};
+use crate::common::quoted::{quote, write_whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
 
@@ -114,7 +114,7 @@ impl Writer {
     /// Refuses a subprogram: the canonical stream has none.
     pub fn procedure(&mut self, p: &Procedure, _out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let place = p.body.first().map_or(Span::default(), |s| s.span);
-        diags.push(Diagnostic::new(Fault::CannotSay { what: "a subprogram".into() }, place));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what: "a subprogram".into() }, place));
     }
 
     /// Ends the text.
@@ -269,22 +269,22 @@ impl Writer {
             }
             Op::SelectTool(n) => {
                 self.open(s, out);
-                whole(arguments::count(n, "SELECT_TOOL").map_err(here)?, out);
+                write_whole(arguments::count(n, "SELECT_TOOL").map_err(here)?, out);
             }
             Op::UseToolLengthOffset(n) => {
                 self.open(s, out);
-                whole(arguments::count(n, "USE_TOOL_LENGTH_OFFSET").map_err(here)?, out);
+                write_whole(arguments::count(n, "USE_TOOL_LENGTH_OFFSET").map_err(here)?, out);
                 self.offset_waits = true;
             }
             Op::SetOriginOffsets(n) => {
                 self.open(s, out);
-                whole(u64::from(*n), out);
+                write_whole(u64::from(*n), out);
             }
             Op::ChangeTool => {
                 self.open(s, out);
                 // Which tool, for the reader; not known if its selection may have been skipped.
                 if let Some(tool) = self.at.selected.and_then(|n| u64::try_from(n).ok()) {
-                    whole(tool, out);
+                    write_whole(tool, out);
                 }
             }
             Op::Message(text) | Op::MachineFunction(text) | Op::SelectToolByName(text) => {
@@ -358,7 +358,7 @@ impl Writer {
             Some(1) => out.push(b'/'),
             Some(level) => {
                 out.push(b'/');
-                whole(u64::from(level), out);
+                write_whole(u64::from(level), out);
                 out.push(b' ');
             }
         }
@@ -458,7 +458,7 @@ impl Writer {
         out.extend_from_slice(b", ");
         self.centre(s, arc, [first, second], out, diags)?;
         out.extend_from_slice(if arc.turn == Turn::Clockwise { b", -" } else { b", " });
-        whole(u64::from(turns) + 1, out);
+        write_whole(u64::from(turns) + 1, out);
         out.extend_from_slice(b", ");
         self.axis(normal, &arc.to, s, out, diags)?;
         self.rotary(&arc.to, s, out, diags)?;
@@ -502,5 +502,5 @@ fn after<T: PartialEq>(in_force: &mut Option<T>, value: T, s: &Stmt) {
 }
 
 fn cannot(op: &Op) -> Fault {
-    Fault::CannotSay { what: op.name().into() }
+    Fault::TargetLacks { what: op.name().into() }
 }

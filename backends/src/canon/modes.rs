@@ -6,7 +6,7 @@ use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, PathControl, Stmt};
 
 use super::{Writer, arguments, cannot};
-use crate::common::quoted::whole;
+use crate::common::quoted::write_whole;
 
 impl Writer {
     /// The call of a path mode, and its tolerance.
@@ -69,7 +69,7 @@ impl Writer {
             out.extend_from_slice(b"CANON_DIAMETER, ");
             self.value(diameter, "diameter", s.span, out, diags)?;
         } else if let CutterRadius::Entry(entry) = radius {
-            whole(arguments::count(entry, s.op.name())?, out);
+            write_whole(arguments::count(entry, s.op.name())?, out);
         }
         Ok(())
     }

@@ -28,8 +28,8 @@ use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, Retu
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_ir::geometry::beside::Rules;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
+use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::valid::leads_nowhere;
 use ncc_ir::program::{Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;
@@ -83,7 +83,7 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables, arcs: ArcRule) -
     // The interpreter makes a call of a move that goes nowhere too.
     exec.every_move();
     let straight = flatten::by(program, &start, exec.clone())?;
-    let program = &beside(straight.as_ref().unwrap_or(program), &start, tables)?;
+    let program = &write_offset_path(straight.as_ref().unwrap_or(program), &start, tables)?;
     let mut printer = Printer {
         exec,
         program,
@@ -159,7 +159,7 @@ struct Printer<'p> {
 }
 
 /// The program with coordinates in place of polar words, and the path of the tool's centre in place of contours.
-fn beside(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
+fn write_offset_path(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
     let compensating = Compensating {
         rules: Rules::INTERPRETER,
         known: true,
@@ -561,5 +561,5 @@ fn literal(value: &Expr) -> Result<f64, Fault> {
 }
 
 fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }

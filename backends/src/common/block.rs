@@ -4,7 +4,7 @@
 use ncc_ir::source::Span;
 
 use super::codes::Code;
-use super::number::{self, Worth};
+use super::number::{self, WordValue};
 
 /// Parts of a block, in the order in which a move is written; in a cycle's call the offset stands
 /// before the motion.
@@ -277,21 +277,21 @@ impl Block {
         self.part(part).extend_from_slice(text);
     }
 
-    pub(crate) fn word(&mut self, part: Part, letter: u8, value: impl Into<Worth>) {
+    pub(crate) fn word(&mut self, part: Part, letter: u8, value: impl Into<WordValue>) {
         let formulas = std::mem::take(&mut self.formulas);
         let to = self.part(part);
         to.push(letter);
         match value.into() {
-            Worth::Number(shaped) => number::append(to, shaped),
-            Worth::Formula(at) => to.extend_from_slice(formulas[usize::from(at)].as_bytes()),
+            WordValue::Number(shaped) => number::append(to, shaped),
+            WordValue::Formula(at) => to.extend_from_slice(formulas[usize::from(at)].as_bytes()),
         }
         self.formulas = formulas;
     }
 
     /// Keeps the text of what is computed until its word is written.
-    pub(crate) fn formula(&mut self, text: String) -> Worth {
+    pub(crate) fn formula(&mut self, text: String) -> WordValue {
         self.formulas.push(text);
-        Worth::Formula((self.formulas.len() - 1) as u16)
+        WordValue::Formula((self.formulas.len() - 1) as u16)
     }
 
     /// A block of the source begins: words of the one before are written.

@@ -10,13 +10,12 @@ mod finder;
 pub(crate) use call::CallCode;
 pub(crate) use cycle::{CircleCode, CycleCode, GridCode};
 use finder::Finder;
-use ncc_dialects::{Meaning, OrientWords, Quantity, Role, Settings, Thread};
+use ncc_dialects::{DataRow, Meaning, OrientWords, Quantity, Role, Settings, Thread};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
-use ncc_ir::program::{CentreFrom, Detour, FrameSlot, Probe, ReferencePoint};
+use ncc_ir::program::{CentreFrom, Detour, FrameSlot, Probe, ReferencePoint, ToolValue};
 
-use super::data::DataCode;
 use super::number::Format;
 
 /// Longest code, with a word that belongs to it.
@@ -57,6 +56,21 @@ impl Code {
 pub(crate) struct Letter {
     pub letter: u8,
     pub format: Format,
+}
+
+/// A table that values are put into.
+#[derive(Clone, Debug)]
+pub(crate) struct DataCode {
+    pub row: &'static DataRow,
+    pub code: Code,
+    /// Letter and number that say which table.
+    pub select: (u8, u32),
+    /// Letter of the entry.
+    pub entry: u8,
+    /// The word that turns a work offset.
+    pub turn: Option<Letter>,
+    /// Words of values of tools.
+    pub values: Vec<(ToolValue, Letter)>,
 }
 
 /// A word that says how long to dwell.

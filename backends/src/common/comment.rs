@@ -1,10 +1,10 @@
 //! Comments in the characters that a control shows.
 //!
-//! Where these are capitals alone, `ncc_ir::letters` says what the text becomes. Nothing that could end a comment or a
+//! Where these are capitals alone, `ncc_ir::transliterate` says what the text becomes. Nothing that could end a comment or a
 //! program comes through.
 
 use ncc_dialects::CommentRules;
-use ncc_ir::letters::in_capitals;
+use ncc_ir::transliterate::in_capitals;
 
 /// Writes comments; keeps its memory between them.
 #[derive(Clone, Debug)]

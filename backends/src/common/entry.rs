@@ -1,6 +1,6 @@
 //! Numbers of places in the control's tables.
 
-use ncc_ir::computed::entry_of::Place;
+use ncc_ir::computed::computed_entry::Place;
 use ncc_ir::expr::{Binary, Expr};
 
 /// The control's own number of a place.

@@ -7,7 +7,7 @@ use super::number::{self, Unwritable};
 
 /// A fault for what there is no word for.
 pub(crate) fn cannot(what: impl Into<Box<str>>) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }
 
 /// The fault of what the control cannot compute.

@@ -8,13 +8,12 @@
 //!
 //! Not here: which statement is said how.
 
+pub(crate) mod active_modes;
 pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
-pub(crate) mod data;
 pub(crate) mod entry;
 pub(crate) mod fault;
-pub(crate) mod force;
 pub(crate) mod number;
 pub(crate) mod quoted;
 pub(crate) mod setting;

@@ -90,16 +90,16 @@ impl Shaped {
 
 /// What stands behind a letter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Worth {
+pub(crate) enum WordValue {
     /// A number.
     Number(Shaped),
     /// What is computed: its place among the formulas of the block.
     Formula(u16),
 }
 
-impl From<Shaped> for Worth {
-    fn from(shaped: Shaped) -> Worth {
-        Worth::Number(shaped)
+impl From<Shaped> for WordValue {
+    fn from(shaped: Shaped) -> WordValue {
+        WordValue::Number(shaped)
     }
 }
 
@@ -234,7 +234,7 @@ fn leading<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
 
 /// Writes a whole number below 10^9 without sign.
 #[inline(always)]
-pub(crate) fn whole<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
+pub(crate) fn write_digits<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
     if value < 1000 {
         leading(to, at, value)
     } else if value < 1_000_000 {
@@ -258,14 +258,14 @@ pub(crate) fn write<const N: usize>(to: &mut [u8; N], mut at: usize, n: Shaped) 
     let scale = usize::from(n.scale);
     if let Some(up) = THOUSANDTHS.get(scale) {
         let thousandths = u64::from(value) * up;
-        at = whole(to, at, (thousandths / 1000) as u32);
+        at = write_digits(to, at, (thousandths / 1000) as u32);
         to[at] = b'.';
         group(to, at + 1, (thousandths % 1000) as u32, 0);
         return at + usize::from(n.point || scale > 0) + scale;
     }
     let scale = scale.min(9);
     let by = POW10[scale] as u32;
-    at = whole(to, at, value / by);
+    at = write_digits(to, at, value / by);
     to[at] = b'.';
     let mut rest = value % by;
     let end = at + 1 + scale;

@@ -34,7 +34,7 @@ pub(crate) fn quote(text: &str, out: &mut Vec<u8>) -> bool {
 
 /// Writes a whole number.
 #[inline]
-pub(crate) fn whole(mut value: u64, out: &mut Vec<u8>) {
+pub(crate) fn write_whole(mut value: u64, out: &mut Vec<u8>) {
     let mut digits = [0u8; 20];
     let mut at = digits.len();
     loop {
@@ -56,7 +56,7 @@ pub(crate) fn decimal(n: Num, out: &mut Vec<u8>) {
     }
     let mut value = n.mantissa.unsigned_abs();
     if !n.point {
-        return whole(value, out);
+        return write_whole(value, out);
     }
     // 20 digits at most, as many zeros as the scale asks for, and the point.
     let scale = usize::from(n.scale.min(18));

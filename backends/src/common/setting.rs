@@ -26,7 +26,7 @@ pub(crate) enum Setting {
 
 impl Setting {
     /// The setting that a statement is; cycle ends and cancelled length offsets count too.
-    pub(crate) fn of(op: &Op) -> Option<Setting> {
+    pub(crate) fn from_op(op: &Op) -> Option<Setting> {
         Some(match op {
             Op::UseLengthUnits(u) => Setting::Units(*u),
             Op::SetDistanceMode(d) => Setting::Distance(*d),

@@ -8,8 +8,8 @@ use ncc_ir::program::cycle::{
 use ncc_ir::program::{Coord, Pitch};
 
 use super::expr::expr;
-use super::op::{coord, plane, point, put, return_level, turn};
-use crate::common::quoted::whole;
+use super::words::{coord, plane, point, put, return_level, turn};
+use crate::common::quoted::write_whole;
 
 /// What a kind of cycle says, in brackets if there is anything.
 fn details(words: &[(&str, Option<&Expr>)], out: &mut Vec<u8>) {
@@ -209,7 +209,7 @@ pub(super) fn pattern(p: &Pattern, out: &mut Vec<u8>) {
             put(", step ", out);
             expr(step, out);
             put(", count ", out);
-            whole(u64::from(*count), out);
+            write_whole(u64::from(*count), out);
         }
         Pattern::Line { start, angle, offset, pitch, count } => {
             put("start ", out);
@@ -222,7 +222,7 @@ pub(super) fn pattern(p: &Pattern, out: &mut Vec<u8>) {
                 expr(value, out);
             }
             put(", count ", out);
-            whole(u64::from(*count), out);
+            write_whole(u64::from(*count), out);
         }
         Pattern::List(points) => {
             for (at, to) in points.iter().enumerate() {
@@ -266,6 +266,6 @@ fn row(r: &Row, out: &mut Vec<u8>) {
     put(", ", out);
     expr(&r.pitch, out);
     put(", ", out);
-    whole(u64::from(r.count), out);
+    write_whole(u64::from(r.count), out);
     put(")", out);
 }

@@ -3,7 +3,7 @@
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 
-use crate::common::quoted::{decimal, quote, whole};
+use crate::common::quoted::{decimal, quote, write_whole};
 
 /// How tightly the operands of an expression hold together; what holds less needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -157,7 +157,7 @@ fn element(e: &Element, out: &mut Vec<u8>) {
                 out.extend_from_slice(if place > 0 { b", " } else { b"" });
                 var(&range.scope.var(&format!("{}{}", range.prefix, range.from)), out);
                 out.extend_from_slice(b" to ");
-                whole(u64::from(range.to), out);
+                write_whole(u64::from(range.to), out);
             }
         }
     }
@@ -168,7 +168,7 @@ fn element(e: &Element, out: &mut Vec<u8>) {
 pub(super) fn sizes(sizes: &[u32], out: &mut Vec<u8>) {
     for (place, size) in sizes.iter().enumerate() {
         out.extend_from_slice(if place > 0 { b", " } else { b"" });
-        whole(u64::from(*size), out);
+        write_whole(u64::from(*size), out);
     }
 }
 

@@ -5,7 +5,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Frame, FrameSlot, FrameStep, Slot};
 
 use super::expr::expr;
-use super::op::{coord, plane, put};
+use super::words::{coord, plane, put};
 
 /// Values along axes, with commas between; `before` goes before the first.
 pub(super) fn axis_words(words: &[Option<Expr>], before: &str, out: &mut Vec<u8>) {

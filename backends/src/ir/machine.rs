@@ -5,8 +5,8 @@ use ncc_ir::program::{CutterRadius, Data, DataMode, Reference, ReferencePoint, T
 
 use super::expr::expr;
 use super::frame::words;
-use super::op::{point, put};
-use crate::common::quoted::whole;
+use super::words::{point, put};
+use crate::common::quoted::write_whole;
 
 /// A point of the machine, the axes that go there, and by way of which point.
 pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {
@@ -18,7 +18,7 @@ pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {
     };
     put(name, out);
     if let Some(number) = number {
-        whole(u64::from(number), out);
+        write_whole(u64::from(number), out);
     }
     for (axis, goes) in Axis::ALL.into_iter().zip(r.axes) {
         if goes {
@@ -37,10 +37,10 @@ pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {
 /// A value of a table.
 pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
     match d {
-        Data::Position(place) => whole(u64::from(*place), out),
+        Data::Position(place) => write_whole(u64::from(*place), out),
         Data::ToolInSpindle(tool) => expr(tool, out),
         Data::Offset { offset, mode, words: by, turn } => {
-            whole(u64::from(*offset), out);
+            write_whole(u64::from(*offset), out);
             let mode = match mode {
                 DataMode::Set => "",
                 DataMode::Add => ", added",
@@ -54,7 +54,7 @@ pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
             }
         }
         Data::Tool { entry, which, added, kept, value } => {
-            whole(u64::from(*entry), out);
+            write_whole(u64::from(*entry), out);
             let which = match which {
                 ToolValue::Length => ", length, ",
                 ToolValue::LengthWear => ", length-wear, ",
@@ -69,10 +69,10 @@ pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
             expr(value, out);
         }
         Data::Measured { entry, offset, words: by } => {
-            whole(u64::from(*entry), out);
+            write_whole(u64::from(*entry), out);
             if let Some(offset) = offset {
                 put(", offset ", out);
-                whole(u64::from(*offset), out);
+                write_whole(u64::from(*offset), out);
             }
             words(&by[..], out);
         }

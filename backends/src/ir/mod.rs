@@ -13,6 +13,7 @@ mod frame;
 mod machine;
 mod op;
 mod polar;
+mod words;
 
 use ncc_dialects::Settings;
 use ncc_ir::canon::Modes;
@@ -21,7 +22,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Stmt, Type};
 use ncc_ir::source::Span;
 
-use crate::common::quoted::{quote, whole};
+use crate::common::quoted::{quote, write_whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
 
@@ -71,7 +72,7 @@ impl Writer {
         self.end_line(out);
         self.skip = None;
         out.extend_from_slice(b"procedure ");
-        op::name(&p.name, out);
+        words::name(&p.name, out);
         if let Some(title) = &p.title {
             out.push(b' ');
             quote(title, out);
@@ -118,7 +119,7 @@ impl Writer {
             out.extend_from_slice(b"program");
             if let Some(number) = head.name.number {
                 out.push(b' ');
-                whole(u64::from(number), out);
+                write_whole(u64::from(number), out);
             }
             if let Some(title) = &head.name.title {
                 out.push(b' ');
@@ -194,13 +195,13 @@ impl Writer {
         let inherited = if s.joined { self.skip } else { None };
         if s.skip != inherited {
             out.push(b'/');
-            whole(u64::from(s.skip.unwrap_or(0)), out);
+            write_whole(u64::from(s.skip.unwrap_or(0)), out);
             out.push(b' ');
         }
         self.skip = s.skip;
         if let Some(number) = s.number {
             out.push(b'N');
-            whole(u64::from(number), out);
+            write_whole(u64::from(number), out);
             out.push(b' ');
         }
         op::op(&s.op, out);

@@ -1,19 +1,18 @@
 //! Statements of the `ir` text, each without its block's marks.
 
-use ncc_ir::canon::{
-    Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, SpindleMode, Turn, Units,
-};
+use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, SpindleMode, Turn, Units};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{
-    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Output, Piece, Point, Shape, ToolLength,
+    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Output, Piece, Shape, ToolLength,
 };
 
 use super::cycle::{cycle, further_turn, pattern, pitch};
 use super::expr::{expr, sizes, target, var};
 use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
-use super::polar::{polar_move, pole, rotary_ways};
-use crate::common::quoted::{quote, whole};
+use super::polar::{polar_point, pole, rotary_ways};
+use super::words::{coord, further, name, plane, point, put, return_level, text_argument, turn};
+use crate::common::quoted::write_whole;
 
 /// Writes what a statement does; of a control statement what stands before its body.
 pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
@@ -22,7 +21,10 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         Op::ArcFeed(arc) => arc.said,
         Op::ArcForm(arc) => arc.said,
         Op::UseToolEdge { said, .. } => *said,
-        Op::Polar(polar) => return polar_move(polar, out),
+        Op::Polar(polar) => {
+            polar_point(polar, out);
+            return self::op(&polar.op, out);
+        }
         Op::Assign(to, value) => {
             target(to, out);
             put(" = ", out);
@@ -116,10 +118,10 @@ fn with_values(pieces: &[Piece], out: &mut Vec<u8>) {
                 expr(value, out);
                 if *places > 0 {
                     put(" places ", out);
-                    whole(u64::from(*places), out);
+                    write_whole(u64::from(*places), out);
                 }
                 put(" digits ", out);
-                whole(u64::from(*digits), out);
+                write_whole(u64::from(*digits), out);
                 put(if *short { " short" } else { "" }, out);
             }
         }
@@ -155,7 +157,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::SelectPlane(p) => put(plane(*p), out),
         Op::SetFeedMode(f) => put(feed_mode(*f), out),
         Op::SetReturnLevel(r) => put(return_level(*r), out),
-        Op::SetOriginOffsets(n) => whole(u64::from(*n), out),
+        Op::SetOriginOffsets(n) => write_whole(u64::from(*n), out),
         Op::ClearFrame(s) => put(slot(*s), out),
         Op::SetFrame(f) => frame(f, out),
         Op::SetSlot(s) => filled(s, out),
@@ -265,18 +267,6 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
     }
 }
 
-pub(super) fn put(text: &str, out: &mut Vec<u8>) {
-    out.extend_from_slice(text.as_bytes());
-}
-
-/// Writes a name: bare if it is a plain number, else in quotation marks.
-pub(super) fn name(text: &str, out: &mut Vec<u8>) {
-    let number = text.bytes().all(|b| b.is_ascii_digit())
-        && (1..=18).contains(&text.len())
-        && (text.len() == 1 || !text.starts_with('0'));
-    if number { put(text, out) } else { text_argument(text, out) }
-}
-
 /// Writes the line of facts that were taken for granted.
 pub(super) fn assumed(m: &Modes, out: &mut Vec<u8>) {
     let turned = |motion| match motion {
@@ -304,47 +294,6 @@ pub(super) fn assumed(m: &Modes, out: &mut Vec<u8>) {
         put(&value, out);
     }
     put(")", out);
-}
-
-/// A text between quotation marks; an escape is no loss here, since the reader undoes it.
-fn text_argument(text: &str, out: &mut Vec<u8>) {
-    let _escaped = quote(text, out);
-}
-
-fn further(arguments: &[Expr], out: &mut Vec<u8>) {
-    for e in arguments {
-        put(", ", out);
-        expr(e, out);
-    }
-}
-
-/// Writes axis words with commas between, and `after` each.
-pub(super) fn point(to: &Point, after: &[u8], out: &mut Vec<u8>) {
-    let mut first = true;
-    for axis in Axis::ALL {
-        if let Some(c) = to.get(axis) {
-            if !first && after.is_empty() {
-                put(", ", out);
-            }
-            first = false;
-            out.push(axis.letter());
-            out.push(b' ');
-            coord(c, out);
-            out.extend_from_slice(after);
-        }
-    }
-}
-
-pub(super) fn coord(c: &Coord, out: &mut Vec<u8>) {
-    put(
-        match c.distance {
-            Fact::Known(Distance::Absolute) => "",
-            Fact::Known(Distance::Incremental) => "inc ",
-            Fact::Entry => "entry ",
-        },
-        out,
-    );
-    expr(&c.value, out);
 }
 
 fn arc(a: &Arc, out: &mut Vec<u8>) {
@@ -425,7 +374,7 @@ fn arc_form(a: &ArcForm, out: &mut Vec<u8>) {
     }
     if a.turns > 0 {
         put(", turns ", out);
-        whole(u64::from(a.turns), out);
+        write_whole(u64::from(a.turns), out);
     }
 }
 
@@ -433,7 +382,7 @@ fn call(c: &Call, out: &mut Vec<u8>) {
     name(&c.name, out);
     if c.times != 1 {
         put(", times ", out);
-        whole(u64::from(c.times), out);
+        write_whole(u64::from(c.times), out);
     }
     if c.shared {
         put(", shared", out);
@@ -487,32 +436,10 @@ fn distance(d: Distance) -> &'static str {
     }
 }
 
-pub(super) fn plane(p: Plane) -> &'static str {
-    match p {
-        Plane::Xy => "XY",
-        Plane::Zx => "ZX",
-        Plane::Yz => "YZ",
-    }
-}
-
 fn feed_mode(f: FeedMode) -> &'static str {
     match f {
         FeedMode::PerMinute => "per-minute",
         FeedMode::PerRevolution => "per-revolution",
         FeedMode::InverseTime => "inverse-time",
-    }
-}
-
-pub(super) fn return_level(r: ReturnLevel) -> &'static str {
-    match r {
-        ReturnLevel::Initial => "initial",
-        ReturnLevel::Retract => "retract",
-    }
-}
-
-pub(super) fn turn(t: Turn) -> &'static str {
-    match t {
-        Turn::Clockwise => "clockwise",
-        Turn::Counterclockwise => "counterclockwise",
     }
 }

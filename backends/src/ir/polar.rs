@@ -5,7 +5,7 @@ use ncc_ir::program::{Polar, PoleFrom, PoleWords, SetPole};
 
 use super::expr::expr;
 use super::frame::axis_words;
-use super::op::{coord, op, plane, put};
+use super::words::{coord, plane, put};
 
 /// Where a pole is.
 pub(super) fn pole(set: &SetPole, out: &mut Vec<u8>) {
@@ -29,8 +29,8 @@ pub(super) fn pole(set: &SetPole, out: &mut Vec<u8>) {
     }
 }
 
-/// A polar point, and the move to it.
-pub(super) fn polar_move(polar: &Polar, out: &mut Vec<u8>) {
+/// A polar point; the move to it comes after it.
+pub(super) fn polar_point(polar: &Polar, out: &mut Vec<u8>) {
     put("POLAR(", out);
     put(polar.plane.known().map_or("entry", plane), out);
     let angle = if polar.along { ", along " } else { ", angle " };
@@ -41,7 +41,6 @@ pub(super) fn polar_move(polar: &Polar, out: &mut Vec<u8>) {
         }
     }
     put(") ", out);
-    op(&polar.op, out);
 }
 
 /// Which way round rotary axes go.

@@ -12,7 +12,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
-use ncc_passes::support::known_facts::has_bare_holes;
+use ncc_passes::support::mode_analysis::has_bare_holes;
 
 use super::{Sink, Writer, edge_left};
 use crate::common::fault::{cannot, cannot_compute};
@@ -32,7 +32,7 @@ pub(super) struct Computing {
     /// Whether there are cycles in it, each of which is called up in the stretch of blocks that makes its holes.
     cycles: bool,
     /// Statements whose words say their own distance mode, where others rely on the one in force, by their places.
-    pub(super) own_distance: BTreeSet<u32>,
+    pub(super) word_distance: BTreeSet<u32>,
     told_number: bool,
     told_comparison: bool,
     /// How many structures are open.
@@ -45,12 +45,12 @@ impl Writer {
     pub(crate) fn know(
         &mut self,
         procedures: &[Procedure],
-        own_distance: &BTreeSet<u32>,
-        stands: HashMap<u32, Modes>,
+        word_distance: &BTreeSet<u32>,
+        entries: HashMap<u32, Modes>,
     ) {
         self.computing.program = true;
-        self.computing.own_distance.clone_from(own_distance);
-        self.words.is_kept(stands);
+        self.computing.word_distance.clone_from(word_distance);
+        self.words.is_kept(entries);
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
         // Holes that rely on a cycle called up elsewhere: it stays in force over jumps and labels, as in the source.
         self.computing.cycles &= !procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
@@ -60,9 +60,9 @@ impl Writer {
     }
 
     /// Takes which modes are in force where stretches of blocks begin, and what its subprograms leave active.
-    pub(crate) fn know_modes(&mut self, procedures: &[Procedure], stands: HashMap<u32, Modes>) {
+    pub(crate) fn know_modes(&mut self, procedures: &[Procedure], entries: HashMap<u32, Modes>) {
         self.leave_edge = edge_left::leave_edge(procedures);
-        self.words.know_modes(stands);
+        self.words.know_modes(entries);
     }
 
     /// A unit begins.
@@ -157,7 +157,7 @@ impl Writer {
         let span = stmt.span;
         self.words.spelling(None)?;
         let computes = self.dialect.caps.flow.computes.as_ref();
-        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+        if let Some(entry) = computes.and_then(|computes| computes.computed_entry(control)) {
             return self.entry_of_number(&entry, stmt, sink);
         }
         if stmt.skip.is_some() {

@@ -13,7 +13,7 @@ use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, Shift, Tap, clearance_by_depth};
 use ncc_ir::program::{Coord, Op, Pitch, Point, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::track::InForce;
+use ncc_ir::track::ActiveCycle;
 
 use super::{Modal, Sink, Writer, call_text};
 use crate::common::block::{Need, Part, Rank};
@@ -204,7 +204,7 @@ impl Writer {
                     self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
                 }
                 to.put(Role::Sense, sense(bore.turn.map_or(Spindle::Stopped, Turn::spindle)).into())?;
-                let plane = cycle.plane.known().or(self.words.force.plane).unwrap_or(Plane::Xy);
+                let plane = cycle.plane.known().or(self.words.active.plane).unwrap_or(Plane::Xy);
                 let (first, second, normal) = plane.axes();
                 let roles =
                     [(first, Role::ShiftFirst), (second, Role::ShiftSecond), (normal, Role::ShiftNormal)];
@@ -287,7 +287,7 @@ impl Writer {
         let Pitch::Stated(pitch) = &tap.pitch else { return Ok(()) };
         let pitch = pitch.literal().ok_or_else(|| cannot("a computed pitch"))?.trimmed();
         // Without a unit of its own a pitch counts in the machine's basic system.
-        let inch = match (self.words.force.units, pitch.unit) {
+        let inch = match (self.words.active.units, pitch.unit) {
             (_, Unit::Inch) | (Some(Units::Inch), Unit::Entry) => true,
             (_, Unit::Mm) | (Some(Units::Mm), Unit::Entry) => false,
             _ => {
@@ -297,7 +297,7 @@ impl Writer {
         };
         if inch {
             to.put(Role::PitchUnit, PITCH_IN_INCHES.into())?;
-        } else if self.inch_machine || self.words.force.units == Some(Units::Inch) {
+        } else if self.inch_machine || self.words.active.units == Some(Units::Inch) {
             to.put(Role::PitchUnit, PITCH_IN_MM.into())?;
         }
         let sign = if tap.turn == Turn::Counterclockwise { "-" } else { "" };
@@ -310,13 +310,13 @@ impl Writer {
     /// Plane of return, retract plane and bottom.
     fn planes(
         &mut self,
-        planes: &InForce,
+        planes: &ActiveCycle,
         to: &mut Arguments,
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let cycle = &planes.cycle;
-        let axis = cycle.plane.known().or(self.words.force.plane).unwrap_or(Plane::Xy).axes().2;
+        let axis = cycle.plane.known().or(self.words.active.plane).unwrap_or(Plane::Xy).axes().2;
         let retract = self.level(&cycle.retract, planes.retract, axis, to.row, span, sink)?;
         let (back, level) = match (&cycle.return_plane, cycle.return_level) {
             (Some(word), _) => {
@@ -362,7 +362,7 @@ impl Writer {
             }
             _ => true,
         };
-        let unit = match self.words.force.units? {
+        let unit = match self.words.active.units? {
             Units::Mm => Unit::Mm,
             Units::Inch => Unit::Inch,
         };
@@ -384,7 +384,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let letter = self.parameter(row, Role::Depth);
-        let distance = word.distance.known().or(self.words.force.distance);
+        let distance = word.distance.known().or(self.words.active.distance);
         match (distance, resolved) {
             (Some(Distance::Absolute), _) => self.value(&letter, &word.value, span, sink),
             (_, Some(nanos)) => self.length(nanos, &letter),
@@ -396,7 +396,7 @@ impl Writer {
     /// so that a longer one needs that plane below the retract plane.
     fn strokes(
         &mut self,
-        planes: &InForce,
+        planes: &ActiveCycle,
         peck: &Expr,
         first: Option<&Expr>,
         to: &mut Arguments,
@@ -407,7 +407,7 @@ impl Writer {
         let mut below_retract = stated;
         if let Some(first) = first.filter(|_| stated.is_none()) {
             let word = &planes.cycle.retract;
-            let distance = word.distance.known().or(self.words.force.distance);
+            let distance = word.distance.known().or(self.words.active.distance);
             let more = difference(first, peck);
             let plane = more.filter(|_| distance == Some(Distance::Absolute));
             let plane = plane.and_then(|more| difference(&word.value, &Expr::Num(more)));
@@ -423,7 +423,7 @@ impl Writer {
             below_retract = Some(more);
         }
         // A first depth below the bottom is alarm 61107: such a hole is made in one go.
-        let inch = self.words.force.units == Some(Units::Inch);
+        let inch = self.words.active.units == Some(Units::Inch);
         let lower = below_retract.map_or(Some(0), |more| more.nanos(inch));
         let in_one = peck.literal().and_then(|peck| peck.nanos(inch)).zip(planes.retract).and_then(
             |(peck, retract)| {
@@ -473,7 +473,7 @@ impl Writer {
         let absolute = |word: &Coord| word.distance == Fact::Known(Distance::Absolute);
         let own = |units| clearance_by_depth(&reference.minus(&cycle.depth.value), units);
         let stated = absolute(&cycle.retract) && absolute(&cycle.depth);
-        stated && self.words.force.units.is_some_and(|units| *said == own(units))
+        stated && self.words.active.units.is_some_and(|units| *said == own(units))
     }
 
     /// A clearance or a lift, which cannot be zero: that stands for the control's own.
@@ -515,7 +515,7 @@ impl Writer {
             false => to,
         };
         let traverse = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
-        let says = self.words.force.motion != Some(Motion::Traverse);
+        let says = self.words.active.motion != Some(Motion::Traverse);
         let mut inserted = Inserted::default();
         self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
         let need = self.words.point_need(Need::new(Rank::Motion).code(says.then_some(traverse)), to)?;
@@ -523,20 +523,20 @@ impl Writer {
         if says {
             self.words.block.code(Part::Motion, &traverse);
         }
-        self.words.force.motion = Some(Motion::Traverse);
+        self.words.active.motion = Some(Motion::Traverse);
         self.words.point(to, span, sink)
     }
 
     /// The plane of the cycle in force.
     pub(super) fn hole_plane(&self) -> Option<Plane> {
         let cycle = self.words.tracker.cycle.as_ref();
-        cycle.and_then(|c| c.cycle.plane.known()).or(self.words.force.plane)
+        cycle.and_then(|c| c.cycle.plane.known()).or(self.words.active.plane)
     }
 
     /// Words for the position where the tool stands: a cycle is made only after a block with some.
     fn here(&self, plane: Plane) -> Result<Point, Fault> {
         let (first, second, _) = plane.axes();
-        let unit = match self.words.force.units {
+        let unit = match self.words.active.units {
             Some(Units::Mm) => Unit::Mm,
             Some(Units::Inch) => Unit::Inch,
             None => Unit::Entry,
@@ -544,7 +544,7 @@ impl Writer {
         let mut to = Point::default();
         for axis in [first, second] {
             let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
-            let (value, distance) = match (self.words.stands(axis), unit) {
+            let (value, distance) = match (self.words.axis_position(axis), unit) {
                 (Ok(nanos), Unit::Mm | Unit::Inch) => {
                     (number::from_nanos(nanos, &letter.format, unit), Distance::Absolute)
                 }

@@ -35,11 +35,11 @@ impl Writer {
             return self.put(data, span, sink);
         };
         self.alone(mm, sink)?;
-        let in_force = self.words.force.units.replace(Units::Mm);
+        let in_force = self.words.active.units.replace(Units::Mm);
         self.words.tracker.modes.units = Some(Units::Mm);
         let put = self.put(&metric, span, sink);
         self.words.tracker.modes.units = units;
-        self.words.force.units = in_force;
+        self.words.active.units = in_force;
         put?;
         // A code of units loses the feed.
         self.standing.feed_said = false;
@@ -164,7 +164,7 @@ impl Writer {
     }
 
     pub(super) fn tell_fine_shifts(&mut self, span: Span, sink: &mut Sink) {
-        if self.told.insert("fine shifts") {
+        if self.reported.insert("fine shifts") {
             let parameter = "fine shifts of work offsets ($P_UIFR[…,FI])".into();
             sink.report(Fault::AssumedParameter { parameter, value: "0".into() }, span);
         }

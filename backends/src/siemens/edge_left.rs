@@ -41,7 +41,7 @@ fn may_leave(procedure: &Procedure, leave: &BTreeSet<Text>) -> bool {
     let mut course = Course { leave, labels: HashMap::new(), returned: false, left: false };
     loop {
         let labels = course.labels.clone();
-        let ended = course.over(&procedure.body, Some(false));
+        let ended = course.edge_after(&procedure.body, Some(false));
         if course.returned || ended == Some(true) {
             return true;
         }
@@ -53,7 +53,7 @@ fn may_leave(procedure: &Procedure, leave: &BTreeSet<Text>) -> bool {
 
 impl Course<'_> {
     /// Whether an edge waits after the statements; `None` where no path comes there.
-    fn over(&mut self, stmts: &[Stmt], mut waits: Option<bool>) -> Option<bool> {
+    fn edge_after(&mut self, stmts: &[Stmt], mut waits: Option<bool>) -> Option<bool> {
         for stmt in stmts {
             let sure = stmt.skip.is_none();
             let before = waits;
@@ -89,15 +89,15 @@ impl Course<'_> {
 
     fn control(&mut self, control: &Control, waits: Option<bool>) -> Option<bool> {
         if let Control::If { then, otherwise, .. } = control {
-            let first = self.over(then, waits);
-            return either(first, self.over(otherwise, waits));
+            let first = self.edge_after(then, waits);
+            return either(first, self.edge_after(otherwise, waits));
         }
         let outer = std::mem::replace(&mut self.left, false);
         let mut all = waits;
         for body in control.bodies() {
-            let once = self.over(body, waits);
+            let once = self.edge_after(body, waits);
             let once = either(once, self.left.then_some(true));
-            let twice = self.over(body, either(waits, once));
+            let twice = self.edge_after(body, either(waits, once));
             all = either(all, either(once, twice));
         }
         all = either(all, self.left.then_some(true));

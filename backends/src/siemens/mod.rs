@@ -11,11 +11,11 @@
 //!
 //! Not here: expanding what the control cannot say (passes), and judging the result (verification).
 
+mod computed_entry;
 mod computing;
 mod cycle;
 mod data;
 mod edge_left;
-mod entry_of;
 mod frame;
 mod motion;
 mod names;
@@ -146,7 +146,7 @@ pub struct Writer {
     /// The main procedure of a program that computes, until it is written.
     main: Option<Procedure>,
     /// Calls whose rows nobody confirms, as far as told.
-    told: BTreeSet<&'static str>,
+    reported: BTreeSet<&'static str>,
 }
 
 impl Writer {
@@ -175,7 +175,7 @@ impl Writer {
             computing: Computing::default(),
             variables: Variables::default(),
             main: None,
-            told: BTreeSet::new(),
+            reported: BTreeSet::new(),
         }
     }
 
@@ -312,7 +312,7 @@ impl Writer {
         }
         let opened = self.words.open(stmt, sink);
         let before = self.standing;
-        let tilt = tilt::of(rest);
+        let tilt = tilt::first_swivel(rest);
         let both = self.speed_and_feed(rest);
         let defined = variable::defined_together(rest);
         let said = match (tilt, both) {
@@ -387,7 +387,7 @@ impl Writer {
     /// Writes a feed. One of the machine's basic system needs its own code of units.
     fn feed(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let Expr::Num(n) = feed else { return self.words.feed_rate(feed, span, sink) };
-        let (units, in_force) = match (n.unit, self.words.force.units) {
+        let (units, in_force) = match (n.unit, self.words.active.units) {
             (Unit::Mm, Some(in_force)) => (Units::Mm, in_force),
             (Unit::Inch, Some(in_force)) => (Units::Inch, in_force),
             _ => return self.words.feed_rate(feed, span, sink),
@@ -461,7 +461,7 @@ impl Writer {
 
     /// A length that the translation knows, in the unit in force.
     fn length(&self, nanos: Nanos, letter: &Letter) -> Result<String, Fault> {
-        let unit = match self.words.force.units {
+        let unit = match self.words.active.units {
             Some(Units::Mm) => Unit::Mm,
             Some(Units::Inch) => Unit::Inch,
             None => return Err(cannot("a length in a unit that is not known")),
@@ -478,7 +478,7 @@ impl Writer {
 
     /// Tells once that a call rests on a row that nobody confirms.
     fn tell_unsure(&mut self, row: &'static CallRow, meaning: &str, span: Span, sink: &mut Sink) {
-        if !row.sure && self.told.insert(&row.name) {
+        if !row.sure && self.reported.insert(&row.name) {
             let code = row.name.as_str().into();
             sink.report(Fault::AssumedRow { code, meaning: meaning.into() }, span);
         }

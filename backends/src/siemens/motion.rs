@@ -69,7 +69,7 @@ impl Writer {
         let mut words = match &arc.centre {
             Centre::Radius(radius) => vec![self.named(NameRole::Radius, radius, None, span, sink)?],
             Centre::Point { words, from } => {
-                let plane = arc.plane.known().or(self.words.force.plane);
+                let plane = arc.plane.known().or(self.words.active.plane);
                 let mut written = Vec::new();
                 for axis in [Axis::X, Axis::Y, Axis::Z] {
                     let outside = plane.is_some_and(|p| p.axes().2 == axis);
@@ -87,9 +87,9 @@ impl Writer {
             }
         };
         self.turns(&arc.turns, span, sink, &mut words)?;
-        let says = arc.said || self.words.force.motion != Some(motion);
+        let says = arc.said || self.words.active.motion != Some(motion);
         self.arc_block(says.then_some(code), None, &arc.to, inserted, &words, span, sink)?;
-        self.words.force.motion = Some(motion);
+        self.words.active.motion = Some(motion);
         if full { Ok(()) } else { self.words.check_vanished(arc, start) }
     }
 
@@ -130,7 +130,7 @@ impl Writer {
         self.turns(&Turns::from(arc.turns), span, sink, &mut words)?;
         let motion = turn.map(Motion::Arc);
         let code = match turn {
-            Some(turn) if arc.said || self.words.force.motion != motion => Some(self.arc_code(turn)?),
+            Some(turn) if arc.said || self.words.active.motion != motion => Some(self.arc_code(turn)?),
             Some(_) | None => None,
         };
         let name = match name {
@@ -139,7 +139,7 @@ impl Writer {
         };
         self.arc_block(code, name, &arc.to, inserted, &words, span, sink)?;
         // A name is said again in every block: nothing else tells it from the last code.
-        self.words.force.motion = motion;
+        self.words.active.motion = motion;
         Ok(())
     }
 
@@ -237,7 +237,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<Words, Fault> {
-        let plane = arc.plane.known().or(self.words.force.plane);
+        let plane = arc.plane.known().or(self.words.active.plane);
         let mut words = Vec::new();
         for (axis, coord) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(centre) {
             let Some(coord) = coord.as_ref().filter(|_| plane.is_none_or(|p| p.axes().2 != axis)) else {

@@ -106,7 +106,7 @@ impl Writer {
     }
 
     fn is_absolute(&self, word: &Coord) -> bool {
-        word.distance.known().or(self.words.force.distance) == Some(Distance::Absolute)
+        word.distance.known().or(self.words.active.distance) == Some(Distance::Absolute)
     }
 
     fn known(&self, at: Option<Nanos>, axis: Axis, row: &CallRow, role: Role) -> Result<String, Fault> {

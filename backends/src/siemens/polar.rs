@@ -23,7 +23,7 @@ impl Writer {
         let mut text = row.code.clone();
         match &set.at {
             PoleWords::Along(words) => {
-                let plane = set.plane.known().or(self.words.force.plane);
+                let plane = set.plane.known().or(self.words.active.plane);
                 let plane = plane.ok_or_else(|| cannot("a pole in a plane that is not known"))?;
                 let (first, second, _) = plane.axes();
                 for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| *a == first || *a == second) {
@@ -90,9 +90,9 @@ impl Writer {
             return Err(cannot("this function to a polar point"));
         };
         let code = code.ok_or_else(|| cannot("this move"))?;
-        let says = said || self.words.force.motion != Some(motion);
+        let says = said || self.words.active.motion != Some(motion);
         self.arc_block(says.then_some(code), None, to, inserted, &words, span, sink)?;
-        self.words.force.motion = Some(motion);
+        self.words.active.motion = Some(motion);
         // Where a rounded point is, is not followed.
         self.words.residue[..3].fill(0);
         Ok(())
@@ -106,8 +106,8 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<String, Fault> {
-        let distance = word.distance.known().or(self.words.force.distance);
-        let qualifier = match (role, distance, self.words.force.distance) {
+        let distance = word.distance.known().or(self.words.active.distance);
+        let qualifier = match (role, distance, self.words.active.distance) {
             (NameRole::PolarAngle, Some(Distance::Incremental), _) => Some("IC"),
             (NameRole::LineAngle, Some(Distance::Incremental), _) => {
                 return Err(cannot("an increment of a line's angle"));

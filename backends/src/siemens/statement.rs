@@ -23,7 +23,7 @@ impl Writer {
     /// # Errors
     /// The control cannot say it.
     pub(super) fn statement(&mut self, stmt: &Stmt, with: usize, sink: &mut Sink) -> Result<(), Fault> {
-        self.words.says_distance = self.computing.own_distance.contains(&stmt.span.start);
+        self.words.says_distance = self.computing.word_distance.contains(&stmt.span.start);
         self.before_statement(stmt, sink)?;
         if self.words.preamble.is_some() && !matches!(stmt.op, Op::Declare(_)) {
             // No edge is no length, which belongs to the start.
@@ -193,7 +193,7 @@ impl Writer {
             Op::Polar(polar) => self.polar(polar, span, sink),
             Op::Position(_) => {
                 self.pay_call(sink)?;
-                let open = self.words.force.motion.is_none() && stmt.skip.is_none();
+                let open = self.words.active.motion.is_none() && stmt.skip.is_none();
                 if self.cycled && self.standing.modal == Modal::Off && open {
                     return Err(cannot("axis words whose motion is left open, behind a cycle"));
                 }

@@ -35,7 +35,7 @@ impl Swivel<'_> {
 }
 
 /// The plane that the statements begin with.
-pub(super) fn of(rest: &[Stmt]) -> Option<Swivel<'_>> {
+pub(super) fn first_swivel(rest: &[Stmt]) -> Option<Swivel<'_>> {
     let ends = usize::from(matches!(rest.first()?.op, Op::ClearFrame(FrameSlot::Tilt)));
     let retracts = rest.get(ends..).and_then(retract).unwrap_or(0);
     let parts = rest.get(..=ends + retracts)?;

@@ -51,7 +51,7 @@ impl Writer {
 
     /// An edge of the tool in the spindle.
     pub(super) fn edge(&mut self, edge: &Expr, said: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let first = edge.literal().and_then(|n| n.whole()) == Some(1);
+        let first = edge.literal().and_then(|n| n.whole_number()) == Some(1);
         let comes_with_tool = first && !said && self.standing.edge_waits;
         self.standing.edge_waits = false;
         if comes_with_tool {
@@ -76,7 +76,7 @@ impl Writer {
 
     /// An entry of a length table: none, or the one of the tool in the spindle.
     pub(super) fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let entry = entry.literal().and_then(|n| n.whole());
+        let entry = entry.literal().and_then(|n| n.whole_number());
         // The program says a length after the change; one that is refused is not missed once more.
         self.standing.edge_waits = false;
         match (entry, self.words.tracker.tool) {

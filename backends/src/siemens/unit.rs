@@ -133,13 +133,13 @@ impl Writer {
 
     /// Lets words without a code be rapid moves.
     fn position_in_rapid(&mut self, sink: &mut Sink) -> Result<(), Fault> {
-        if self.words.force.motion == Some(Motion::Traverse) {
+        if self.words.active.motion == Some(Motion::Traverse) {
             return Ok(());
         }
         let code = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
         self.words.admit(&Need::new(Rank::Motion).code(Some(code)), sink)?;
         self.words.block.code(Part::Motion, &code);
-        self.words.force.motion = Some(Motion::Traverse);
+        self.words.active.motion = Some(Motion::Traverse);
         Ok(())
     }
 
@@ -170,7 +170,7 @@ impl Writer {
     ) -> Result<(), Fault> {
         let count = match repeat.times.literal() {
             None => format!(" P={}", self.words.expression(&repeat.times, span, sink)?),
-            Some(times) => match times.whole().and_then(|n| u32::try_from(n).ok()) {
+            Some(times) => match times.whole_number().and_then(|n| u32::try_from(n).ok()) {
                 Some(0) => return Ok(()),
                 Some(times) => count(times)?,
                 None => return Err(cannot("a repetition that is not made a known number of times")),
@@ -211,7 +211,7 @@ impl Writer {
             | Control::For { .. }
             | Control::If { .. } => return self.structure(control, stmt, sink),
         };
-        let times = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let times = times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let times = times.filter(|n| *n > 0 && stmt.skip.is_none());
         let times = times.ok_or_else(|| cannot("a repetition that is not made a known number of times"))?;
         let name = loop {

@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::NameMeaning;
-use ncc_ir::computed::changed::Changed;
+use ncc_ir::computed::assigned_variables::AssignedVariables;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::types::Types;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
@@ -34,7 +34,7 @@ pub(super) struct Variables {
     /// What subprograms take, by name: types of parameters.
     takes: BTreeMap<Text, Vec<Parameter>>,
     /// What subprograms may change of the variables that all see.
-    changed: Changed,
+    changed: AssignedVariables,
     /// What the call that was written last gives back, each with where it is kept meanwhile.
     back: Vec<(Target, Expr)>,
     /// Subprograms with parameters that the unit at hand calls, as far as they are not made known.
@@ -78,7 +78,7 @@ impl Variables {
 
 /// A number that the program writes.
 fn is(expr: &Expr, whole: i64) -> bool {
-    expr.literal().and_then(|n| n.whole()) == Some(whole)
+    expr.literal().and_then(|n| n.whole_number()) == Some(whole)
 }
 
 /// What is rounded to a whole number.
@@ -93,7 +93,7 @@ fn rounded(expr: &Expr) -> Option<&Expr> {
 impl Writer {
     /// Takes what subprograms have for parameters.
     pub(super) fn know_parameters(&mut self, procedures: &[Procedure]) {
-        self.variables.changed = Changed::by_subprograms(procedures);
+        self.variables.changed = AssignedVariables::by_subprograms(procedures);
         for procedure in procedures.iter().skip(1).filter(|p| !p.parameters.is_empty()) {
             let all = procedure.parameters.iter().enumerate().map(|(place, var)| Parameter {
                 kind: procedure.kinds.get(place).copied().unwrap_or(Type::Real),
@@ -244,7 +244,8 @@ impl Writer {
             arguments.push(match parameter.reference {
                 None => self.of_type(parameter.kind, value, span, sink)?,
                 Some(kept) => {
-                    let to = given_back(value).filter(|_| self.variables.types.of(value) == parameter.kind);
+                    let to =
+                        given_back(value).filter(|_| self.variables.types.type_of(value) == parameter.kind);
                     let to = to.ok_or_else(|| {
                         cannot_compute(match value {
                             Expr::Node(node) if matches!(**node, Node::Element(_)) => {
@@ -274,7 +275,7 @@ impl Writer {
             Type::Int => match rounded(value) {
                 Some(inner) => inner,
                 None if types.are_whole(value) => value,
-                None if value.literal().is_some_and(|n| n.whole().is_some()) => value,
+                None if value.literal().is_some_and(|n| n.whole_number().is_some()) => value,
                 None => {
                     return Err(cannot_compute("a value that is not whole, in a variable of whole numbers"));
                 }
@@ -285,7 +286,7 @@ impl Writer {
                 }
                 match not_zero(value) {
                     Some(number) => number,
-                    None if types.of(value) == Type::Bool => value,
+                    None if types.type_of(value) == Type::Bool => value,
                     None => return Err(cannot_compute("a number in a variable of truth values")),
                 }
             }
@@ -392,7 +393,7 @@ impl Writer {
                     texts.push(format!("\"{text}\""));
                 }
                 Piece::Value { value, digits, short, places: _ } => {
-                    let fits = match self.variables.types.of(value) {
+                    let fits = match self.variables.types.type_of(value) {
                         Type::Int => *short || *digits == 0,
                         Type::Real => *short && *digits == DIGITS,
                         Type::Bool => false,
@@ -415,7 +416,7 @@ impl Writer {
 
     /// An alarm of the numbers that end a program.
     pub(super) fn alarm(&mut self, alarm: &Alarm, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let number = alarm.number.as_ref().and_then(|n| n.literal()).and_then(|n| n.whole());
+        let number = alarm.number.as_ref().and_then(|n| n.literal()).and_then(|n| n.whole_number());
         let number = number.filter(|number| matches!(number, 61_000..=61_999 | 65_000..=66_999));
         let number = number.ok_or_else(|| {
             cannot_compute("an alarm whose number is not among 61000 to 61999 and 65000 to 66999")

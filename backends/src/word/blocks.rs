@@ -7,9 +7,9 @@ use ncc_ir::program::{Op, Stmt};
 use super::{HIGHEST_NUMBER, Writer};
 use crate::Numbering;
 use crate::common::Sink;
+use crate::common::active_modes::ActiveModes;
 use crate::common::block::Need;
 use crate::common::fault::cannot_compute;
-use crate::common::force::InForce;
 
 impl Writer {
     /// Begins a block of the source.
@@ -38,7 +38,7 @@ impl Writer {
     ///
     /// # Errors
     /// Its block cannot be marked to be skipped.
-    pub(crate) fn open(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<InForce, Fault> {
+    pub(crate) fn open(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<ActiveModes, Fault> {
         if stmt.skip != self.block.skip && !self.block.is_empty() {
             self.flush(false, sink);
         }
@@ -50,20 +50,20 @@ impl Writer {
         let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
         if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
             let what = "a block that can be skipped on a switch of its own".into();
-            return Err(Fault::CannotSay { what });
+            return Err(Fault::TargetLacks { what });
         }
-        Ok(self.force)
+        Ok(self.active)
     }
 
     /// Ends a statement: tells its fault, writes its comment, and follows it.
     pub(crate) fn close(
         &mut self,
         stmt: &Stmt,
-        before: Option<InForce>,
+        before: Option<ActiveModes>,
         written: Result<(), Fault>,
         sink: &mut Sink,
     ) {
-        let before = before.unwrap_or(self.force);
+        let before = before.unwrap_or(self.active);
         if let Err(fault) = written {
             sink.report(fault, stmt.span);
         }
@@ -78,7 +78,7 @@ impl Writer {
             self.tracker.position[Axis::Z as usize] = None;
         }
         if stmt.skip.is_some() {
-            self.force.join(&before);
+            self.active.join(&before);
             self.lost = true;
             self.residue = [0; AXES];
             self.residual = false;
@@ -88,7 +88,7 @@ impl Writer {
     /// Makes room for a statement: in the block at hand, or else in a new one.
     pub(crate) fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.possible(need) {
-            return Err(Fault::CannotSay { what: "these codes in one block".into() });
+            return Err(Fault::TargetLacks { what: "these codes in one block".into() });
         }
         if !self.block.fits(need) {
             let feed = self.block.feed_can_wait(need).then(|| self.block.take_feed());

@@ -53,7 +53,7 @@ impl Writer {
         self.block.word(Part::Tail, letter.letter, number);
         self.block.code(Part::Tail, &stop);
         self.comment(&format!("TOOL {tool}"), span, sink);
-        self.force.motion = Some(Motion::Traverse);
+        self.active.motion = Some(Motion::Traverse);
         self.residue[Axis::Z as usize] = 0;
         Ok(())
     }

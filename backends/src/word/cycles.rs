@@ -20,7 +20,7 @@ use super::Writer;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{Code, CycleCode, Letter};
 use crate::common::fault::cannot;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::common::setting::{Inserted, Setting};
 use crate::common::{Sink, number};
 
@@ -59,9 +59,9 @@ struct CallWords {
     level: Option<Code>,
     depth: Option<(Letter, Coord)>,
     retract: Option<(Letter, Coord)>,
-    pecks: Vec<(u8, Worth)>,
-    dwell: Option<(u8, Worth)>,
-    feed: Option<(u8, Worth)>,
+    pecks: Vec<(u8, WordValue)>,
+    dwell: Option<(u8, WordValue)>,
+    feed: Option<(u8, WordValue)>,
 }
 
 impl Writer {
@@ -80,7 +80,7 @@ impl Writer {
             return Err(cannot("a skippable cycle behind one without a hole"));
         }
         match self.held.take() {
-            Some(before) if before.in_text && self.force.motion == Some(Motion::Cycle) => {
+            Some(before) if before.in_text && self.active.motion == Some(Motion::Cycle) => {
                 held.feed = before.feed;
                 held.before = Some(Box::new(before.cycle));
             }
@@ -109,7 +109,7 @@ impl Writer {
             // One block has one distance mode, so the call stands alone.
             self.call_up_now(stmt, sink)?;
         }
-        let in_force = self.force.motion == Some(Motion::Cycle);
+        let in_force = self.active.motion == Some(Motion::Cycle);
         match self.held.take() {
             Some(held) if !held.in_text || !in_force || (with_call && to.to.is_empty()) => {
                 if held.skip.is_some() && held.skip != stmt.skip {
@@ -147,14 +147,14 @@ impl Writer {
 
     /// Words for the position where the tool stands, on a control that needs some for a hole.
     fn stand_words(&self) -> Result<Point, Fault> {
-        let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.force.plane);
+        let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.active.plane);
         let (first, second, _) = plane.unwrap_or(Plane::Xy).axes();
-        let distance = self.force.distance;
+        let distance = self.active.distance;
         let absolute = Some(ncc_ir::canon::Distance::Absolute);
         if distance != absolute {
             return Err(cannot("a hole where the tool stands, in incremental coordinates"));
         }
-        let unit = match self.force.units {
+        let unit = match self.active.units {
             Some(ncc_ir::canon::Units::Inch) => Unit::Inch,
             Some(ncc_ir::canon::Units::Mm) => Unit::Mm,
             None => return Err(cannot("a position in a unit that is not known")),
@@ -162,7 +162,7 @@ impl Writer {
         let mut to = Point::default();
         for axis in [first, second] {
             let letter = self.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
-            let n = number::from_nanos(self.stands(axis)?, &letter.format, unit);
+            let n = number::from_nanos(self.axis_position(axis)?, &letter.format, unit);
             to.set(axis, Coord { value: Expr::Num(n), distance: distance.into() });
         }
         Ok(to)
@@ -176,9 +176,9 @@ impl Writer {
             let value = self.value(&letter, &feed, span, sink)?;
             self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
             self.block.word(Part::Feed, letter.letter, value);
-            self.force.feed = feed.literal();
+            self.active.feed = feed.literal();
         }
-        let other_motion = self.force.motion.is_some_and(|m| m != Motion::Cycle);
+        let other_motion = self.active.motion.is_some_and(|m| m != Motion::Cycle);
         if dropped && other_motion {
             return Ok(());
         }
@@ -213,9 +213,9 @@ impl Writer {
 
     /// A pitch that is said by the feed per revolution has as many digits as that.
     fn check_pitch(&self, cycle: &Cycle) -> Result<(), Fault> {
-        let feed = cycle.feed.as_ref().map_or(self.force.feed, Expr::literal);
+        let feed = cycle.feed.as_ref().map_or(self.active.feed, Expr::literal);
         let by_feed =
-            matches!(cycle.kind, CycleKind::Tap(_)) && self.force.feed_mode == Some(FeedMode::PerRevolution);
+            matches!(cycle.kind, CycleKind::Tap(_)) && self.active.feed_mode == Some(FeedMode::PerRevolution);
         match (feed.filter(|_| by_feed), self.codes.feed_word) {
             (Some(feed), Some(letter)) if number::shape(feed, &letter.format).is_ok_and(|s| s.rounded) => {
                 Err(cannot("a pitch with so many digits"))
@@ -306,9 +306,9 @@ impl Writer {
             self.block.digits(Part::Tail, letter, "0");
         }
         if let Some(feed) = &held.cycle.feed {
-            self.force.feed = feed.literal();
+            self.active.feed = feed.literal();
         }
-        self.force.motion = Some(Motion::Cycle);
+        self.active.motion = Some(Motion::Cycle);
         held.in_text = stmt.skip.is_none() || stmt.skip == held.skip;
         held.before = None;
         if stmt.skip.is_none() {
@@ -330,7 +330,7 @@ impl Writer {
         let cycle = &held.cycle;
         let row = self.cycle_code(cycle)?.clone();
         let mut row = row;
-        let normal = cycle.plane.known().or(self.force.plane).map(|p| p.axes().2.letter());
+        let normal = cycle.plane.known().or(self.active.plane).map(|p| p.axes().2.letter());
         if let Some(normal) = normal.filter(|normal| *normal != row.depth.letter) {
             let text = String::from_utf8_lossy(row.code.text());
             let one_plane = self.dialect.cycle_row(&text).is_some_and(|row| row.one_plane);
@@ -364,14 +364,14 @@ impl Writer {
             !said
                 && moves
                 && self.dialect.cycles.retained
-                && self.force.motion == Some(Motion::Cycle)
+                && self.active.motion == Some(Motion::Cycle)
                 && b.plane == cycle.plane
                 && b.kind.name() == cycle.kind.name()
                 && self.cycle_code(b).is_ok_and(|r| r.code == row.code)
         });
         let same_kind = before.is_some_and(|b| b.kind == cycle.kind);
         let pecks = self.peck_words(&row, &cycle.kind, peck.filter(|_| !same_kind), span, sink)?;
-        if self.force.motion != Some(Motion::Cycle) && !self.dialect.cycles.dwell_left {
+        if self.active.motion != Some(Motion::Cycle) && !self.dialect.cycles.dwell_left {
             self.dwell_left = false;
         }
         let left = self.dwell_left;
@@ -399,7 +399,9 @@ impl Writer {
         let same_depth = before.is_some_and(|b| b.depth == cycle.depth);
         let same_retract = before.is_some_and(|b| b.retract == cycle.retract);
         let level = match before {
-            Some(b) if b.return_level == cycle.return_level && self.force.level == b.return_level.known() => {
+            Some(b)
+                if b.return_level == cycle.return_level && self.active.level == b.return_level.known() =>
+            {
                 None
             }
             Some(_) | None => self.level_code(cycle.return_level)?,
@@ -425,7 +427,7 @@ impl Writer {
         peck: Option<&Expr>,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Vec<(u8, Worth)>, Fault> {
+    ) -> Result<Vec<(u8, WordValue)>, Fault> {
         let (first, less) = match kind {
             CycleKind::DrillPeck { first, less, .. } | CycleKind::DrillBreak { first, less, .. } => {
                 (first, less)
@@ -438,7 +440,7 @@ impl Writer {
             | CycleKind::BoreStop(_) => (&None, &None),
         };
         let Some(peck) = peck else { return Ok(Vec::new()) };
-        if self.force.motion != Some(Motion::Cycle) || !self.dialect.cycles.retained {
+        if self.active.motion != Some(Motion::Cycle) || !self.dialect.cycles.retained {
             self.pecks_left = None;
         }
         let shrinks = less.is_some();
@@ -470,13 +472,13 @@ impl Writer {
             (Fact::Known(level), Some(fixed)) if level == fixed => Ok(None),
             (Fact::Known(_), Some(_)) => Err(cannot("a cycle that returns to the other level")),
             (Fact::Entry, Some(_)) => Err(cannot("a cycle whose return level is the caller's")),
-            (Fact::Entry, None) if self.force.our_level => {
+            (Fact::Entry, None) if self.active.our_level => {
                 Err(cannot("a cycle whose return level is not known"))
             }
             (Fact::Entry, None) => Ok(None),
             (Fact::Known(level), None)
-                if self.force.level == Some(level)
-                    && !self.force.our_level
+                if self.active.level == Some(level)
+                    && !self.active.our_level
                     // Else the last move has ended it.
                     && !self.dialect.cycles.level_lost =>
             {
@@ -484,8 +486,8 @@ impl Writer {
             }
             (Fact::Known(level), None) => {
                 let code = self.setting(Setting::Level(level))?;
-                self.force.level = Some(level);
-                self.force.our_level = true;
+                self.active.level = Some(level);
+                self.active.our_level = true;
                 Ok(code)
             }
         }

@@ -13,10 +13,10 @@ use super::Writer;
 use super::macros::formula::rounding;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
+use crate::common::codes::DataCode;
 use crate::common::codes::{Code, Letter};
-use crate::common::data::DataCode;
 use crate::common::fault::cannot;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::common::setting::Inserted;
 
 impl Writer {
@@ -24,7 +24,7 @@ impl Writer {
     pub(crate) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         // The code's words count as the distance mode says; where nobody knows it, the control's variable is set.
         if self.dialect.program.macro_b
-            && self.force.distance != Some(Distance::Absolute)
+            && self.active.distance != Some(Distance::Absolute)
             && let Some(text) = self.data_setting(data, span, sink)?
         {
             return self.statement_alone(&text, sink);
@@ -189,7 +189,7 @@ impl Writer {
     }
 
     /// A code in a block of its own, with its words.
-    fn alone(&mut self, code: Code, words: Vec<(u8, Worth)>, sink: &mut Sink) -> Result<(), Fault> {
+    fn alone(&mut self, code: Code, words: Vec<(u8, WordValue)>, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.is_empty() {
             self.flush(false, sink);
             self.split = true;
@@ -216,7 +216,7 @@ impl Writer {
         if table.row.adds {
             // Whether values are added, the text says where it is read.
             if std::mem::take(&mut self.computing.unsaid) {
-                self.force.distance = None;
+                self.active.distance = None;
             }
             let distance = if added { Distance::Incremental } else { Distance::Absolute };
             let counted =

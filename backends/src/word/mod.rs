@@ -43,10 +43,10 @@ use cycles::Held;
 use start::Preamble;
 
 use crate::common::Sink;
+use crate::common::active_modes::ActiveModes;
 use crate::common::block::Block;
 use crate::common::codes::Codes;
 use crate::common::comment::Comments;
-use crate::common::force::InForce;
 use crate::origin::Trace;
 use crate::{Form, Layout, Numbering, ToolChange};
 
@@ -81,7 +81,7 @@ pub struct Writer {
     pub(crate) codes: Codes,
     comments: Comments,
     pub(crate) block: Block,
-    pub(crate) force: InForce,
+    pub(crate) active: ActiveModes,
     pub(crate) tracker: Tracker,
     /// Whether nothing goes on behind what has been written of the main procedure.
     main_ends: bool,
@@ -194,7 +194,7 @@ impl Writer {
             settings,
             comments: Comments::new(&dialect.comment),
             block: Block::new(rules.blanks, rules.g_codes, rules.m_codes),
-            force: InForce::default(),
+            active: ActiveModes::default(),
             tracker: Tracker::default(),
             main_ends: false,
             residue: [0; AXES],
@@ -373,7 +373,7 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
-        let (before, jump) = macros::jump_of::found(stmts);
+        let (before, jump) = macros::computed_jump::found(stmts);
         for stmt in before {
             let before = self.open(stmt, sink);
             let written = match before {
@@ -423,7 +423,7 @@ impl Writer {
 
     /// Forgets everything that is in force: after a call, at a procedure's start.
     pub(crate) fn forget(&mut self) {
-        self.force = InForce::default();
+        self.active = ActiveModes::default();
         self.held = None;
         self.residue = [0; AXES];
         self.residual = false;

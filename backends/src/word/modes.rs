@@ -92,7 +92,7 @@ impl Writer {
     /// `apart`: in a block of its own, which is not the one that is jumped to.
     pub(crate) fn restore_distance(&mut self, apart: bool, sink: &mut Sink) -> Result<(), Fault> {
         let own = self.tracker.modes.distance.or(self.computing.entry).or(self.computing.replaced);
-        match own.filter(|_| self.force.our_distance && self.force.distance != own) {
+        match own.filter(|_| self.active.our_distance && self.active.distance != own) {
             Some(own) => {
                 let number = self.block.number.take_if(|_| apart);
                 self.write_setting(Setting::Distance(own), sink)?;
@@ -111,33 +111,33 @@ impl Writer {
     pub(crate) fn now_in_force(&mut self, setting: Setting) {
         match setting {
             Setting::Units(u) => {
-                if self.force.units != Some(u) {
-                    self.force.feed = None;
+                if self.active.units != Some(u) {
+                    self.active.feed = None;
                 }
-                self.force.units = Some(u);
+                self.active.units = Some(u);
                 self.units_stated[u as usize] = true;
             }
             Setting::Distance(d) => {
-                self.force.distance = Some(d);
-                self.force.our_distance = false;
+                self.active.distance = Some(d);
+                self.active.our_distance = false;
             }
             Setting::Plane(p) => {
-                self.force.plane = Some(p);
-                self.force.our_plane = false;
+                self.active.plane = Some(p);
+                self.active.our_plane = false;
             }
             Setting::FeedMode(f) => {
-                if self.force.feed_mode != Some(f) {
-                    self.force.feed = None;
+                if self.active.feed_mode != Some(f) {
+                    self.active.feed = None;
                 }
-                self.force.feed_mode = Some(f);
+                self.active.feed_mode = Some(f);
             }
             Setting::Level(l) => {
-                self.force.level = Some(l);
-                self.force.our_level = false;
+                self.active.level = Some(l);
+                self.active.our_level = false;
             }
-            Setting::Turns => self.force.spindle_mode = Some(SpindleMode::Turns),
+            Setting::Turns => self.active.spindle_mode = Some(SpindleMode::Turns),
             // The code of a cycle's end leaves the motion to be said again.
-            Setting::NoCycle => self.force.motion = None,
+            Setting::NoCycle => self.active.motion = None,
             Setting::Origin(_) | Setting::NoShift | Setting::NoCompensation | Setting::NoLength => {}
         }
     }
@@ -155,7 +155,7 @@ impl Writer {
             }
         }
         if self.dialect.safe_start.is_empty() {
-            let force = &mut self.force;
+            let force = &mut self.active;
             both(&mut force.units, assumed.units, power_on.units.as_ref().map(|f| f.value.into()));
             both(&mut force.distance, assumed.distance, power_on.distance.as_ref().map(|f| f.value.into()));
             both(&mut force.plane, assumed.plane, power_on.plane.as_ref().map(|f| f.value.into()));
@@ -177,7 +177,7 @@ impl Writer {
         let mut inherits = false;
         // Words that say their own distance need nothing put in, once a mode is in force.
         let qualifiers = self.dialect.block.qualifiers;
-        let in_force = self.says_distance || self.force.distance.is_some();
+        let in_force = self.says_distance || self.active.distance.is_some();
         for coord in coords {
             match coord.distance {
                 Fact::Known(_) if qualifiers && (in_force || wanted.is_some()) => {}
@@ -188,16 +188,16 @@ impl Writer {
                 Fact::Entry => inherits = true,
             }
         }
-        if inherits && (self.force.our_distance || (wanted.is_some() && wanted != self.force.distance)) {
+        if inherits && (self.active.our_distance || (wanted.is_some() && wanted != self.active.distance)) {
             return Err(cannot("words in a distance mode that is not known"));
         }
-        if let Some(d) = wanted.filter(|d| self.force.distance != Some(*d)) {
+        if let Some(d) = wanted.filter(|d| self.active.distance != Some(*d)) {
             inserted.distance = self.setting(Setting::Distance(d))?;
-            if !self.force.our_distance {
-                self.computing.replaced = self.force.distance;
+            if !self.active.our_distance {
+                self.computing.replaced = self.active.distance;
             }
-            self.force.distance = Some(d);
-            self.force.our_distance = true;
+            self.active.distance = Some(d);
+            self.active.our_distance = true;
         }
         Ok(())
     }
@@ -206,7 +206,7 @@ impl Writer {
     /// words can be marked.
     pub(crate) fn qualifier(&self, distance: Fact<Distance>) -> Option<&'static str> {
         match distance {
-            Fact::Known(d) if self.dialect.block.qualifiers && self.force.distance != Some(d) => {
+            Fact::Known(d) if self.dialect.block.qualifiers && self.active.distance != Some(d) => {
                 Some(match d {
                     Distance::Absolute => "AC",
                     Distance::Incremental => "IC",
@@ -219,13 +219,13 @@ impl Writer {
     /// The plane that a statement needs, put in if it is not in force.
     pub(crate) fn need_plane(&mut self, plane: Fact<Plane>, inserted: &mut Inserted) -> Result<(), Fault> {
         match plane {
-            Fact::Known(p) if self.force.plane != Some(p) => {
+            Fact::Known(p) if self.active.plane != Some(p) => {
                 inserted.plane = self.setting(Setting::Plane(p))?;
-                self.force.plane = Some(p);
-                self.force.our_plane = true;
+                self.active.plane = Some(p);
+                self.active.our_plane = true;
                 Ok(())
             }
-            Fact::Entry if self.force.our_plane => Err(cannot("a plane that is not known")),
+            Fact::Entry if self.active.our_plane => Err(cannot("a plane that is not known")),
             Fact::Known(_) | Fact::Entry => Ok(()),
         }
     }
@@ -272,7 +272,7 @@ impl Writer {
             Units::Mm => Units::Inch,
             Units::Inch => Units::Mm,
         };
-        let known = match self.force.units {
+        let known = match self.active.units {
             Some(in_force) => in_force == units,
             // Not known here, but the text states one unit and never another.
             None => self.units_stated[units as usize] && !self.units_stated[other as usize],
@@ -283,7 +283,7 @@ impl Writer {
                 Units::Inch => cannot("inches where they are not known to be in force"),
             });
         }
-        if self.force.units.is_none() {
+        if self.active.units.is_none() {
             self.units_relied.get_or_insert((units, span));
         }
         Ok(())

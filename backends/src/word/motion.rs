@@ -11,7 +11,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::geometry;
-use ncc_ir::geometry::round::MOST_SHORT;
+use ncc_ir::geometry::arc_solver::MOST_SHORT;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Reference, ReferencePoint, Stmt};
 use ncc_ir::source::Span;
 
@@ -20,12 +20,12 @@ use super::statement::rounded;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Letter;
 use crate::common::fault::{cannot, cannot_compute, unwritable};
-use crate::common::number::{Shaped, Worth};
+use crate::common::number::{Shaped, WordValue};
 use crate::common::setting::Inserted;
 use crate::common::{Sink, number};
 
 /// Words of an arc's centre or radius, ready to be written.
-type CentreWords = [Option<(u8, Worth)>; 3];
+type CentreWords = [Option<(u8, WordValue)>; 3];
 
 impl Writer {
     /// A straight move, rapid or at feed.
@@ -47,7 +47,7 @@ impl Writer {
         let mut inserted = Inserted::default();
         self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
         let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
-        let says = to.said || probe.is_some() || detour.is_some() || self.force.motion != Some(motion);
+        let says = to.said || probe.is_some() || detour.is_some() || self.active.motion != Some(motion);
         let need = if says { need.code(Some(code)) } else { need };
         let machine = self.machine.take();
         let need = if machine.is_some() { need.code(machine) } else { need };
@@ -60,16 +60,16 @@ impl Writer {
         }
         match probe {
             // Whether it stays in force is a parameter of some controls.
-            None if detour.is_some() => self.force.motion = None,
-            None => self.force.motion = Some(motion),
-            Some(probe) if probe.stays => self.force.motion = None,
+            None if detour.is_some() => self.active.motion = None,
+            None => self.active.motion = Some(motion),
+            Some(probe) if probe.stays => self.active.motion = None,
             Some(_) => {}
         }
         self.point(&to.to, span, sink)?;
         self.put_corner();
         if probe.is_some_and(|probe| probe.own_feed) && !self.block.has_feed() {
-            let counts = self.force.feed_mode != Some(FeedMode::InverseTime);
-            let (Some(feed), Some(letter)) = (self.force.feed.filter(|_| counts), self.codes.feed_word)
+            let counts = self.active.feed_mode != Some(FeedMode::InverseTime);
+            let (Some(feed), Some(letter)) = (self.active.feed.filter(|_| counts), self.codes.feed_word)
             else {
                 return Err(cannot("a probing move whose feed is not known"));
             };
@@ -187,7 +187,7 @@ impl Writer {
             }
             let value = self.computed(&letter, &coord.value, span, sink)?;
             // What rounding has left before is left behind by a point of its own.
-            if coord.distance.known().or(self.force.distance) != Some(Distance::Incremental) {
+            if coord.distance.known().or(self.active.distance) != Some(Distance::Incremental) {
                 self.residue[axis as usize] = 0;
             }
             self.block.word(Part::Axes, letter.letter, value);
@@ -228,7 +228,7 @@ impl Writer {
         let metric = self.computing.metric && n.unit == Unit::Entry;
         let n = if metric { Num { unit: Unit::Mm, ..n } } else { n };
         let fault = |why| unwritable(why, letter.letter, n);
-        let distance = distance.known().or(self.force.distance);
+        let distance = distance.known().or(self.active.distance);
         let before = match distance {
             Some(Distance::Incremental) => self.residue[at],
             Some(Distance::Absolute) | None => 0,
@@ -265,7 +265,7 @@ impl Writer {
     }
 
     /// Where the written text puts an axis.
-    pub(crate) fn stands(&self, axis: Axis) -> Result<Nanos, Fault> {
+    pub(crate) fn axis_position(&self, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
         let at = self.tracker.position[axis as usize].ok_or_else(|| unknown.clone())?;
         at.checked_sub(self.residue[axis as usize]).ok_or(unknown)
@@ -302,13 +302,13 @@ impl Writer {
         if let Some((letter, _)) = turns {
             need = need.letter(letter);
         }
-        let says = arc.said || self.force.motion != Some(motion);
+        let says = arc.said || self.active.motion != Some(motion);
         let need = if says { need.code(Some(code)) } else { need };
         self.admit_with(need, inserted, sink)?;
         if says {
             self.block.code(Part::Motion, &code);
         }
-        self.force.motion = Some(motion);
+        self.active.motion = Some(motion);
         self.point(&arc.to, span, sink)?;
         for (letter, value) in centre.into_iter().flatten() {
             self.block.word(Part::Axes, letter, value);
@@ -322,7 +322,7 @@ impl Writer {
 
     /// An arc with a word of its end in its plane, for a control that needs one: a full circle ends where it starts.
     fn with_end<'a>(&self, arc: &'a Arc) -> Result<Cow<'a, Arc>, Fault> {
-        let plane = arc.plane.known().or(self.force.plane);
+        let plane = arc.plane.known().or(self.active.plane);
         let Some((first, second, _)) =
             plane.map(|plane| plane.axes()).filter(|_| self.dialect.arc.end_needed)
         else {
@@ -331,14 +331,14 @@ impl Writer {
         if arc.to.get(first).is_some() || arc.to.get(second).is_some() {
             return Ok(Cow::Borrowed(arc));
         }
-        let (Some(distance), Some(letter)) = (self.force.distance, self.codes.axes[first as usize]) else {
+        let (Some(distance), Some(letter)) = (self.active.distance, self.codes.axes[first as usize]) else {
             return Err(cannot("a full circle where the distance mode is not known"));
         };
-        let value = match (distance, self.force.units) {
+        let value = match (distance, self.active.units) {
             (Distance::Incremental, _) => Num::int(0, Unit::Entry),
             (Distance::Absolute, Some(units)) => {
                 let unit = if units == Units::Inch { Unit::Inch } else { Unit::Mm };
-                number::from_nanos(self.stands(first)?, &letter.format, unit)
+                number::from_nanos(self.axis_position(first)?, &letter.format, unit)
             }
             (Distance::Absolute, None) => return Err(cannot("a full circle in a unit that is not known")),
         };
@@ -349,7 +349,7 @@ impl Writer {
 
     /// Whether an arc has a word for a linear axis outside its plane.
     fn leaves_plane(&self, arc: &Arc) -> bool {
-        let normal = arc.plane.known().or(self.force.plane).map(|p| p.axes().2);
+        let normal = arc.plane.known().or(self.active.plane).map(|p| p.axes().2);
         arc.to.axes.iter().enumerate().any(|(at, word)| {
             word.is_some() && (at > Axis::Z as usize || normal.is_some_and(|n| n as usize == at))
         })
@@ -364,7 +364,7 @@ impl Writer {
                 Ok([Some((letter.letter, value)), None, None])
             }
             (Centre::Point { words, from }, _) if absolute == (*from == CentreFrom::Zero) => {
-                let plane = arc.plane.known().or(self.force.plane);
+                let plane = arc.plane.known().or(self.active.plane);
                 let mut written = [None; 3];
                 for axis in [Axis::X, Axis::Y, Axis::Z] {
                     let outside = plane.is_some_and(|p| p.axes().2 == axis);
@@ -390,9 +390,9 @@ impl Writer {
         from: CentreFrom,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         match word {
-            Expr::Num(_) => self.centre_number(letter, axis, word, from, span, sink).map(Worth::Number),
+            Expr::Num(_) => self.centre_number(letter, axis, word, from, span, sink).map(WordValue::Number),
             Expr::Node(_) => self.computed(letter, word, span, sink),
         }
     }
@@ -408,7 +408,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<Shaped, Fault> {
         let lag = if from == CentreFrom::Start { self.residue[axis as usize] } else { 0 };
-        let inch = self.force.units == Some(Units::Inch);
+        let inch = self.active.units == Some(Units::Inch);
         let literal = word.literal().filter(|n| lag != 0 && n.unit != Unit::Entry);
         let along = literal.and_then(|n| Some((n, n.nanos(inch)?.checked_add(lag)?)));
         let Some((n, along)) = along else { return self.number(letter, word, span, sink) };
@@ -427,11 +427,11 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<CentreWords, Fault> {
-        let plane = arc.plane.known().or(self.force.plane);
+        let plane = arc.plane.known().or(self.active.plane);
         let plane = plane.ok_or_else(|| cannot("an arc in a plane that is not known"))?;
         let (first, second, _) = plane.axes();
         let absolute = self.dialect.arc.centre_absolute;
-        let unit = match self.force.units {
+        let unit = match self.active.units {
             Some(Units::Mm) => Unit::Mm,
             Some(Units::Inch) => Unit::Inch,
             None => return Err(cannot("an arc's centre in a unit that is not known")),
@@ -448,11 +448,11 @@ impl Writer {
                     *to = match (from, word) {
                         (CentreFrom::Start, word) => {
                             // From where the program's arc starts: rounding that has not moved the centre.
-                            self.stands(axis)?
+                            self.axis_position(axis)?
                                 .checked_add(self.residue[axis as usize])
                                 .and_then(|start| start.checked_add(word.unwrap_or(0)))
                         }
-                        (CentreFrom::Zero, Some(word)) => word.checked_sub(self.stands(axis)?),
+                        (CentreFrom::Zero, Some(word)) => word.checked_sub(self.axis_position(axis)?),
                         (CentreFrom::Zero, None) => Some(0),
                     }
                     .ok_or_else(|| cannot("a centre this far away"))?;
@@ -461,7 +461,7 @@ impl Writer {
             }
             Centre::Radius(radius) => {
                 let radius = self.length(radius, span)?;
-                let start = [self.stands(first)?, self.stands(second)?];
+                let start = [self.axis_position(first)?, self.axis_position(second)?];
                 let end = [self.arrives(arc, first)?, self.arrives(arc, second)?];
                 let centre = geometry::centre_by_radius(start, end, radius, arc.turn, MOST_SHORT);
                 let centre = centre.map_err(|fault| match fault {
@@ -496,14 +496,14 @@ impl Writer {
     pub(crate) fn length(&mut self, value: &ncc_ir::expr::Expr, span: Span) -> Result<Nanos, Fault> {
         let n = value.literal().ok_or_else(|| cannot("a computed value"))?;
         self.check_unit(n, span)?;
-        let inch = self.force.units == Some(Units::Inch);
+        let inch = self.active.units == Some(Units::Inch);
         n.nanos(inch).ok_or_else(|| cannot(number::spell(b' ', n).trim_start()))
     }
 
     /// Where the written words of an arc put an axis.
     pub(crate) fn arrives(&self, arc: &Arc, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
-        let Some(coord) = arc.to.get(axis) else { return self.stands(axis) };
+        let Some(coord) = arc.to.get(axis) else { return self.axis_position(axis) };
         let target = self.tracker.resolve(coord, self.tracker.position[axis as usize]);
         let target = target.ok_or(unknown)?;
         let Some(letter) = self.codes.axes[axis as usize] else { return Ok(target) };
@@ -520,7 +520,7 @@ impl Writer {
     /// How far an arc goes round, in degrees, of which the ends become one point when they are rounded.
     fn sweep_of_vanishing(&self, arc: &Arc) -> Option<f64> {
         let (first, second, _) = self.tracker.plane(arc.plane)?.axes();
-        let along = |axis: Axis| Some((self.stands(axis).ok()?, self.arrives(arc, axis).ok()?));
+        let along = |axis: Axis| Some((self.axis_position(axis).ok()?, self.arrives(arc, axis).ok()?));
         let [(a, b), (c, d)] = [along(first)?, along(second)?];
         let end = self.tracker.target(&arc.to);
         let exact = |axis: Axis| Some([self.tracker.position[axis as usize]?, end[axis as usize]?]);
@@ -548,7 +548,7 @@ impl Writer {
         if start_residue == self.residue {
             return Ok(());
         }
-        let plane = arc.plane.known().or(self.force.plane);
+        let plane = arc.plane.known().or(self.active.plane);
         let in_plane = |axis: Axis| plane.is_none_or(|p| p.axes().2 != axis);
         let mut moved = false;
         for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| in_plane(*a)) {

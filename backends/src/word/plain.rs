@@ -66,7 +66,7 @@ impl Writer {
         out: &mut Vec<u8>,
     ) -> bool {
         let blanks = usize::from(self.dialect.block.blanks);
-        let (Some(distance), Some(units)) = (self.force.distance, self.force.units) else {
+        let (Some(distance), Some(units)) = (self.active.distance, self.active.units) else {
             return false;
         };
         let unit = match units {
@@ -83,14 +83,14 @@ impl Writer {
             (Numbering::Off, _, _) => {}
             (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
                 line[at] = letter as u8;
-                at = number::whole(line, at + 1, number);
+                at = number::write_digits(line, at + 1, number);
                 line[at] = b' ';
                 at += blanks;
             }
             (Numbering::Keep, _, None) => {}
             (Numbering::Every { first, step }, Some(letter), _) if next < 100_000_000 => {
                 line[at] = letter as u8;
-                at = number::whole(line, at + 1, next);
+                at = number::write_digits(line, at + 1, next);
                 line[at] = b' ';
                 at += blanks;
                 next = next.saturating_add(step);
@@ -102,7 +102,7 @@ impl Writer {
         }
         let start = at;
         let mut named = 0u8;
-        if to.said || self.force.motion != Some(motion) {
+        if to.said || self.active.motion != Some(motion) {
             let (text, len) = code.padded();
             line[at..at + 8].copy_from_slice(text);
             at += len;
@@ -140,7 +140,7 @@ impl Writer {
             at = number::write(line, at + 1, shaped);
             line[at] = b' ';
             at += blanks;
-            self.force.feed = Some(*n);
+            self.active.feed = Some(*n);
         }
         at -= blanks;
         // One byte too many of a short line end is overwritten, or never taken.
@@ -152,8 +152,8 @@ impl Writer {
         if distance == Distance::Incremental {
             self.settle();
         }
-        if self.force.motion != Some(motion) {
-            self.force.motion = Some(motion);
+        if self.active.motion != Some(motion) {
+            self.active.motion = Some(motion);
             self.tracker.modes.motion = Some(motion);
             self.tracker.cycle = None;
         }
@@ -168,7 +168,7 @@ impl Writer {
 
     /// Brings the tracker up to the last plain moves, which leave only their words behind.
     pub(crate) fn settle(&mut self) {
-        let distance = self.force.distance;
+        let distance = self.active.distance;
         let named = std::mem::take(&mut self.named);
         for (axis, n) in self.last_words.iter().enumerate() {
             if named >> axis & 1 == 1 {

@@ -22,7 +22,7 @@ impl Writer {
         if stmt.skip.is_some() {
             return Err(cannot("a point by radius and angle in a block that can be skipped"));
         }
-        let plane = polar.plane.known().or(self.force.plane);
+        let plane = polar.plane.known().or(self.active.plane);
         let plane =
             plane.ok_or_else(|| cannot("a point by radius and angle in a plane that is not known"))?;
         let mut inserted = crate::common::setting::Inserted::default();
@@ -57,7 +57,7 @@ impl Writer {
 
     /// Goes back to coordinates before a statement that the mode would change.
     pub(crate) fn leave_polar(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        if !self.polar || !polar::leaves_points(&stmt.op, self.force.plane) {
+        if !self.polar || !polar::leaves_points(&stmt.op, self.active.plane) {
             return Ok(());
         }
         let off = self.codes.polar[0].ok_or_else(|| cannot("the end of points by radius and angle"))?;

@@ -141,22 +141,22 @@ impl Writer {
     /// What is in force is not known, but for modes that nothing changes, and the cycle, which is called up
     /// again.
     fn forget_all_but_cycle(&mut self) {
-        let (held, force) = (self.held.take(), self.force);
+        let (held, force) = (self.held.take(), self.active);
         self.forget();
         let [units, plane, distance] = self.labels.changed;
         if !units {
-            self.force.units = force.units;
+            self.active.units = force.units;
         }
         if !plane && !force.our_plane {
-            self.force.plane = force.plane;
+            self.active.plane = force.plane;
         }
         if !distance && !force.our_distance {
-            self.force.distance = force.distance;
+            self.active.distance = force.distance;
         }
         self.held = held;
         match &mut self.held {
             Some(held) if self.labels.cycles => held.in_text = false,
-            Some(_) => self.force.motion = force.motion.filter(|motion| *motion == Motion::Cycle),
+            Some(_) => self.active.motion = force.motion.filter(|motion| *motion == Motion::Cycle),
             None => {}
         }
     }
@@ -185,7 +185,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let letters = self.dialect.repeat.letters().ok_or_else(|| cannot("a repetition of blocks"))?;
-        let times = repeat.times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let times = repeat.times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let times = times.ok_or_else(|| cannot("a computed repetition"))?;
         if times == 0 {
             return Ok(());

@@ -39,20 +39,20 @@ impl Writer {
     /// The code by which a speed counts turns a minute. None is needed where a control has no other way, and
     /// where a code of the feed says so: both are of one group there, and it is in force already.
     pub(super) fn turns_code(&self) -> Result<Option<Code>, Fault> {
-        let Some(code) = self.codes.spindle_mode(SpindleMode::Turns, self.force.feed_mode) else {
+        let Some(code) = self.codes.spindle_mode(SpindleMode::Turns, self.active.feed_mode) else {
             return match self.surfaces.met {
                 true => Err(cannot("the end of a constant surface speed, with this feed")),
                 false => Ok(None),
             };
         };
-        let surface = self.surfaces.met && self.force.spindle_mode != Some(SpindleMode::Turns);
+        let surface = self.surfaces.met && self.active.spindle_mode != Some(SpindleMode::Turns);
         let said = self.codes.spindle_with_feed() && self.block.says(code.group) && !surface;
         Ok((!said).then_some(code))
     }
 
     /// Whether a code of the feed must say that the speed is still a surface's.
     pub(super) fn surface_joins_feed(&self) -> Result<bool, Fault> {
-        match self.force.spindle_mode {
+        match self.active.spindle_mode {
             _ if !self.surfaces.met || !self.codes.spindle_with_feed() => Ok(false),
             Some(mode) => Ok(mode == SpindleMode::Surface),
             None => Err(cannot("what a feed counts where it is not known what a speed does")),
@@ -61,12 +61,12 @@ impl Writer {
 
     /// The speed of the block is a surface's.
     pub(super) fn surface_speed(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        let code = self.codes.spindle_mode(SpindleMode::Surface, self.force.feed_mode);
+        let code = self.codes.spindle_mode(SpindleMode::Surface, self.active.feed_mode);
         let code = code.ok_or_else(|| cannot("a constant surface speed"))?;
         let mut need = Need::new(Rank::Setting).code(Some(code));
         let limit = match self.codes.surface_limit {
             None => None,
-            Some(letter) => match self.force.limit {
+            Some(letter) => match self.active.limit {
                 Some(limit) => {
                     self.surfaces.unsaid = None;
                     need = need.letter(letter.letter);
@@ -93,7 +93,7 @@ impl Writer {
     /// Notes that the text has said a surface speed, whose speed is to follow.
     pub(crate) fn surface_in_force(&mut self, span: Span, sink: &mut Sink) {
         self.rely(AXIS, span, sink);
-        self.force.spindle_mode = Some(SpindleMode::Surface);
+        self.active.spindle_mode = Some(SpindleMode::Surface);
         self.surfaces.met = true;
         self.surfaces.waits = Some(span);
     }
@@ -114,12 +114,12 @@ impl Writer {
         let known = self.codes.surface_limit.and_then(|_| limit.literal());
         let limit = known.ok_or_else(|| cannot("a limit of the spindle speed"))?;
         // It is said with the surface speed that follows.
-        if self.surfaces.unlimited || self.force.spindle_mode == Some(SpindleMode::Surface) {
+        if self.surfaces.unlimited || self.active.spindle_mode == Some(SpindleMode::Surface) {
             return Err(cannot("a limit of the spindle behind the surface speed that it is for"));
         }
         self.surfaces.limited = true;
         self.surfaces.unsaid = Some(span);
-        self.force.limit = Some(limit);
+        self.active.limit = Some(limit);
         Ok(())
     }
 

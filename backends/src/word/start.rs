@@ -72,7 +72,7 @@ impl Writer {
             }
             return Ok(false);
         }
-        let Some(setting) = Setting::of(&stmt.op).filter(|_| stmt.skip.is_none()) else {
+        let Some(setting) = Setting::from_op(&stmt.op).filter(|_| stmt.skip.is_none()) else {
             self.start(sink);
             return Ok(false);
         };

@@ -14,7 +14,7 @@ use super::macros::o_words::is_no_result_yet;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{AdviceCode, Code, Dwell, Letter};
 use crate::common::fault::{cannot, cannot_compute, unwritable};
-use crate::common::number::{Shaped, Worth};
+use crate::common::number::{Shaped, WordValue};
 use crate::common::setting::Setting;
 use crate::common::{Sink, number};
 
@@ -71,7 +71,7 @@ impl Writer {
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
             | Op::SetSpindleMode(SpindleMode::Turns)
-            | Op::StopCutterRadiusCompensation => match Setting::of(&stmt.op) {
+            | Op::StopCutterRadiusCompensation => match Setting::from_op(&stmt.op) {
                 Some(setting) => self.write_setting(setting, sink),
                 None => Err(cannot("clearing this frame")),
             },
@@ -80,7 +80,7 @@ impl Writer {
             }
             Op::SetMotionControlMode(control) => self.path_control(control, span, sink),
             Op::TurnRotaryAxes(_) => Err(cannot("which way round a rotary axis goes")),
-            Op::ExactStop if self.held.is_some() || self.force.motion == Some(Motion::Cycle) => {
+            Op::ExactStop if self.held.is_some() || self.active.motion == Some(Motion::Cycle) => {
                 // Of which ways of a cycle it would be the end, no source tells.
                 Err(cannot("an exact stop in a block of a cycle"))
             }
@@ -216,9 +216,9 @@ impl Writer {
         value: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         match value {
-            Expr::Num(_) => self.number(letter, value, span, sink).map(Worth::Number),
+            Expr::Num(_) => self.number(letter, value, span, sink).map(WordValue::Number),
             Expr::Node(_) => self.computed(letter, value, span, sink),
         }
     }
@@ -419,13 +419,13 @@ impl Writer {
     pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
         let value = self.value(&letter, feed, span, sink)?;
-        if matches!(value, Worth::Number(Shaped { mantissa: 0, rounded: true, .. })) {
+        if matches!(value, WordValue::Number(Shaped { mantissa: 0, rounded: true, .. })) {
             return Err(cannot("a feed so small that the digits make it 0"));
         }
         self.feed_apart(sink);
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
         self.block.word(Part::Feed, letter.letter, value);
-        self.force.feed = feed.literal();
+        self.active.feed = feed.literal();
         // A later feed takes the place of the one that a cycle brought.
         if let Some(held) = &mut self.held {
             held.cycle.feed = None;
@@ -480,7 +480,7 @@ impl Writer {
     /// The length of the tool in the spindle, whichever that is.
     fn own_length(&mut self, edge: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.length.filter(|_| self.codes.own_length && !self.tip);
-        let code = code.filter(|_| edge.literal().and_then(|n| n.whole()) == Some(1));
+        let code = code.filter(|_| edge.literal().and_then(|n| n.whole_number()) == Some(1));
         let code = code.ok_or_else(|| cannot("an edge of a tool"))?;
         self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
         self.block.code(Part::Offset, &code);
@@ -509,7 +509,7 @@ impl Writer {
         seconds: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
+    ) -> Result<WordValue, Fault> {
         let open = seconds.literal().is_none() && !dwell.milliseconds;
         if open {
             self.rely(COMPUTED_DWELL, span, sink);

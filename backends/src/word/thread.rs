@@ -64,7 +64,7 @@ impl Writer {
         if let Some((letter, shaped)) = lead {
             self.block.word(Part::Axes, letter, shaped);
         }
-        (self.force.motion, self.force.feed) = (None, None);
+        (self.active.motion, self.active.feed) = (None, None);
         Ok(())
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn told(stmts: &[Stmt]) -> (String, Vec<Fault>) {
 pub(crate) fn refused(stmts: &[Stmt]) -> String {
     let (text, diags) = text(stmts);
     let what = diags.iter().find_map(|d| match &d.fault {
-        Fault::CannotSay { what } => Some(what.to_string()),
+        Fault::TargetLacks { what } => Some(what.to_string()),
         _ => None,
     });
     what.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))

@@ -177,7 +177,7 @@ fn an_entry_of_the_table_is_the_tools_first_edge() {
     let other = Op::UseToolLengthOffset(count("8"));
     let (_, faults) = told(&blocks(vec![tool("7"), vec![other], vec![rapid("Z5.")]]));
     let what = "an entry of the length table that is not the tool's own";
-    assert_eq!(faults, [Fault::CannotSay { what: what.into() }], "told once");
+    assert_eq!(faults, [Fault::TargetLacks { what: what.into() }], "told once");
 }
 
 #[test]

@@ -73,7 +73,7 @@ pub(crate) fn refused(dialect: &str, stmts: &[Stmt]) {
     w.finish(&mut out, &mut diags);
     let text = String::from_utf8_lossy(&out);
     assert!(
-        diags.iter().any(|d| matches!(d.fault, Fault::CannotSay { .. } | Fault::Computes { .. })),
+        diags.iter().any(|d| matches!(d.fault, Fault::TargetLacks { .. } | Fault::Computes { .. })),
         "{dialect} said:\n{text}{diags:?}"
     );
 }

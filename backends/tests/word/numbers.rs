@@ -70,7 +70,7 @@ fn inches_need_inches_in_force() {
 fn a_unit_that_no_one_has_said_is_refused() {
     let (mut out, mut diags) = (Vec::new(), Vec::new());
     writer("mach9", layout()).write(&lines(vec![rapid("X1.")]), &Modes::default(), &mut out, &mut diags);
-    assert!(matches!(diags[0].fault, Fault::CannotSay { .. }));
+    assert!(matches!(diags[0].fault, Fault::TargetLacks { .. }));
     // A literal without a unit is written digit for digit.
     out.clear();
     diags.clear();
@@ -91,7 +91,7 @@ fn a_subprograms_unit_must_be_the_only_one() {
     let other = lines(vec![Op::UseLengthUnits(Units::Inch)]);
     let subs = [sub(body), Procedure { name: "2".into(), ..sub(other) }];
     let (_, diags) = program(writer("fanuc", layout()), &metric(), &main, &subs);
-    assert!(matches!(faults(&diags)[..], [Fault::CannotSay { .. }]));
+    assert!(matches!(faults(&diags)[..], [Fault::TargetLacks { .. }]));
 }
 
 #[test]

@@ -12,7 +12,7 @@ use ncc_check::{Checked, Checker, Finding, LeftOn, Limits, Refusal, What};
 use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
 use ncc_exec::{Exec, Runner};
 use ncc_frontends::{Batch, Flow, REFUSED, Reader, flow};
-use ncc_ir::computed::open::asked_of_the_machine;
+use ncc_ir::computed::free_variables::asked_of_the_machine;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;

@@ -28,7 +28,7 @@ use ncc_ir::canon::{AXES, AdviceKind};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::arc_feed::ArcFeed;
-use ncc_ir::geometry::beside::Rules;
+use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::Text;
 use ncc_ir::program::numbered::Numbered;
 use ncc_machines::reading::{Place, Side};
@@ -257,7 +257,7 @@ impl Job {
             known,
             radii: self.machines.from.as_ref().map(|machine| machine.tables().radii).unwrap_or_default(),
             listing: false,
-            arc_feed: ArcFeed::of(&self.source_behaviours()),
+            arc_feed: ArcFeed::from_behaviours(&self.source_behaviours()),
             feed_decimals: self.to.dialect.caps.modes.feed_decimals,
         }
     }

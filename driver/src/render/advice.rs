@@ -336,7 +336,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::MachineCutExpanded { .. }
         | Fault::MachineCutFolded { .. }
         | Fault::PeckShortened
-        | Fault::MacroApart { .. }
+        | Fault::MacroCloned { .. }
         | Fault::CornerExpanded
         | Fault::FeedByTime
         | Fault::CycleExpanded { .. }
@@ -361,10 +361,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
-        Fault::CannotSay { what } => unwritable::help(what, at.from, at.to),
+        Fault::TargetLacks { what } => unwritable::help(what, at.from, at.to),
         Fault::RotaryTurnOpen { by, or, .. } => rotary_turn([*by, *or], at),
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
-        Fault::FactUnsaid { .. } => own("say it at the head of the program"),
+        Fault::ModeNotSet { .. } => own("say it at the head of the program"),
         Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
         Fault::TargetRange { .. } => Vec::new(),
         Fault::NotInMap { what, .. } => {
@@ -386,7 +386,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "this is a fault of ncc, not of your program; nothing is released".to_owned(),
             "please report it with the program, or the lines around this place".to_owned(),
         ],
-        Fault::NotTaken { .. } | Fault::OutputNotTaken { .. } | Fault::NotCalled { .. } => {
+        Fault::BranchUncovered { .. } | Fault::OutputNotTaken { .. } | Fault::NotCalled { .. } => {
             own("look at what is written for it yourself")
         }
         Fault::FactNotTried { behaviour: Some(behaviour), source } => {

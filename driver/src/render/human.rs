@@ -91,7 +91,7 @@ pub fn print(
 /// Whether two faults at one place are one to the reader: several steps may find the same, and a
 /// pass and a back-end may both have no words for a place.
 fn same(a: &Fault, b: &Fault) -> bool {
-    a == b || matches!((a, b), (Fault::CannotSay { .. }, Fault::CannotSay { .. }))
+    a == b || matches!((a, b), (Fault::TargetLacks { .. }, Fault::TargetLacks { .. }))
 }
 
 pub(crate) fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {

@@ -168,7 +168,7 @@ impl About<'_> {
             Gravity::Error | Gravity::Warning => None,
         };
         let severity = match gravity {
-            Gravity::Error if is_own(fault) => Severity::Bug,
+            Gravity::Error if is_internal_error(fault) => Severity::Bug,
             _ if self.job.refuses(diagnostic) => Severity::Error,
             Gravity::Warning => Severity::Warning,
             Gravity::Verdict(verdict) if verdict.stops() => Severity::Warning,
@@ -202,6 +202,6 @@ impl About<'_> {
 }
 
 /// Whether it is a fault of this compiler, not of the program.
-fn is_own(fault: &Fault) -> bool {
+fn is_internal_error(fault: &Fault) -> bool {
     matches!(fault, Fault::NotTheSame { .. } | Fault::NotReadBack { .. })
 }

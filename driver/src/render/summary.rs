@@ -359,7 +359,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::MachineCutFolded { .. } => {
             "words less the offsets into cuts in machine coordinates".to_owned()
         }
-        Fault::MacroApart { name, names } => {
+        Fault::MacroCloned { name, names } => {
             format!("the macro {}, as {}: one for each set of arguments", plain(name), plain(names))
         }
         Fault::PeckShortened => "pecks that are longer than their holes".to_owned(),
@@ -464,9 +464,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoEnd { .. }
         | Fault::Interrupted { .. }
         | Fault::Endless
-        | Fault::CannotSay { .. }
+        | Fault::TargetLacks { .. }
         | Fault::SecondWorkOffset { .. }
-        | Fault::FactUnsaid { .. }
+        | Fault::ModeNotSet { .. }
         | Fault::ArcRadiiDiffer { .. }
         | Fault::RotaryTurnOpen { .. }
         | Fault::CompensatedThere { .. }
@@ -481,7 +481,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NotReadBack { .. }
         | Fault::VariableGiven { .. }
         | Fault::ValueNotRead { .. }
-        | Fault::NotTaken { .. }
+        | Fault::BranchUncovered { .. }
         | Fault::OutputNotTaken { .. }
         | Fault::FactNotTried { .. }
         | Fault::NotCalled { .. }

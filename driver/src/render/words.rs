@@ -434,7 +434,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "written as a cut in machine coordinates".into(),
             format!("{to} has a word for a place less the offsets in force"),
         ),
-        Fault::MacroApart { name, names } => (
+        Fault::MacroCloned { name, names } => (
             format!("the macro {} is written as {}", plain(name), plain(names)),
             format!("calls give it different arguments, and {to} does not know which are given"),
         ),
@@ -518,14 +518,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{to} has no word for it"),
         ),
 
-        Fault::CannotSay { what } => {
+        Fault::TargetLacks { what } => {
             (format!("{to} has no words for this: {}", plain(what)), "cannot be written".into())
         }
         Fault::SecondWorkOffset { first, second } => (
             format!("a second work offset, and {to} has one"),
             format!("offset {second} here; the program began with offset {first}"),
         ),
-        Fault::FactUnsaid { fact } => (
+        Fault::ModeNotSet { fact } => (
             format!("the program never says its {}", mode(*fact)),
             format!("{to} always begins with one of its own, so this would not be the same there"),
         ),
@@ -569,7 +569,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "it was written, and not executed when the program was verified".into(),
         ),
         Fault::ArgumentNeeded { name, place, check } => verified::argument_needed(name, *place, check),
-        Fault::NotTaken { holds, fails } => verified::not_taken([*holds, *fails]),
+        Fault::BranchUncovered { holds, fails } => verified::not_taken([*holds, *fails]),
         Fault::OutputNotTaken { blocks } => (
             "not all of the output was executed when it was verified".into(),
             format!("it decides more often than the source; not both ways were gone of: {}", plain(blocks)),

@@ -77,7 +77,7 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
             Fault::ContourUnreachable { why } => {
                 lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
             }
-            Fault::CannotSay { what } | Fault::NotExecuted { what } => {
+            Fault::TargetLacks { what } | Fault::NotExecuted { what } => {
                 lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
             }
             _ => lines.push(format!("from line {line} on timed along the programmed contour")),

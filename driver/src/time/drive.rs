@@ -17,7 +17,7 @@ use ncc_exec::world::{Sideways, Tables, World};
 use ncc_exec::{Event, Exec, Kind, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, PathMode};
-use ncc_ir::computed::open::asked_of_the_machine;
+use ncc_ir::computed::free_variables::asked_of_the_machine;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Program, Stmt};

@@ -7,8 +7,8 @@ use ncc_dialects::{
     BREAK_LIFT, CALL_DEPTH, CodeRow, MACRO_DEPTH, PATH_TOLERANCE, PECK_CLEARANCE, Quantity, SystemRow,
 };
 use ncc_ir::canon::Modes;
-use ncc_ir::computed::computes::{Computes, Said};
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::computes::{ComputeFeature, Computes};
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{self, Expr};
@@ -16,9 +16,9 @@ use ncc_ir::program::valid::{deeper_calls, labels_twice};
 use ncc_ir::program::{Call, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_passes::modes::own_distance;
+use ncc_passes::modes::word_distance;
 use ncc_passes::parametric::Parametric;
-use ncc_passes::support::known_facts::{self, Known};
+use ncc_passes::support::mode_analysis::{self, Known};
 use ncc_passes::values::alarm_numbers;
 use ncc_passes::values::variables::renamed::{Digits, Renamed};
 use ncc_passes::watch::ran_whole;
@@ -42,7 +42,7 @@ pub fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
     if job.values.is_empty() {
         return found;
     }
-    let open = open_variables(program);
+    let open = free_variables(program);
     let Some(main) = program.procedures.first_mut() else { return found };
     let at = main.body.first().map_or(Span::default(), |first| first.span);
     let mut sets = Vec::new();
@@ -132,7 +132,7 @@ pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     alarm_numbers::in_its_characters(program, alarms, found);
     ran_whole("alarm-texts", program);
     if job.from.dialect.id != job.to.dialect.id {
-        alarm_numbers::run(program, alarms, there.has(Said::CallOf), found);
+        alarm_numbers::run(program, alarms, there.has(ComputeFeature::CallOf), found);
         ran_whole("alarm-numbers", program);
     }
 }
@@ -182,8 +182,8 @@ pub fn stands(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
     }
     let mut entry = at.clone();
     entry.modes = entry.modes.or(program.assumed);
-    let known = known_facts::run(&mut program.clone(), &entry, false);
-    if own_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
+    let known = mode_analysis::run(&mut program.clone(), &entry, false);
+    if word_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
 }
 
 /// The target as the passes see it.

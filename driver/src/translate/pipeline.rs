@@ -13,12 +13,12 @@ use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
 use ncc_ir::program::{Lines, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::Told;
-use ncc_passes::flow::given_back::left_out;
-use ncc_passes::flow::passed_labels;
+use ncc_passes::flow::restored_modes::left_out;
+use ncc_passes::flow::unused_labels;
 use ncc_passes::frames::machine_cuts;
 use ncc_passes::leave_out_values;
-use ncc_passes::modes::own_distance;
-use ncc_passes::support::known_facts::Known;
+use ncc_passes::modes::word_distance;
+use ncc_passes::support::mode_analysis::Known;
 use ncc_passes::values::variables::renamed::Renamed;
 use ncc_passes::watch::{ran, ran_whole};
 
@@ -172,7 +172,7 @@ impl Translation<'_> {
                 self.state_given(stmts);
                 let renumbers = self.renumbering.touches(stmts);
                 piece.there = self.taken_there(stmts, &assumed, found);
-                let lines = Lines::of(stmts);
+                let lines = Lines::from_statements(stmts);
                 piece.lines = lines;
                 let plain = lines.is_some_and(|lines| self.side_effects.passes(lines));
                 let switches = !plain && self.side_effects.touches(stmts);
@@ -187,7 +187,7 @@ impl Translation<'_> {
                     return Err(Refused);
                 }
                 if self.job.from.dialect.program.macro_b {
-                    passed_labels::run(&mut kept.program);
+                    unused_labels::run(&mut kept.program);
                     ran_whole("unused-labels", &kept.program);
                 }
                 let found = parametric::begin_with(self.job, &mut kept.program);
@@ -203,7 +203,7 @@ impl Translation<'_> {
         match part {
             Part::Piece(Piece { stmts, lines, found, .. }) => {
                 if !lines.is_some_and(|lines| self.side_effects.passes(lines)) {
-                    self.side_effects.over(stmts, found);
+                    self.side_effects.write_effects(stmts, found);
                     ran("side-effects", stmts);
                 }
             }
@@ -216,7 +216,6 @@ impl Translation<'_> {
                     self.legaliser.nothing_before();
                 }
                 self.legaliser.frame_increments(program, !self.job.passes.is_empty(), &mut found);
-                ran_whole("frame-increments", program);
                 self.take(found, Told::Writer);
                 if !self.job.to.dialect.can.everything {
                     let mut told = left_out(program, &self.job.to.caps());
@@ -249,13 +248,13 @@ impl Translation<'_> {
             let stands = self.legaliser.stands();
             (computed.facts, kept.renamed) =
                 parametric::legalise_parametric(self.job, program, there, stands, &mut found);
-            if own_distance::others(program, &computed.facts).is_empty() {
+            if word_distance::others(program, &computed.facts).is_empty() {
                 computed.stands = computed.facts.modes();
             }
             if self.job.from.caps().modes.word_distance {
-                computed.own_distance = own_distance::places(program, &computed.facts);
+                computed.own_distance = word_distance::places(program, &computed.facts);
                 if !caps.modes.word_distance
-                    && let Err(refusal) = own_distance::refused(&computed.own_distance, program)
+                    && let Err(refusal) = word_distance::refused(&computed.own_distance, program)
                 {
                     found.push(refusal);
                 }
@@ -289,7 +288,6 @@ impl Translation<'_> {
         }
         rewrite::run(&passes, program, &target(self.job), entry, found);
         self.legaliser.frame_increments(program, false, found);
-        ran_whole("frame-increments", program);
         self.unless_refused(found)
     }
 
@@ -298,7 +296,7 @@ impl Translation<'_> {
         match part {
             Part::Piece(Piece { stmts, original, found, .. }) => {
                 if original.is_some() {
-                    self.renumbering.over(stmts, found);
+                    self.renumbering.renumber(stmts, found);
                     ran("machine-numbers", stmts);
                 }
             }

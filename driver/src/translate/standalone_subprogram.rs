@@ -5,7 +5,7 @@ use ncc_dialects::Dialect;
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::computed::computes::{Handed, LETTERS};
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
@@ -34,7 +34,7 @@ impl Translation<'_> {
         // What has been written already has stated modes, which would be the caller's from there on.
         if !ends && !named && !to.can.everything || self.written > 0 {
             let what = "the return of a subprogram without its main program".into();
-            self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
             return true;
         }
         if let Some(verifier) = &mut self.verifier {
@@ -50,7 +50,7 @@ impl Translation<'_> {
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {
             let what = "a cycle that is left in force for a caller that is not in the text".into();
-            self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
             return true;
         }
         let moves_end_cycles = self.handed() == Some(Handed::Names)
@@ -104,7 +104,7 @@ impl Translation<'_> {
             Var::Local(name) => name.parse().ok().filter(|n| LETTERS.iter().any(|(_, number)| number == n)),
             Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
         };
-        let open = open_variables(&source).into_iter();
+        let open = free_variables(&source).into_iter();
         let mut own: Vec<(u32, _, _)> = open.filter_map(|(var, at)| Some((place(&var)?, var, at))).collect();
         own.sort_by_key(|(number, ..)| *number);
         let number = source.name.number;

@@ -32,7 +32,7 @@ pub(super) fn is_open(translation: &Translation) -> bool {
         && job.passes.is_empty()
         && job.verify
         && errors.peek().is_some()
-        && errors.all(|d| matches!(d.fault, Fault::CannotSay { .. } | Fault::EntryFactNeeded { .. }))
+        && errors.all(|d| matches!(d.fault, Fault::TargetLacks { .. } | Fault::EntryFactNeeded { .. }))
 }
 
 /// What a user types so that the program goes through as straight blocks, if it does.
@@ -46,7 +46,7 @@ pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option
         source.rewind()?;
         let outcome = unwatched(|| super::translate(job, source))?;
         let refused = |what: &str| {
-            let is = |fault: &Fault| matches!(fault, Fault::CannotSay { what: own } if **own == *what);
+            let is = |fault: &Fault| matches!(fault, Fault::TargetLacks { what: own } if **own == *what);
             outcome.diagnostics.iter().any(|d| is(&d.fault))
         };
         let goes_through = outcome.release.is_ok() && outcome.verified.is_some();

@@ -55,7 +55,7 @@ impl Tools {
                     self.selected = Some(Called::Name(name.clone()));
                 }
                 Op::SelectTool(tool) => {
-                    let number = tool.literal().and_then(|number| number.whole());
+                    let number = tool.literal().and_then(|number| number.whole_number());
                     let number = number.and_then(|number| u32::try_from(number).ok());
                     self.numbers.extend(number);
                     self.computed |= number.is_none();
@@ -63,7 +63,7 @@ impl Tools {
                 }
                 Op::ChangeTool => self.in_spindle = self.selected.clone(),
                 Op::UseToolEdge { edge, .. } => {
-                    let edge = edge.literal().and_then(|edge| edge.whole());
+                    let edge = edge.literal().and_then(|edge| edge.whole_number());
                     let edge =
                         edge.and_then(|edge| u32::try_from(edge).ok()).filter(|edge| (2..=9).contains(edge));
                     if let (Some(edge), Some(tool)) = (edge, &self.in_spindle)

@@ -4,7 +4,7 @@ use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_exec::verify::Resolution;
 use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::Modes;
-use ncc_ir::computed::computes::Said;
+use ncc_ir::computed::computes::ComputeFeature;
 
 /// Facts that hold at power-on of every such control.
 pub fn fixed(dialect: &Dialect) -> Modes {
@@ -30,7 +30,7 @@ pub fn alarms_of(settings: &Settings) -> Option<Alarms> {
 /// Whether a control writes to devices.
 pub fn writes(settings: &Settings) -> bool {
     settings.dialect.can.everything
-        || settings.caps().flow.computes.is_some_and(|computes| computes.has(Said::Output))
+        || settings.caps().flow.computes.is_some_and(|computes| computes.has(ComputeFeature::Output))
 }
 
 /// What a dialect's numbers resolve.

@@ -138,7 +138,7 @@ pub fn reader_of_output(job: &Job) -> Reader {
 pub fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
     let at = next.map_or(last, |event| event.span);
     match &fault.fault {
-        Fault::CannotSay { what } if [NOWHERE, STILL].contains(&&**what) => {
+        Fault::TargetLacks { what } if [NOWHERE, STILL].contains(&&**what) => {
             Stop::Source(Diagnostic::new(fault.fault.clone(), at))
         }
         _ => unreadable(fault, last),
@@ -458,7 +458,7 @@ pub(super) fn closed_by_rounding(difference: &Difference) -> Option<Fault> {
     };
     let (source, target) = (arc(&difference.source)?, arc(&difference.target)?);
     let same = (source.0, source.1) == (target.0, target.1) && difference.aspect == Aspect::Arc;
-    (same && !source.2 && target.2).then(|| Fault::CannotSay {
+    (same && !source.2 && target.2).then(|| Fault::TargetLacks {
         what: "an arc so short that its start and end round to one point".into(),
     })
 }

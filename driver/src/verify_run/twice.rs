@@ -6,7 +6,7 @@
 use ncc_exec::Again;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern, Kept};
 use ncc_ir::canon::Axis;
-use ncc_ir::computed::open::outliving_variables;
+use ncc_ir::computed::free_variables::outliving_variables;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Var;
 use ncc_ir::program::Program;

@@ -13,7 +13,9 @@ use ncc_ir::expr::value::Wrong;
 use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::{There, compares_nearly, computes_numbers, otherwise, places};
+use ncc_passes::values::assumption_check::{
+    TargetNumerics, assumed_places, compares_nearly, computes_numbers, other_reading,
+};
 use ncc_passes::values::variables::renamed::Renamed;
 
 use self::values::READINGS;
@@ -100,7 +102,7 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
         }
         Fault::ArcRadiusTooSmall => {
             let what = "a computed radius below half the distance from start to end".into();
-            Some(Fault::CannotSay { what })
+            Some(Fault::TargetLacks { what })
         }
         _ => None,
     }
@@ -164,7 +166,7 @@ impl Verifier {
             self.outliving = outliving(source, &given.renamed);
             given.near = self.near && !compares_nearly(source);
             let there = self.there(given);
-            given.other_readings = READINGS.map(|taken| otherwise(source, taken, there, u32::MAX));
+            given.other_readings = READINGS.map(|taken| other_reading(source, taken, there, u32::MAX));
         }
         let given = &*given;
         let mut gone = Gone::default();
@@ -304,7 +306,9 @@ impl Verifier {
         let mut came = Came { through, goes_on: None, new_paths: Vec::new(), events: 0 };
         let [a, b] = sides.map(Runner::new);
         for set in 1..=SETS {
-            let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
+            let all = || {
+                a.uncovered_branches(&gone.source).is_empty() && b.uncovered_branches(&gone.target).is_empty()
+            };
             let endless = set > FEW_SETS && !came.through && came.goes_on.is_some();
             if starts.is_empty() || endless || set > 2 && came.through && all() {
                 break;
@@ -373,16 +377,16 @@ impl Verifier {
         };
         // The first place with which the output is the source in that reading.
         let there = self.there(given);
-        let at = places(source, taken, there)
+        let at = assumed_places(source, taken, there)
             .into_iter()
             .take(MOST_PLACES)
-            .find(|at| otherwise(source, taken, there, at.start).is_some_and(|other| same(&other)));
-        let what = taken[0].otherwise().into();
+            .find(|at| other_reading(source, taken, there, at.start).is_some_and(|other| same(&other)));
+        let what = taken[0].violation().into();
         Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, at.unwrap_or(self.last))))
     }
 
-    fn there(&self, given: &Given) -> There<'_> {
-        There {
+    fn there(&self, given: &Given) -> TargetNumerics<'_> {
+        TargetNumerics {
             functions: &self.functions,
             fineness: self.fineness,
             near: given.near,
@@ -519,14 +523,14 @@ impl Verifier {
             let fault = Fault::VariableGiven { name: var.name().into() };
             self.notes.push(Diagnostic::new(fault, *span));
         }
-        let ways = |taken: u8| Fault::NotTaken { holds: taken & 1 == 0, fails: taken & 2 == 0 };
-        let mut untaken = Runner::new(source).untaken(&gone.source);
-        let open = untaken.len();
-        untaken.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
+        let ways = |taken: u8| Fault::BranchUncovered { holds: taken & 1 == 0, fails: taken & 2 == 0 };
+        let mut uncovered_branches = Runner::new(source).uncovered_branches(&gone.source);
+        let open = uncovered_branches.len();
+        uncovered_branches.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
         // The output has none of these.
-        let answered = open - untaken.len();
-        let of_target = Runner::new(target).untaken(&gone.target);
-        let told = untaken.iter().take(MOST_TOLD);
+        let answered = open - uncovered_branches.len();
+        let of_target = Runner::new(target).uncovered_branches(&gone.target);
+        let told = uncovered_branches.iter().take(MOST_TOLD);
         self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
         if of_target.len() > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
             // The output decides what the source does not, or in several places what the source does in one.

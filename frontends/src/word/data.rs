@@ -5,7 +5,7 @@
 
 use ncc_dialects::{AT_ZERO, DataKind, DataRow, Meaning, Quantity, RADIUS_DATA, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
-use ncc_ir::computed::code_of::of_number;
+use ncc_ir::computed::computed_code::of_number;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::system::System;
@@ -196,7 +196,7 @@ impl Lower {
     /// A whole number that the text settles: a literal, or the tool that it has selected last by one.
     fn known_number(&self, number: &Expr) -> Option<u32> {
         match number {
-            Expr::Num(n) => n.whole().and_then(|n| u32::try_from(n).ok()),
+            Expr::Num(n) => n.whole_number().and_then(|n| u32::try_from(n).ok()),
             Expr::Node(node) => match (&**node, self.state.tool) {
                 (Node::Var(Var::System(System::SelectedTool)), Know::Said(tool)) => tool,
                 _ => None,

@@ -10,7 +10,7 @@ use ncc_ir::caps::{
     ModeCaps, MoveCaps, PolarForm, Radii, References, Threads, TiltForm, TipForm, ToolCaps,
 };
 use ncc_ir::compensated::{Kind, Refused};
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
 
 use crate::codes::BesideCompensation;

@@ -12,7 +12,6 @@ use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow};
 use crate::power_on::FeedModeName;
-use crate::schema::Dialect;
 use crate::words::{Quantity, yes};
 
 /// A G or M code.
@@ -121,55 +120,6 @@ impl CodeRow {
         let linear = |letter| Axis::from_letter(letter).filter(|axis| !axis.is_rotary());
         let axes: Vec<Axis> = self.turns.bytes().filter_map(linear).collect();
         axes.try_into().ok().filter(|_| self.turns.len() == 3 && self.words.len() == 3)
-    }
-}
-
-impl Dialect {
-    /// Puts what an M code means on one machine in; where a row has its number, in the place of that one.
-    pub fn put_m_code(&mut self, number: u16, means: Meaning, source: &str) {
-        let row = CodeRow {
-            passed_over: false,
-            read_as: None,
-            alone_all_axes: false,
-            after_move: false,
-            code: format!("M{number:02}"),
-            upto: None,
-            count: None,
-            means: Some(means),
-            refuse: None,
-            group: String::new(),
-            words: String::new(),
-            turns: String::new(),
-            blocks: String::new(),
-            no_entry_zero: false,
-            own_feed: false,
-            feed_stays: false,
-            feed_mode: None,
-            limits_speed: false,
-            limit: None,
-            orient: None,
-            other_machine: false,
-            own_tool: false,
-            dwell: Vec::new(),
-            on: None,
-            refused_under_compensation: None,
-            write: true,
-            sure: true,
-            source: source.to_owned(),
-        };
-        let tenths = usize::from(number) * 10;
-        if self.index.m.len() <= tenths {
-            self.index.m.resize(tenths + 1, None);
-        }
-        match self.index.m[tenths] {
-            Some(at) => self.code[usize::from(at)] = row,
-            None => {
-                let Ok(at) = u16::try_from(self.code.len()) else { return };
-                self.index.m[tenths] = Some(at);
-                self.code.push(row);
-            }
-        }
-        self.index.find_meanings(&self.code, &self.name);
     }
 }
 

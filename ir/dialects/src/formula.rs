@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ncc_ir::computed::computes::{Handed, Named, Remainders, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Handed, Named, Remainders};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Function, Var};
 use serde::Deserialize;
@@ -182,28 +182,28 @@ pub enum Statement {
     Attributes,
 }
 
-impl From<Statement> for Said {
-    fn from(statement: Statement) -> Said {
+impl From<Statement> for ComputeFeature {
+    fn from(statement: Statement) -> ComputeFeature {
         match statement {
-            Statement::Jump => Said::Jump,
-            Statement::Declare => Said::Declare,
-            Statement::Array => Said::Array,
-            Statement::Numbered => Said::Numbered,
-            Statement::Endless => Said::Endless,
-            Statement::Until => Said::Until,
-            Statement::Count => Said::Count,
-            Statement::Times => Said::Times,
-            Statement::Leave => Said::Leave,
-            Statement::NextTurn => Said::NextTurn,
-            Statement::Values => Said::Values,
-            Statement::Alarm => Said::Alarm,
-            Statement::Output => Said::Output,
-            Statement::Stop => Said::Stop,
-            Statement::CallOf => Said::CallOf,
-            Statement::CodeOf => Said::CodeOf,
-            Statement::EntriesRead => Said::EntriesRead,
-            Statement::EntriesSet => Said::EntriesSet,
-            Statement::Attributes => Said::Attributes,
+            Statement::Jump => ComputeFeature::Jump,
+            Statement::Declare => ComputeFeature::Declare,
+            Statement::Array => ComputeFeature::Array,
+            Statement::Numbered => ComputeFeature::Numbered,
+            Statement::Endless => ComputeFeature::Endless,
+            Statement::Until => ComputeFeature::Until,
+            Statement::Count => ComputeFeature::Count,
+            Statement::Times => ComputeFeature::Times,
+            Statement::Leave => ComputeFeature::Leave,
+            Statement::NextTurn => ComputeFeature::NextTurn,
+            Statement::Values => ComputeFeature::Values,
+            Statement::Alarm => ComputeFeature::Alarm,
+            Statement::Output => ComputeFeature::Output,
+            Statement::Stop => ComputeFeature::Stop,
+            Statement::CallOf => ComputeFeature::CallOf,
+            Statement::CodeOf => ComputeFeature::CodeOf,
+            Statement::EntriesRead => ComputeFeature::EntriesRead,
+            Statement::EntriesSet => ComputeFeature::EntriesSet,
+            Statement::Attributes => ComputeFeature::Attributes,
         }
     }
 }

@@ -225,15 +225,15 @@ impl<'t> Texts<'t> {
         let tree = self.merged(which, &mut Vec::new())?;
         let base = tree.get_ref().get("base").and_then(|base| self.place(base.span()));
         let mut places = places(tree.get_ref());
-        let told = |mut error: DialectError| {
+        let reported = |mut error: DialectError| {
             if error.place.as_ref().is_some_and(|place| place.text != which) {
                 error.inherited_by.clone_from(&base);
             }
             error
         };
         let mut dialect =
-            Dialect::deserialize(Deserializer::from(tree)).map_err(|e| told(self.form(&e, 0)))?;
-        let wrong = |(fault, at): check::Fault| told(fault.at(at.and_then(|span| self.place(span))));
+            Dialect::deserialize(Deserializer::from(tree)).map_err(|e| reported(self.form(&e, 0)))?;
+        let wrong = |(fault, at): check::Fault| reported(fault.at(at.and_then(|span| self.place(span))));
         check::spread(&mut dialect, &mut places).map_err(wrong)?;
         dialect.index = check::index(&dialect, &places).map_err(wrong)?;
         check::variants(&dialect, &places).map_err(wrong)?;

@@ -409,23 +409,6 @@ impl CallRow {
     }
 }
 
-impl crate::schema::Dialect {
-    /// The word of several letters that is written for a meaning.
-    pub fn name_for(&self, meaning: NameMeaning) -> Option<&NameRow> {
-        self.index.name_meaning.get(&meaning).map(|at| &self.name[usize::from(*at)])
-    }
-
-    /// The address of several letters that has a role.
-    pub fn name_with(&self, role: NameRole) -> Option<&NameRow> {
-        self.name.iter().find(|row| row.write && row.role == Some(role))
-    }
-
-    /// The call that is written for a cycle or a pattern.
-    pub fn call_for(&self, kind: CallKind) -> Option<&CallRow> {
-        self.call.iter().find(|row| row.kind == kind)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::NameMeaning;

@@ -9,16 +9,16 @@ use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::expr::system::System;
-use ncc_ir::geometry::round::{ArcRule, MOST_SHORT};
+use ncc_ir::geometry::arc_solver::{ArcRule, MOST_SHORT};
 use ncc_ir::program::cycle::Approach;
 
 use crate::Quantity;
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
+use crate::derive;
 use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
 use crate::schema::{Dialect, UNKNOWN};
 use crate::stored::SystemRow;
-use crate::variants;
 
 /// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
@@ -234,7 +234,7 @@ impl Settings {
 
     /// Finds the dictionary anew as the options make it.
     fn derive(&mut self) {
-        self.dialect = variants::chosen(self.plain, |option| self.get(option).to_owned());
+        self.dialect = derive::chosen(self.plain, |option| self.get(option).to_owned());
         if self.get(DWELL_UNIT) == "milliseconds" && self.is_chosen(DWELL_UNIT) {
             self.dialect = in_milliseconds(self.dialect);
         }
@@ -505,4 +505,11 @@ fn with_units(dialect: &'static Dialect, units: Units) -> &'static Dialect {
     let derived: &'static Dialect = Box::leak(Box::new(derived));
     made.push((dialect, units, derived));
     derived
+}
+
+impl SystemRow {
+    /// Whether it counts, as options are chosen.
+    pub fn counts(&self, settings: &Settings) -> bool {
+        self.option.is_empty() || settings.get(&self.option) == self.when
+    }
 }

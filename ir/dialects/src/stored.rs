@@ -10,9 +10,6 @@ use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::ToolValue;
 use serde::Deserialize;
 
-use crate::schema::Dialect;
-use crate::settings::Settings;
-
 /// A table that a code with a number puts values into: `G10 L2`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -132,42 +129,6 @@ impl DataRow {
     /// Whether a word of it is of a radius, which may be meant as a diameter.
     pub fn has_radius(&self) -> bool {
         self.values.iter().any(|value| matches!(value.of, ValueName::Radius | ValueName::RadiusWear))
-    }
-}
-
-impl Dialect {
-    /// The tables of a code.
-    pub fn tables_of(&self, code: &str) -> impl Iterator<Item = &DataRow> {
-        self.data.iter().filter(move |row| row.selected().is_some_and(|(own, ..)| own == code))
-    }
-
-    /// Whether zeros of work offsets can be set, added to, and set so that the present position reads the
-    /// words.
-    pub(crate) fn sets_offsets(&self) -> [bool; 3] {
-        let any = |kind: DataKind, adds: bool| self.data.iter().any(|r| r.kind == kind && (r.adds || !adds));
-        [any(DataKind::Offset, false), any(DataKind::Offset, true), any(DataKind::OffsetHere, false)]
-    }
-
-    /// Values of the control's own that have numbers, with these; in the unit in force.
-    pub fn named_values(&self) -> impl Iterator<Item = (&SystemRow, u32, Expr)> {
-        let rows = self.system.iter().filter(|row| row.refuse.is_none() && !row.machine_units && !row.zero);
-        // One of many entries is found by its meaning.
-        let rows = rows.filter(|row| !row.entries);
-        rows.flat_map(|row| {
-            row.numbers().filter_map(move |number| Some((row, number, row.value(number - row.number, "")?)))
-        })
-    }
-
-    /// Which values of tools can be set, in the order of [`ToolValue::ALL`].
-    pub(crate) fn sets_tools(&self) -> [bool; 6] {
-        let words = || self.data.iter().flat_map(|row| &row.values);
-        ToolValue::ALL.map(|value| words().any(|word| ToolValue::from(word.of) == value))
-    }
-
-    /// Whether tools can be measured in the coordinates in force, and in those of a work offset.
-    pub(crate) fn measures_tools(&self) -> [bool; 2] {
-        let rows = || self.data.iter().filter(|row| row.kind == DataKind::ToolHere);
-        [rows().any(|row| row.in_offset == 0), rows().any(|row| row.in_offset != 0)]
     }
 }
 
@@ -296,11 +257,6 @@ impl SystemRow {
                 Some(before) => node(Node::Binary(Binary::Add, before, worth)),
             }))
         })?
-    }
-
-    /// Whether it counts, as options are chosen.
-    pub fn counts(&self, settings: &Settings) -> bool {
-        self.option.is_empty() || settings.get(&self.option) == self.when
     }
 
     /// Values that it is by itself on one machine or another.

@@ -3,8 +3,8 @@
 //! For those who tell what happens (tables, time). Nothing here changes anything.
 
 use super::{Exec, Length, SHIFT_STORED, SHIFT_TAKEN_UP, State};
-use crate::frames::frame::Chain;
-use crate::moves::holes::InForce;
+use crate::frames::chain::Chain;
+use crate::moves::holes::ActiveCycle;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Motion, Plane, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
@@ -64,7 +64,7 @@ impl Exec {
     /// Plane of the cycle in force, its retract plane and the bottom of its holes, in the program's
     /// coordinates.
     pub fn cycle_levels(&self) -> Option<(Plane, Nanos, Nanos)> {
-        self.cycle.as_ref().map(InForce::levels)
+        self.cycle.as_ref().map(ActiveCycle::levels)
     }
 
     /// Feed in force, mm/min in nanos; 0 where none was said.

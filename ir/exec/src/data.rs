@@ -183,7 +183,7 @@ impl Exec {
                 Stored::Position(*place, here)
             }
             Data::ToolInSpindle(tool) => {
-                let Ok(number) = u32::try_from(self.whole(tool, span)?) else {
+                let Ok(number) = u32::try_from(self.whole_number(tool, span)?) else {
                     return self.fault(Fault::OutOfRange { word: "tool".into() }, span);
                 };
                 self.state.tool = i64::from(number);

@@ -428,7 +428,7 @@ impl Seen {
     }
 
     /// What is seen of a state.
-    pub fn of(&self, state: &State) -> State {
+    pub fn as_seen(&self, state: &State) -> State {
         let seen = |mode: PathMode| self.modes >> mode as u16 & 1 == 1;
         let path = state.path.map(|mode| match mode.plain() {
             _ if seen(mode) => mode,

@@ -190,7 +190,7 @@ impl Exec {
             }
             match &stmt.op {
                 Op::SelectTool(tool) => {
-                    let tool = tool.literal().and_then(|n| n.whole());
+                    let tool = tool.literal().and_then(|n| n.whole_number());
                     another |= waits.is_some_and(|waits| waits.is_none() || tool.is_none() || waits != tool);
                     waits = Some(tool);
                 }

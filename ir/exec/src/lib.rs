@@ -13,7 +13,6 @@
 
 mod ask;
 mod at_codes;
-mod conduct;
 mod data;
 mod event;
 pub mod frames;
@@ -21,6 +20,7 @@ pub mod halt;
 mod in_block;
 pub mod maps;
 mod message;
+mod motion_modes;
 pub mod moves;
 mod places;
 mod run;
@@ -30,11 +30,11 @@ pub mod world;
 
 pub use at_codes::cuts;
 pub use at_codes::touched;
-pub use conduct::named_tool;
 pub use event::{Attribute, Coolant, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
-pub use frames::frame::Chain;
+pub use frames::chain::Chain;
 pub use frames::slots::{Frames, Present, Rotation, Scale};
 pub use frames::tilt::TiltedPlane;
+pub use motion_modes::named_tool;
 pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::{Compensation, NOWHERE, STILL};
 pub use moves::fine::Increments;
@@ -50,7 +50,7 @@ use frames::frame::Length;
 use moves::arcs::Heading;
 use moves::centre_path::CentrePath;
 use moves::compensation::Contour;
-use moves::holes::InForce;
+use moves::holes::ActiveCycle;
 use ncc_ir::canon::{
     AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, RotaryWay, Spindle, Units,
     same_point,
@@ -142,7 +142,7 @@ pub struct Exec {
     state: State,
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
-    cycle: Option<InForce>,
+    cycle: Option<ActiveCycle>,
     /// Behaviours of the control that the program has come to, a bit each.
     asked: u64,
     /// Whether the program has ended.
@@ -321,8 +321,8 @@ impl Exec {
     }
 
     #[inline]
-    fn whole(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
-        match value.literal().and_then(|n| n.whole()) {
+    fn whole_number(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
+        match value.literal().and_then(|n| n.whole_number()) {
             Some(n) => Ok(n),
             None => self.fault(Fault::OutOfRange { word: "".into() }, span),
         }
@@ -477,7 +477,7 @@ impl Exec {
             | Op::TurnRotaryAxes(_)
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
-            | Op::LimitSpindleSpeed(_) => self.conduct(&stmt.op, span)?,
+            | Op::LimitSpindleSpeed(_) => self.set_motion_mode(&stmt.op, span)?,
             Op::SetReturnLevel(level) => {
                 self.modes.return_level = *level;
                 self.said |= RETURN;
@@ -512,7 +512,7 @@ impl Exec {
             Op::Polar(polar) => self.polar(polar, span, out)?,
             Op::SetSpindleSpeed(speed) => self.set_speed(speed, span, out)?,
             Op::SelectTool(tool) => {
-                let tool = self.whole(tool, span)?;
+                let tool = self.whole_number(tool, span)?;
                 self.select(tool);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
@@ -523,14 +523,14 @@ impl Exec {
             Op::ChangeTool => self.change_tool(span, out)?,
             Op::UseToolLength(length) => self.use_length(length, span)?,
             Op::UseToolLengthOffset(entry) => {
-                let entry = u32::try_from(self.whole(entry, span)?);
+                let entry = u32::try_from(self.whole_number(entry, span)?);
                 let Ok(entry) = entry else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
                 self.call_up_zeroed(Length::Entry(entry), span)?;
             }
             Op::UseToolEdge { edge, .. } => {
-                let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
+                let Ok(edge @ 0..=9) = u32::try_from(self.whole_number(edge, span)?) else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
                 self.call_up_zeroed(self.edge(edge), span)?;

@@ -12,7 +12,7 @@ use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, Re
 use ncc_ir::compensated::Refused;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::expr::system::Kept;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::program::{ReferencePoint, ToolValue};
 
 /// One state of the machine and its tables before the program starts.

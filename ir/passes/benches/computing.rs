@@ -32,7 +32,7 @@ fn two(operator: Binary, a: Expr, b: Expr) -> Expr {
     Expr::Node(Box::new(Node::Binary(operator, a, b)))
 }
 
-fn of(f: Function, a: Expr) -> Expr {
+fn call_node(f: Function, a: Expr) -> Expr {
     Expr::Node(Box::new(Node::Call(f, vec![a])))
 }
 
@@ -55,7 +55,7 @@ fn counted(name: &str, mut body: Vec<Stmt>) -> Stmt {
 fn program() -> Program {
     let mut to = Move { said: true, ..Move::default() };
     for (axis, f) in [(0, Function::Cos), (1, Function::Sin)] {
-        let value = two(Binary::Multiply, read("1"), of(f, read("2")));
+        let value = two(Binary::Multiply, read("1"), call_node(f, read("2")));
         to.to.axes[axis] = Some(Coord { value, distance: Fact::Known(Distance::Absolute) });
     }
     let inner = vec![stmt(Op::StraightTraverse(to))];

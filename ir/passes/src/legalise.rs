@@ -25,12 +25,12 @@ use crate::frames::machine_moves::MachineMovesState;
 use crate::frames::origin_shift::OriginShiftState;
 use crate::frames::work_offset::WorkOffsetState;
 use crate::holes::expand_cycles::ExpandCyclesState;
-use crate::modes::at_once::AtOnceState;
 use crate::modes::feed_time::FeedTimeState;
 use crate::modes::feed_unit::FeedUnitState;
+use crate::modes::immediate_effects::ImmediateEffectsState;
 use crate::modes::one_move::OneMoveState;
 use crate::modes::path_control::PathControlState;
-use crate::pass::{First, Shared};
+use crate::pass::{First, KeptProgram, ProgramMoment, Shared, Subprograms};
 use crate::support::states::States;
 use crate::threads::in_step::ThreadsState;
 use crate::threads::taps::TapsState;
@@ -45,19 +45,19 @@ use crate::tools::z_after_change::ZAfterChangeState;
 use crate::PASSES;
 use crate::Target;
 use crate::arcs::{arc_form, convert_arcs};
-use crate::flow::{expand_calls, expand_repeats, number_names, repeat_ends, specialise_procedures};
+use crate::flow::{expand_repeats, repeat_ends};
 use crate::frames::expand_frames;
 use crate::holes::return_plane;
 use crate::modes::{feed_unit, one_distance};
 use crate::pass::{Moment, Pass, Piece};
-use crate::support::known_facts;
+use crate::support::mode_analysis;
 use crate::support::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MOVE, PATH,
     PATTERN, POLAR, SHIFT, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use crate::support::walk::Walk;
 use crate::tools::tool_axis;
-use crate::watch::ran;
+use crate::watch::{ran, ran_whole};
 use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Modes};
 use ncc_ir::caps::Caps;
@@ -100,7 +100,7 @@ impl Legaliser {
         let increments = FrameIncrementsState::new(&Behaviours::default(), &caps.behaviours);
         let follow = lacks & FOLLOWED != 0 || caps.modes.feed_ends_with_mode || increments.is_used();
         let mut states = States::default();
-        states.put(AtOnceState::new(caps));
+        states.put(ImmediateEffectsState::new(caps));
         states.put(increments);
         let shared = Shared {
             lacks,
@@ -130,24 +130,46 @@ impl Legaliser {
         passes_first: bool,
         diags: &mut Vec<Diagnostic>,
     ) {
-        let start = self.shared.walk.at.clone();
-        if passes_first {
-            self.shared.states.of::<FrameIncrementsState>().take_source().whole(program, &start, diags);
-        } else {
-            self.shared.states.of::<FrameIncrementsState>().whole(program, &start, diags);
+        let moment = if passes_first { ProgramMoment::SourceIncrements } else { ProgramMoment::Increments };
+        self.on_program(moment, program, Subprograms::Keep, diags);
+    }
+
+    /// Runs the passes of a moment on a program that is kept whole.
+    fn on_program(
+        &mut self,
+        moment: ProgramMoment,
+        program: &mut Program,
+        subprograms: Subprograms,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        self.on_kept(moment, &mut KeptProgram { program, subprograms, known: None, diags, refused: false });
+    }
+
+    /// The same, until one of them refuses it.
+    fn on_kept(&mut self, moment: ProgramMoment, kept: &mut KeptProgram) {
+        for pass in PASSES {
+            for step in pass.program.iter().filter(|step| step.moment == moment) {
+                if kept.refused || !(step.needed)(&self.shared, kept) {
+                    continue;
+                }
+                (step.run)(&mut self.shared, kept);
+                if !kept.refused {
+                    ran_whole(pass.name, kept.program);
+                }
+            }
         }
     }
 
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
-        self.shared.states.forget::<AtOnceState>();
-        self.shared.states.of::<OffsetWithZState>().stands_alone();
+        self.shared.states.forget::<ImmediateEffectsState>();
+        self.shared.states.state_mut::<OffsetWithZState>().stands_alone();
         self.nothing_before();
     }
 
     /// The program is called by another, which has given each axis a word after its last change of frame.
     pub fn nothing_before(&mut self) {
-        self.shared.states.of::<FrameIncrementsState>().stands_alone();
+        self.shared.states.state_mut::<FrameIncrementsState>().stands_alone();
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
@@ -177,7 +199,7 @@ impl Legaliser {
         diags: &mut Vec<Diagnostic>,
     ) {
         self.shared.walk.assume(assumed);
-        self.shared.states.of::<ExpandFramesState>().assume(assumed);
+        self.shared.states.state_mut::<ExpandFramesState>().assume(assumed);
         let lines = self.absolute(lines);
         // Nothing is mended on arrival, and no walk begins there.
         let nowhere = Walk::default();
@@ -189,7 +211,7 @@ impl Legaliser {
         self.follow_piece(&piece);
         if let Some(start) = start {
             let mut piece = Piece { start: &start, stmts: piece.stmts, diags: piece.diags, ..piece };
-            self.mend(&mut piece, None);
+            self.run_passes(&mut piece, None);
         }
         let mut piece = Piece { stmts, needs: 0, start: &nowhere, assumed, lines, diags, done: false };
         self.steps(Moment::Departure, &mut piece);
@@ -229,7 +251,7 @@ impl Legaliser {
         }
         ran(pass.name, copy.stmts);
         let before = copy.stmts.clone();
-        own.mend(&mut copy, Some(pass.name));
+        own.run_passes(&mut copy, Some(pass.name));
         let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
         if refused || !(first.kept)(piece, &before, &kept) {
             return None;
@@ -241,14 +263,14 @@ impl Legaliser {
     /// Notes what cycles and threads behind a piece may rely on that has none itself.
     fn follow_cycles(&mut self, piece: &Piece) {
         let states = &mut self.shared.states;
-        states.of::<ThreadsState>().said = states.ask(|taps: &TapsState| taps.said);
+        states.state_mut::<ThreadsState>().said = states.ask(|taps: &TapsState| taps.said);
         if !piece.needs(CYCLE | THREAD) && self.shared.target.caps.moves.threads.turned {
-            let threads = states.of::<ThreadsState>();
+            let threads = states.state_mut::<ThreadsState>();
             piece.stmts.iter().for_each(|stmt| threads.note(stmt));
         }
         if !piece.needs(CYCLE) {
             // Feeds and speeds that a tap may rely on.
-            let taps = states.of::<TapsState>();
+            let taps = states.state_mut::<TapsState>();
             piece.stmts.iter().for_each(|stmt| taps.note(stmt));
         }
     }
@@ -257,13 +279,13 @@ impl Legaliser {
     fn follow_piece(&mut self, piece: &Piece) {
         let stmts = &*piece.stmts;
         if !piece.needs(MOVE) && self.shared.lacks & MOVE != 0 {
-            self.shared.states.of::<OneMoveState>().note(stmts);
+            self.shared.states.state_mut::<OneMoveState>().note(stmts);
         }
         if !piece.needs(FRAME) && self.shared.lacks & FRAME != 0 {
-            self.shared.states.of::<ExpandFramesState>().note(stmts);
+            self.shared.states.state_mut::<ExpandFramesState>().note(stmts);
         }
         if self.shared.measures && !self.shared.target.caps.arcs.forms && !piece.needs(ARC) {
-            arc_form::follow(stmts, &mut self.shared.walk, self.shared.states.of::<ArcFormState>());
+            arc_form::follow(stmts, &mut self.shared.walk, self.shared.states.state_mut::<ArcFormState>());
         } else if self.shared.follow {
             self.shared.walk.pass(stmts);
         }
@@ -347,7 +369,7 @@ impl Legaliser {
         if self.shared.states.ask(MachineMovesState::is_busy) {
             needs |= MACHINE;
         }
-        if self.shared.states.ask(AtOnceState::is_busy) {
+        if self.shared.states.ask(ImmediateEffectsState::is_busy) {
             needs |= AT_ONCE;
         }
         if self.shared.states.ask(ToolEdgeState::is_busy)
@@ -366,7 +388,7 @@ impl Legaliser {
 
     /// Runs the passes that a piece needs, or those of them behind one.
     #[cold]
-    fn mend(&mut self, piece: &mut Piece, behind: Option<&'static str>) {
+    fn run_passes(&mut self, piece: &mut Piece, behind: Option<&'static str>) {
         let first = behind.and_then(|name| PASSES.iter().position(|pass| pass.name == name));
         let rest = &PASSES[first.map_or(0, |at| at + 1)..];
         for pass in rest {
@@ -379,7 +401,11 @@ impl Legaliser {
             self.shared.walk = piece.start.clone();
             if piece.needs(FRAME) && !piece.needs(ARC) {
                 self.shared.states.forget::<ArcFormState>();
-                arc_form::follow(piece.stmts, &mut self.shared.walk, self.shared.states.of::<ArcFormState>());
+                arc_form::follow(
+                    piece.stmts,
+                    &mut self.shared.walk,
+                    self.shared.states.state_mut::<ArcFormState>(),
+                );
             } else {
                 self.shared.walk.pass(piece.stmts);
             }
@@ -389,11 +415,11 @@ impl Legaliser {
 
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        self.shared.states.of::<ExpandCornersState>().flush(stmts, diags);
-        self.shared.states.of::<OffsetWithZState>().flush(stmts, diags);
-        self.shared.states.of::<OneMoveState>().flush(stmts);
-        self.shared.states.of::<ThreadsState>().finish(stmts, diags);
-        self.shared.states.of::<ToolChangeState>().finish(diags);
-        self.shared.states.of::<ToolEdgeState>().finish(diags);
+        self.shared.states.state_mut::<ExpandCornersState>().flush(stmts, diags);
+        self.shared.states.state_mut::<OffsetWithZState>().flush(stmts, diags);
+        self.shared.states.state_mut::<OneMoveState>().flush(stmts);
+        self.shared.states.state_mut::<ThreadsState>().finish(stmts, diags);
+        self.shared.states.state_mut::<ToolChangeState>().finish(diags);
+        self.shared.states.state_mut::<ToolEdgeState>().finish(diags);
     }
 }

@@ -94,41 +94,30 @@ impl Target {
     }
 }
 
-/// All passes, in the order in which they are run. A pass of a file of its own is its `PASS`; others here are run by name
-/// alone, or by whoever keeps a program whole.
+/// All passes, in the order in which they are run. Each is a constant in its own file. The legaliser, programs that compute
+/// and `--pass` walk this table. Passes without functions here are run by the driver, which tells their names.
 pub const PASSES: &[Pass] = &[
     // Only when asked for: behind it there is nothing that computes or decides.
-    Pass::whole(
-        "flatten",
-        "executes what computes and decides, and writes straight blocks",
-        Some(flow::flatten::run),
-    ),
+    flow::flatten::PASS,
     // Of a program that is kept whole.
-    Pass::whole("unused-labels", "leaves out labels that no jump leads to", None),
-    Pass::whole(
+    flow::unused_labels::PASS,
+    // What the user states, only the driver knows.
+    Pass::named(
         "values-at-start",
         "sets variables to what the user states that they hold at the start",
         None,
     ),
-    Pass::whole(
-        "side-effects",
-        "says in words what codes of the source's control do besides their names",
-        None,
-    ),
-    Pass::whole("leave-out-output", "leaves out what is written to devices that the target has not", None),
-    Pass::whole("alarm-texts", "says texts of alarms in the target's characters", None),
-    Pass::whole("alarm-numbers", "numbers alarms as the target does", None),
-    Pass::whole(
-        "tool-names",
-        "puts the target machine's numbers in for names of tools, in a program that computes",
-        None,
-    ),
-    Pass::whole("leave-out-values", "leaves out of messages the values that the target cannot show", None),
+    modes::side_effects::PASS,
+    legalise::messages::OUTPUT,
+    values::alarm_numbers::TEXTS,
+    values::alarm_numbers::NUMBERS,
+    tools::machine_numbers::TOOL_NAMES,
+    legalise::messages::VALUES,
     parametric::CODES_PUT_BACK,
     parametric::CODES,
     flow::expand_repeats::COMPUTED,
     frames::machine_cuts::PASS,
-    holes::planes_checked::PASS,
+    holes::cycle_plane_check::PASS,
     holes::computed_holes::PASS,
     values::exact_comparisons::PASS,
     values::message_values::PASS,
@@ -140,32 +129,11 @@ pub const PASSES: &[Pass] = &[
     values::unit_in_force::PASS,
     parametric::DEPTH,
     values::variables::PASS,
-    Pass::whole(
-        "machine-numbers",
-        "puts the target machine's numbers of tools, lengths and offsets in",
-        None,
-    ),
-    // Before the calls are written out: what callers disagree about may be all that is missing.
-    Pass::whole(
-        "specialise-procedures",
-        "gives subprograms what their callers have in force, a copy for each that differs",
-        Some(flow::specialise_procedures::run),
-    ),
-    Pass::whole(
-        "expand-calls",
-        "writes subprograms out where they are called",
-        Some(flow::expand_calls::run),
-    ),
-    Pass::whole(
-        "number-names",
-        "gives subprograms numbers where the target calls by number",
-        Some(flow::number_names::run),
-    ),
-    Pass::whole(
-        "computed-frames",
-        "says all that is in force of frames behind each statement, where a program computes",
-        None,
-    ),
+    tools::machine_numbers::PASS,
+    flow::specialise_procedures::PASS,
+    flow::expand_calls::PASS,
+    flow::number_names::PASS,
+    frames::computed_frames::PASS,
     // As a piece comes.
     frames::rotary_turns::PASS,
     tools::length_axis::PASS,
@@ -223,69 +191,25 @@ pub const PASSES: &[Pass] = &[
     // Afterwards every move names every axis.
     modes::flatten_facts::PASS,
     // What is left as it is now is what is written.
-    modes::at_once::PASS,
+    modes::immediate_effects::PASS,
     arcs::compensated_modes::PASS,
     // Only when asked for: the contour is gone.
-    Pass::whole(
-        "expand-compensation",
-        "writes the path of the tool's centre for cutter radius compensation",
-        Some(arcs::expand_compensation::run),
-    ),
+    arcs::expand_compensation::PASS,
     // Only when asked for: another way to write the same.
-    Pass::whole(
-        "millimetres",
-        "writes lengths and feeds in millimetres",
-        Some(modes::convert_units::millimetres),
-    ),
-    Pass::whole("inches", "writes lengths and feeds in inches", Some(modes::convert_units::inches)),
-    Pass::whole("arcs-by-centre", "gives arcs by radius their centre", Some(arcs::convert_arcs::by_centre)),
-    Pass::whole(
-        "arcs-by-radius",
-        "gives arcs their radius instead of the centre, where it says the same",
-        Some(arcs::convert_arcs::by_radius),
-    ),
-    Pass::whole(
-        "polar-circles",
-        "gives the first hole of a circle by radius and angle",
-        Some(holes::convert_circles::polar),
-    ),
-    Pass::whole(
-        "cartesian-circles",
-        "gives the first hole of a circle by its position",
-        Some(holes::convert_circles::cartesian),
-    ),
-    Pass::whole(
-        "absolute",
-        "measures words of moves from program zero",
-        Some(modes::convert_distance::absolute),
-    ),
-    Pass::whole(
-        "incremental",
-        "measures words of moves from where the axes stand",
-        Some(modes::convert_distance::incremental),
-    ),
+    modes::convert_units::MILLIMETRES,
+    modes::convert_units::INCHES,
+    arcs::convert_arcs::BY_CENTRE,
+    arcs::convert_arcs::BY_RADIUS,
+    holes::convert_circles::POLAR,
+    holes::convert_circles::CARTESIAN,
+    modes::convert_distance::ABSOLUTE,
+    modes::convert_distance::INCREMENTAL,
     // The other way: long-hand text gets its structure back.
-    Pass::whole(
-        "fold-cycles",
-        "turns holes written long-hand into canned cycles",
-        Some(fold::fold_cycles::run),
-    ),
+    fold::fold_cycles::PASS,
     // After the cycles, which give the holes.
-    Pass::whole(
-        "feed-with-cycle",
-        "lets a cycle say the feed that stands right before it",
-        Some(holes::feed_with_cycle::run),
-    ),
-    Pass::whole(
-        "fold-patterns",
-        "turns positions of holes into circles, grids, lines and lists",
-        Some(fold::fold_patterns::run),
-    ),
-    Pass::whole(
-        "drop-redundant",
-        "leaves out statements that change nothing",
-        Some(modes::drop_redundant::run),
-    ),
+    holes::feed_with_cycle::PASS,
+    fold::fold_patterns::PASS,
+    modes::drop_redundant::PASS,
 ];
 
 /// Names of the passes that fold: moves into cycles, positions into patterns.

@@ -4,17 +4,17 @@
 //! The steps are rows of the table of passes, in its order. Not here: blocks between two statements of control, which the
 //! legaliser brings within the target's capabilities.
 
-use ncc_ir::computed::code_of;
-use ncc_ir::computed::computes::Said;
+use ncc_ir::computed::computed_code;
+use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
 
 use crate::PASSES;
 use crate::frames::computed_frames;
-use crate::modes::own_distance;
+use crate::modes::word_distance;
 pub use crate::pass::Parametric;
 use crate::pass::Pass;
-use crate::support::known_facts;
+use crate::support::mode_analysis;
 use crate::watch::ran_whole;
 
 impl Parametric<'_> {
@@ -32,8 +32,8 @@ impl Parametric<'_> {
 pub(crate) const CODES_PUT_BACK: Pass = Pass::parametric(
     "codes-put-back",
     "puts modes that a program saves and puts back into words, where the target cannot save them",
-    |own, _| own.others && !own.target.has(Said::CodeOf),
-    |program, own, _| known_facts::put_back(program, &own.entry, own.target),
+    |own, _| own.others && !own.target.has(ComputeFeature::CodeOf),
+    |program, own, _| mode_analysis::put_back(program, &own.entry, own.target),
 );
 
 /// Computed codes are those that the target takes.
@@ -44,7 +44,7 @@ pub(crate) const CODES: Pass = Pass::parametric(
     |program, own, _| {
         let target = own.target;
         for procedure in &mut program.procedures {
-            code_of::without_alarms(&mut procedure.body, &|control| target.says_number(control));
+            computed_code::without_alarms(&mut procedure.body, &|control| target.says_number(control));
         }
     },
 );
@@ -67,15 +67,15 @@ pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
     },
     |program, own, _| {
         if own.target.restates && !own.keeps_words || computed_frames::behind_control(program) {
-            own.known = known_facts::run(program, &own.entry, own.others);
+            own.known = mode_analysis::run(program, &own.entry, own.others);
             return;
         }
         // Words of another language lead to stretches of its blocks; what they say stays as it is.
-        own.known = known_facts::run(&mut program.clone(), &own.entry, true);
+        own.known = mode_analysis::run(&mut program.clone(), &own.entry, true);
         // Where a target's words have no mode of their own, the mode behind one that has is said anew.
         let measures = own.word_distance && !own.caps.modes.word_distance;
-        if measures && !own_distance::places(program, &own.known).is_empty() {
-            own.known = known_facts::run(program, &own.entry, true);
+        if measures && !word_distance::places(program, &own.known).is_empty() {
+            own.known = mode_analysis::run(program, &own.entry, true);
         }
     },
 );

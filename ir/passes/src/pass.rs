@@ -3,6 +3,7 @@
 //! Each pass is a `PASS` in its own file, which says what makes it needed; [`crate::PASSES`] is the table of them, and its
 //! order is the order in which they run. A new pass is a file and a line of the table.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use ncc_ir::canon::Modes;
@@ -11,12 +12,12 @@ use ncc_ir::computed::computes::Computes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::system::System;
-use ncc_ir::geometry::round::ArcRule;
-use ncc_ir::program::{Lines, Program, Stmt};
+use ncc_ir::geometry::arc_solver::ArcRule;
+use ncc_ir::program::{Lines, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
 
 use crate::Target;
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::states::States;
 use crate::support::walk::Walk;
 use crate::values::variables::renamed::{Digits, Renamed};
@@ -35,14 +36,16 @@ pub struct Pass {
     pub alone: Option<Alone>,
     /// How the legaliser runs it on a piece of a program; `None` of one that it does not run so.
     pub(crate) step: Option<Step>,
+    /// How the legaliser runs it on a program that is kept whole, at each moment at which it does.
+    pub(crate) program: &'static [ProgramStep],
     /// How it is run on a program that computes; `None` of one that is not.
-    pub(crate) parametric: Option<Whole>,
+    pub(crate) parametric: Option<ParametricStep>,
 }
 
 impl Pass {
     /// One that is run by name alone, or by whoever keeps a program whole.
-    pub(crate) const fn whole(name: &'static str, about: &'static str, alone: Option<Alone>) -> Pass {
-        Pass { name, about, alone, step: None, parametric: None }
+    pub(crate) const fn named(name: &'static str, about: &'static str, alone: Option<Alone>) -> Pass {
+        Pass { name, about, alone, step: None, program: &[], parametric: None }
     }
 
     /// One that is run on programs that compute.
@@ -52,8 +55,8 @@ impl Pass {
         needed: Needed,
         run: Run,
     ) -> Pass {
-        let parametric = Some(Whole { needed, run });
-        Pass { name, about, alone: None, step: None, parametric }
+        let parametric = Some(ParametricStep { needed, run });
+        Pass { name, about, alone: None, step: None, program: &[], parametric }
     }
 }
 
@@ -65,11 +68,74 @@ pub(crate) type Run = fn(&mut Program, &mut Parametric, &mut Vec<Diagnostic>);
 
 /// A pass on a program that computes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Whole {
+pub(crate) struct ParametricStep {
     /// What makes it needed.
     pub(crate) needed: Needed,
     /// Runs it.
     pub(crate) run: Run,
+}
+
+/// When the legaliser runs a pass on a program that is kept whole. At each moment it walks the table of passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ProgramMoment {
+    /// Incremental words after a change of frame, as the source's control counts them: before passes that are asked for.
+    SourceIncrements,
+    /// The same words, as both controls count them.
+    Increments,
+    /// Blocks that are repeated may need a frame or a cycle of their own each time.
+    Repetitions,
+    /// Subprograms are about to be inlined: their repetitions have no labels in the caller.
+    SubprogramRepetitions,
+    /// Subprograms are specialised or inlined.
+    Calls,
+    /// The subprograms that are left get their names.
+    Names,
+    /// Frames of a program that computes.
+    Frames,
+}
+
+/// What is done with the subprograms of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Subprograms<'n> {
+    /// They stay as they are.
+    Keep,
+    /// They get what their callers have in force.
+    Specialise,
+    /// They are written out.
+    Expand,
+    /// Those with these names are written out.
+    ExpandNamed(&'n BTreeSet<Text>),
+}
+
+/// A program that is kept whole, on its way through the passes of a moment.
+pub(crate) struct KeptProgram<'p> {
+    pub(crate) program: &'p mut Program,
+    /// What is done with its subprograms.
+    pub(crate) subprograms: Subprograms<'p>,
+    /// Of a program that computes, what holds where stretches of its blocks begin.
+    pub(crate) known: Option<&'p Known>,
+    pub(crate) diags: &'p mut Vec<Diagnostic>,
+    /// Whether a pass has refused it: no further one is run.
+    pub(crate) refused: bool,
+}
+
+impl KeptProgram<'_> {
+    /// The program cannot be translated.
+    pub(crate) fn refuse(&mut self, refusal: Diagnostic) {
+        self.diags.push(refusal);
+        self.refused = true;
+    }
+}
+
+/// A pass on a program that is kept whole.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ProgramStep {
+    /// When it is run.
+    pub(crate) moment: ProgramMoment,
+    /// What makes it needed.
+    pub(crate) needed: fn(&Shared, &KeptProgram) -> bool,
+    /// Runs it.
+    pub(crate) run: fn(&mut Shared, &mut KeptProgram),
 }
 
 /// When the legaliser runs a pass on a piece.

@@ -1,7 +1,7 @@
 //! Moves: rapid and straight, arcs, and compensation for the cutter's radius.
 
 use crate::compensated::Refused;
-use crate::geometry::round::ArcRule;
+use crate::geometry::arc_solver::ArcRule;
 
 /// What a target can say of moves, but for arcs.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,8 +5,8 @@
 mod refusal;
 
 use crate::alarms::Alarms;
-use crate::computed::code_of::code_of;
-use crate::computed::entry_of::{EntryOf, entry_of, is_about_entries};
+use crate::computed::computed_code::computed_code;
+use crate::computed::computed_entry::{ComputedEntry, computed_entry, is_about_entries};
 use crate::expr::num::{Num, Unit};
 use crate::expr::system::System;
 use crate::expr::{Binary, Expr, Function, Node, Numbers, Scope, Var};
@@ -14,7 +14,7 @@ use crate::program::{Control, Op, Stmt, Text};
 
 /// A statement of programs that compute which not every language has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Said {
+pub enum ComputeFeature {
     /// [`Op::Goto`].
     Jump,
     /// [`Op::Declare`] of a single value.
@@ -43,13 +43,13 @@ pub enum Said {
     Alarm,
     /// [`Op::ProgramStop`] with [`Op::Message`] before it in its block.
     Stop,
-    /// What [`crate::computed::call_of`] finds.
+    /// What [`crate::computed::computed_call`] finds.
     CallOf,
-    /// What [`crate::computed::code_of`] finds of codes.
+    /// What [`crate::computed::computed_code`] finds of codes.
     CodeOf,
-    /// What [`crate::computed::entry_of`] finds, where it only reads places of tables.
+    /// What [`crate::computed::computed_entry`] finds, where it only reads places of tables.
     EntriesRead,
-    /// What [`crate::computed::entry_of`] finds, where it sets a place of a table.
+    /// What [`crate::computed::computed_entry`] finds, where it sets a place of a table.
     EntriesSet,
     /// [`crate::program::Attribute`] of a procedure.
     Attributes,
@@ -192,7 +192,7 @@ pub struct Computes {
     /// What stands before a variable's name in a program.
     pub mark: Text,
     /// Statements that not every language has.
-    pub statements: Vec<Said>,
+    pub statements: Vec<ComputeFeature>,
     /// Operators.
     pub operators: Vec<Binary>,
     /// Functions.
@@ -237,7 +237,7 @@ pub struct Computes {
 
 impl Computes {
     /// Whether there is such a statement.
-    pub fn has(&self, statement: Said) -> bool {
+    pub fn has(&self, statement: ComputeFeature) -> bool {
         self.statements.contains(&statement)
     }
 
@@ -245,25 +245,26 @@ impl Computes {
     pub fn decides(&self, then: &[Stmt]) -> bool {
         match then {
             [only] if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => true,
-            [only] if matches!(only.op, Op::Alarm(_)) => self.has(Said::Alarm),
-            then => self.has(Said::Stop) && stops(then),
+            [only] if matches!(only.op, Op::Alarm(_)) => self.has(ComputeFeature::Alarm),
+            then => self.has(ComputeFeature::Stop) && stops(then),
         }
     }
 
     /// Places of tables by a computed number, as the target says them in one statement, if these decisions are such and it
     /// does.
-    pub fn entry_of<'c>(&self, control: &'c Control) -> Option<EntryOf<'c>> {
-        let entry = entry_of(&code_of(control)?, &self.entries)?;
-        let said = if entry.sets.is_empty() { Said::EntriesRead } else { Said::EntriesSet };
+    pub fn computed_entry<'c>(&self, control: &'c Control) -> Option<ComputedEntry<'c>> {
+        let entry = computed_entry(&computed_code(control)?, &self.entries)?;
+        let said =
+            if entry.sets.is_empty() { ComputeFeature::EntriesRead } else { ComputeFeature::EntriesSet };
         self.has(said).then_some(entry)
     }
 
     /// Whether decisions about one number are one statement of the target's: a code, or places of its tables.
     pub fn says_number(&self, control: &Control) -> bool {
-        let Some(code) = code_of(control) else { return false };
+        let Some(code) = computed_code(control) else { return false };
         match is_about_entries(&code) {
-            true => self.entry_of(control).is_some(),
-            false => self.has(Said::CodeOf),
+            true => self.computed_entry(control).is_some(),
+            false => self.has(ComputeFeature::CodeOf),
         }
     }
 

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::computed::open::open_variables;
+use crate::computed::free_variables::free_variables;
 use crate::expr::num::Num;
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
@@ -48,9 +48,9 @@ fn of_number(n: Num) -> Digits {
 
 impl Decimals {
     /// Looks through a program.
-    pub fn of(program: &Program) -> Decimals {
+    pub fn from_program(program: &Program) -> Decimals {
         let mut found = Decimals::default();
-        for (var, _) in open_variables(program) {
+        for (var, _) in free_variables(program) {
             let key = found.key(&var);
             found.known.insert(key.clone(), None);
             found.negative.insert(key, true);
@@ -112,7 +112,7 @@ impl Decimals {
                     (all <= MOST).then_some(all)
                 }
                 Binary::Divide => {
-                    let by = b.literal().and_then(|n| n.whole())?;
+                    let by = b.literal().and_then(|n| n.whole_number())?;
                     let further = match by {
                         1 => 0,
                         2 | 5 | 10 => 1,
@@ -144,7 +144,7 @@ impl Decimals {
                     _,
                 ) => Some(0),
                 (Function::RoundTo, [a, to]) => {
-                    let to = u8::try_from(to.literal()?.whole()?).ok()?;
+                    let to = u8::try_from(to.literal()?.whole_number()?).ok()?;
                     Some(self.digits(a).map_or(to, |digits| digits.min(to)))
                 }
                 _ => None,

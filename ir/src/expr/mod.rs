@@ -11,8 +11,8 @@
 //! Not here: the spelling of a formula on any control.
 
 pub mod decimals;
-pub mod fails;
 pub mod num;
+pub mod partial_expr;
 pub mod system;
 pub mod types;
 pub mod units;

@@ -124,7 +124,7 @@ impl Num {
     }
 
     /// The value as a whole number, if it is one.
-    pub fn whole(self) -> Option<i64> {
+    pub fn whole_number(self) -> Option<i64> {
         let t = self.trimmed();
         (t.scale == 0).then_some(t.mantissa)
     }

@@ -6,7 +6,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use crate::canon::{Axis, Distance, FeedMode, Motion, Plane, ReturnLevel, Turn, Units};
-use crate::program::ToolValue;
+use crate::program::tool_value::ToolValue;
 
 /// A value of the control's own.
 ///

@@ -53,13 +53,13 @@ impl Types {
     }
 
     /// The type of an expression.
-    pub fn of(&self, expr: &Expr) -> Type {
+    pub fn type_of(&self, expr: &Expr) -> Type {
         let node = match expr {
             Expr::Num(n) if n.point || n.scale > 0 => return Type::Real,
             Expr::Num(_) => return Type::Int,
             Expr::Node(node) => &**node,
         };
-        let number = |a: &Expr| if self.of(a) == Type::Real { Type::Real } else { Type::Int };
+        let number = |a: &Expr| if self.type_of(a) == Type::Real { Type::Real } else { Type::Int };
         let both = |a: &Expr, b: &Expr| if self.are_whole(a) { number(b) } else { Type::Real };
         match node {
             Node::Var(var) => self.of_var(var),
@@ -90,6 +90,6 @@ impl Types {
 
     /// Whether an expression is a whole number, or a truth value.
     pub fn are_whole(&self, expr: &Expr) -> bool {
-        self.of(expr) != Type::Real
+        self.type_of(expr) != Type::Real
     }
 }

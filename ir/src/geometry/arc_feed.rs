@@ -39,7 +39,7 @@ impl ArcFeed {
     }
 
     /// The meaning on a control where the program states none.
-    pub fn of(behaviours: &Behaviours) -> ArcFeed {
+    pub fn from_behaviours(behaviours: &Behaviours) -> ArcFeed {
         let value = usize::from(behaviours.get(Behaviour::FeedOnArcs));
         ArcFeed::named(Behaviour::FeedOnArcs.values().get(value).copied().unwrap_or_default())
     }
@@ -91,7 +91,7 @@ mod tests {
         for (value, name) in Behaviour::FeedOnArcs.values().iter().enumerate() {
             let mut behaviours = Behaviours::default();
             behaviours.set(Behaviour::FeedOnArcs, value as u8, false);
-            let feed = ArcFeed::of(&behaviours);
+            let feed = ArcFeed::from_behaviours(&behaviours);
             assert_eq!(feed.name(), *name);
             assert_eq!(ArcFeed::stated(feed.advice()), feed);
         }

@@ -3,18 +3,18 @@
 //! All lengths are nanos. Results are rounded to a nano, a thousandth of what any control resolves.
 //!
 //! ```text
-//! round::centre      start, end and radius of an arc    its centre
-//! places             a circle of 12 holes               12 positions
+//! arc_solver          start, end and radius of an arc    its centre
+//! hole_positions      a circle of 12 holes               12 positions
 //! ```
 //!
 //! Not here: what a control accepts as an arc: that is its own rule.
 
 pub mod arc_feed;
-pub mod beside;
+pub mod arc_solver;
 pub mod corner;
-pub mod places;
+pub mod hole_positions;
+pub mod offset_path;
 pub mod polar;
-pub mod round;
 
 use crate::canon::Turn;
 use crate::expr::num::{Nanos, ONE};

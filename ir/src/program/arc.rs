@@ -47,7 +47,7 @@ impl Turns {
 
     /// The number, unless it is computed or none.
     pub fn number(&self) -> Option<u32> {
-        self.0.literal().and_then(Num::whole).and_then(|number| u32::try_from(number).ok())
+        self.0.literal().and_then(Num::whole_number).and_then(|number| u32::try_from(number).ok())
     }
 
     /// The number, for those who need it.

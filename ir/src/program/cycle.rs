@@ -6,7 +6,7 @@
 use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn, Units};
 use crate::expr::num::{Nanos, Num, Unit};
 use crate::expr::{Binary, Expr, Function, Node};
-use crate::program::{Coord, Pitch, Point};
+use crate::program::moves::{Coord, Pitch, Point};
 
 /// A hole-making cycle, complete: a back-end needs no earlier block to write it.
 #[derive(Clone, Debug, PartialEq)]

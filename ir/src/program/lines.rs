@@ -18,7 +18,7 @@ impl Lines {
     }
 
     /// What statements are, if they are nothing but that.
-    pub fn of(stmts: &[Stmt]) -> Option<Lines> {
+    pub fn from_statements(stmts: &[Stmt]) -> Option<Lines> {
         let mut axes = 0;
         for stmt in stmts {
             let to = match &stmt.op {

@@ -23,15 +23,17 @@ mod machine;
 mod moves;
 mod op_name;
 mod polar;
+pub(crate) mod text;
+pub(crate) mod tool_value;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape, Turns};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
 pub use lines::Lines;
-pub use machine::{
-    CutterRadius, Data, DataMode, Detour, Probe, Reference, ReferencePoint, ToolLength, ToolValue,
-};
+pub use machine::{CutterRadius, Data, DataMode, Detour, Probe, Reference, ReferencePoint, ToolLength};
 pub use moves::{Coord, Move, PathControl, Pitch, Point, Synchronised};
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
+pub use text::Text;
+pub use tool_value::ToolValue;
 
 use std::collections::HashMap;
 
@@ -40,8 +42,8 @@ use crate::canon::{
     SpindleMode, Units,
 };
 use crate::expr::{Expr, Target, Var};
+pub use crate::operator_text::{Alarm, NO_SUCH_BLOCK, Output, Piece};
 use crate::program::cycle::{Cycle, Pattern};
-pub use crate::shown::{Alarm, NO_SUCH_BLOCK, Output, Piece};
 use crate::source::Span;
 
 /// A part program: the main procedure first, then its subprograms.
@@ -71,9 +73,6 @@ pub struct ProgramName {
     /// A title, if the text has one.
     pub title: Option<Text>,
 }
-
-/// Text of a comment or message, as Unicode. Front-ends decode (UTF-8, else Latin-1).
-pub type Text = Box<str>;
 
 /// A procedure: the main program, a subprogram or a macro.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,8 +3,8 @@
 use super::machine::{Data, ToolLength};
 use super::{Control, Op};
 use crate::canon::CornerShape;
+use crate::operator_text::Output;
 use crate::program::cycle::Pattern;
-use crate::shown::Output;
 
 impl Op {
     /// Its upper-case name in text; control has lower-case words.

@@ -83,7 +83,7 @@ pub fn begins_by_a_move(body: &[Stmt]) -> bool {
 
 /// Where a body may go back while a cycle is in force that it has called up: its caller would go on with it.
 pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
-    fn over(body: &[Stmt], held: &mut bool, at: &mut Option<Span>) {
+    fn follow_cycle(body: &[Stmt], held: &mut bool, at: &mut Option<Span>) {
         for stmt in body {
             match stmt.op.unwrapped() {
                 Op::StartCycle(_) => *held = true,
@@ -96,10 +96,10 @@ pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
                     let mut behind = before;
                     for body in control.bodies() {
                         let mut inside = before;
-                        over(body, &mut inside, at);
+                        follow_cycle(body, &mut inside, at);
                         // Its turns begin with what the last one leaves.
                         if inside && !before {
-                            over(body, &mut inside, at);
+                            follow_cycle(body, &mut inside, at);
                         }
                         behind |= inside;
                     }
@@ -111,7 +111,7 @@ pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
     }
     let (mut held, mut at) = (false, None);
     if calls_up(body) {
-        over(body, &mut held, &mut at);
+        follow_cycle(body, &mut held, &mut at);
     }
     at
 }
@@ -141,7 +141,7 @@ pub fn ends_callers_cycle(program: &Program) -> Vec<Span> {
     }
     impl Look<'_> {
         /// `led` is what may be in force where a jump leads to.
-        fn over(&mut self, body: &[Stmt], led: Held, held: &mut Held, at: &mut Option<Span>) {
+        fn follow_calls(&mut self, body: &[Stmt], led: Held, held: &mut Held, at: &mut Option<Span>) {
             for stmt in body {
                 let op = stmt.op.unwrapped();
                 match op {
@@ -166,10 +166,10 @@ pub fn ends_callers_cycle(program: &Program) -> Vec<Span> {
                         let before = *held;
                         for body in control.bodies() {
                             let mut inside = before;
-                            self.over(body, led, &mut inside, at);
+                            self.follow_calls(body, led, &mut inside, at);
                             // Its turns begin with what the last one leaves.
                             if inside.any && !before.any {
-                                self.over(body, led, &mut inside, at);
+                                self.follow_calls(body, led, &mut inside, at);
                             }
                             held.any |= inside.any;
                             held.callers |= inside.callers;
@@ -190,7 +190,7 @@ pub fn ends_callers_cycle(program: &Program) -> Vec<Span> {
             let mut held = Held { any: under, callers: under };
             let led = Held { any: under || calls_up(&procedure.body), callers: under };
             let mut at = None;
-            look.over(&procedure.body, led, &mut held, &mut at);
+            look.follow_calls(&procedure.body, led, &mut held, &mut at);
             found.extend(at);
         }
     }
@@ -221,7 +221,7 @@ pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
 
 /// Jumps to labels that stand several times in their procedure, each label once.
 pub fn labels_twice(program: &Program) -> Vec<Diagnostic> {
-    fn over<'p>(
+    fn collect_labels<'p>(
         body: &'p [Stmt],
         labels: &mut HashMap<&'p str, Vec<Span>>,
         jumps: &mut Vec<(&'p str, Span)>,
@@ -230,7 +230,7 @@ pub fn labels_twice(program: &Program) -> Vec<Diagnostic> {
             match &stmt.op {
                 Op::Label(name) => labels.entry(name).or_default().push(stmt.span),
                 Op::Goto(name) => jumps.push((name, stmt.span)),
-                Op::Control(control) => control.bodies().for_each(|body| over(body, labels, jumps)),
+                Op::Control(control) => control.bodies().for_each(|body| collect_labels(body, labels, jumps)),
                 _ => {}
             }
         }
@@ -238,7 +238,7 @@ pub fn labels_twice(program: &Program) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for procedure in &program.procedures {
         let (mut labels, mut jumps) = (HashMap::new(), Vec::new());
-        over(&procedure.body, &mut labels, &mut jumps);
+        collect_labels(&procedure.body, &mut labels, &mut jumps);
         for (name, span) in jumps {
             if let Some(places) = labels.get_mut(name).filter(|places| places.len() > 1) {
                 let fault = Fault::LabelTwice { name: name.into() };

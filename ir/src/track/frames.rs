@@ -1,6 +1,7 @@
 //! Slots of the coordinate chain, followed in program coordinates.
 
 use super::Tracker;
+use super::shifted::Shifted;
 use crate::canon::AXES;
 use crate::expr::num::Nanos;
 use crate::program::{Frame, FrameSlot, FrameStep, Slot};
@@ -142,36 +143,5 @@ const fn turning(slot: FrameSlot) -> Option<usize> {
         FrameSlot::Scale => Some(1),
         FrameSlot::Mirror => Some(2),
         FrameSlot::Local | FrameSlot::Shift | FrameSlot::Tilt | FrameSlot::Polar | FrameSlot::Chain => None,
-    }
-}
-
-/// By how much each axis is shifted, as far as it is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Shifted {
-    by: [Nanos; AXES],
-    lost: [bool; AXES],
-}
-
-impl Shifted {
-    /// Nothing is known.
-    pub const LOST: Shifted = Shifted { by: [0; AXES], lost: [true; AXES] };
-
-    /// By how much an axis is shifted.
-    fn at(&self, axis: usize) -> Option<Nanos> {
-        (!self.lost[axis]).then_some(self.by[axis])
-    }
-
-    /// Another shift of an axis; how much more it is, if both are known.
-    pub(super) fn to(&mut self, axis: usize, to: Option<Nanos>) -> Option<Nanos> {
-        let more = to.zip(self.at(axis)).and_then(|(to, from)| to.checked_sub(from));
-        (self.by[axis], self.lost[axis]) = (to.unwrap_or_default(), to.is_none());
-        more
-    }
-
-    /// What is known on both of two ways.
-    pub(super) fn join(&mut self, other: &Shifted) {
-        for axis in 0..AXES {
-            self.lost[axis] |= other.lost[axis] || self.by[axis] != other.by[axis];
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! Cycles and their holes, as far as the program says where they are.
 
-use super::{InForce, Tracker};
+use super::{ActiveCycle, Tracker};
 use crate::canon::{Motion, ReturnLevel};
 use crate::program::Move;
 use crate::program::cycle::{Cycle, CycleKind};
@@ -27,7 +27,7 @@ impl Tracker {
         let depth = self.resolve(&cycle.depth, retract);
         let return_plane = cycle.return_plane.as_ref().and_then(|word| self.resolve(word, retract));
         let cycle = cycle.clone();
-        self.cycle = Some(InForce { cycle, initial, retract, depth, return_plane, drilled: false });
+        self.cycle = Some(ActiveCycle { cycle, initial, retract, depth, return_plane, drilled: false });
         self.cycle_in_doubt = false;
         self.modes.motion = Some(Motion::Cycle);
     }

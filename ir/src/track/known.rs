@@ -4,9 +4,9 @@ use super::Tracker;
 use crate::canon::{Axis, Distance, Fact};
 use crate::expr::Expr;
 use crate::expr::num::Nanos;
-use crate::geometry::places::Here;
+use crate::geometry::arc_solver::{ArcRule, Around};
+use crate::geometry::hole_positions::Here;
 use crate::geometry::polar::{About, Pole};
-use crate::geometry::round::{ArcRule, Around};
 use crate::program::{Coord, Point};
 
 /// What is known of where holes are.

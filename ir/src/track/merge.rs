@@ -1,6 +1,6 @@
 //! The merge of two paths: what holds on both.
 
-use super::{InForce, Tracker};
+use super::{ActiveCycle, Tracker};
 use crate::expr::num::Nanos;
 
 impl Tracker {
@@ -27,13 +27,13 @@ impl Tracker {
         match (&mut self.cycle, &other.cycle) {
             // A hole that may have been skipped: the next one may be the first.
             (Some(a), Some(b))
-                if a.drilled != b.drilled && (InForce { drilled: b.drilled, ..a.clone() }) == *b =>
+                if a.drilled != b.drilled && (ActiveCycle { drilled: b.drilled, ..a.clone() }) == *b =>
             {
                 a.drilled = false;
             }
             (a, b) => {
                 // A level that is not known does not become known where ways meet.
-                let level = |cycle: &Option<InForce>, doubt: bool, initial: Option<Nanos>| match cycle {
+                let level = |cycle: &Option<ActiveCycle>, doubt: bool, initial: Option<Nanos>| match cycle {
                     Some(cycle) => Some(cycle.initial),
                     None => doubt.then_some(initial),
                 };

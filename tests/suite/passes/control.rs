@@ -6,7 +6,7 @@
 
 use fastrand::Rng;
 use ncc_ir::canon::{Axis, Distance, Fact};
-use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Computes};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
 use ncc_ir::program::{Call, Control, Coord, Move, Op, Procedure, Program, Stmt};
@@ -271,13 +271,25 @@ impl Maker {
 
 /// A target that has some of it, and jumps.
 fn target(dice: &mut Rng) -> Computes {
-    let all = [Said::Endless, Said::Until, Said::Count, Said::Times, Said::Leave, Said::NextTurn];
+    let all = [
+        ComputeFeature::Endless,
+        ComputeFeature::Until,
+        ComputeFeature::Count,
+        ComputeFeature::Times,
+        ComputeFeature::Leave,
+        ComputeFeature::NextTurn,
+    ];
     if dice.u8(..3) == 0 {
         // As RS274/NGC: words that leave a loop, and no jumps.
-        let statements = vec![Said::Until, Said::Times, Said::Leave, Said::NextTurn];
+        let statements = vec![
+            ComputeFeature::Until,
+            ComputeFeature::Times,
+            ComputeFeature::Leave,
+            ComputeFeature::NextTurn,
+        ];
         return Computes { statements, blocks: true, loops: u8::MAX, ..Computes::default() };
     }
-    let statements = all.into_iter().filter(|_| dice.bool()).chain([Said::Jump]).collect();
+    let statements = all.into_iter().filter(|_| dice.bool()).chain([ComputeFeature::Jump]).collect();
     Computes {
         statements,
         functions: FUNCTIONS.into_iter().filter(|_| dice.bool()).chain([Function::Truncate]).collect(),
@@ -291,15 +303,15 @@ fn target(dice: &mut Rng) -> Computes {
 /// What the target has not, nothing is left of.
 fn is_left(body: &[Stmt], computes: &Computes, open: u8) -> Option<&'static str> {
     body.iter().find_map(|stmt| match &stmt.op {
-        Op::Goto(_) if !computes.has(Said::Jump) => Some("GOTO"),
-        Op::Leave if !computes.has(Said::Leave) => Some("LEAVE"),
-        Op::NextTurn if !computes.has(Said::NextTurn) => Some("NEXT_TURN"),
+        Op::Goto(_) if !computes.has(ComputeFeature::Jump) => Some("GOTO"),
+        Op::Leave if !computes.has(ComputeFeature::Leave) => Some("LEAVE"),
+        Op::NextTurn if !computes.has(ComputeFeature::NextTurn) => Some("NEXT_TURN"),
         Op::Control(control) => {
             let (lacking, turns) = match &**control {
-                Control::Loop { .. } => (!computes.has(Said::Endless), 1),
-                Control::Until { .. } => (!computes.has(Said::Until), 1),
-                Control::For { .. } => (!computes.has(Said::Count), 1),
-                Control::Repeat { .. } => (!computes.has(Said::Times), 1),
+                Control::Loop { .. } => (!computes.has(ComputeFeature::Endless), 1),
+                Control::Until { .. } => (!computes.has(ComputeFeature::Until), 1),
+                Control::For { .. } => (!computes.has(ComputeFeature::Count), 1),
+                Control::Repeat { .. } => (!computes.has(ComputeFeature::Times), 1),
                 Control::While { .. } => (open >= computes.loops, 1),
                 Control::If { then, otherwise, .. } => {
                     let plain = matches!(&then[..], [one] if matches!(one.op, Op::Goto(_) | Op::Assign(..)));

@@ -30,15 +30,15 @@ use ncc_exec::{Event, Exec, Progress, Runner};
 use ncc_frontends::{Batch, ir::Reader};
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::{Caps, LengthsOf, ReturnsTo};
-use ncc_ir::computed::computes::{Computes, Said};
+use ncc_ir::computed::computes::{ComputeFeature, Computes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
-use ncc_ir::geometry::beside::Rules;
+use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_passes::flow::control_forms;
-use ncc_passes::flow::passed_labels;
-use ncc_passes::holes::planes_checked;
+use ncc_passes::flow::unused_labels;
+use ncc_passes::holes::cycle_plane_check;
 use ncc_passes::tools::machine_numbers::Renumbering;
 use ncc_passes::values::exact_comparisons;
 use ncc_passes::{Legaliser, PASSES, Target};
@@ -157,11 +157,11 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
         "blocks" => computes(caps)?.blocks = says()?,
         "opposite" => computes(caps)?.opposite = says()?,
         "loops" => computes(caps)?.loops = value.parse().map_err(|e| format!("{value}: {e}"))?,
-        "jump" => statement(caps, Said::Jump, says()?)?,
-        "endless" => statement(caps, Said::Endless, says()?)?,
-        "leave" => statement(caps, Said::Leave, says()?)?,
-        "next-turn" => statement(caps, Said::NextTurn, says()?)?,
-        "until" => statement(caps, Said::Until, says()?)?,
+        "jump" => statement(caps, ComputeFeature::Jump, says()?)?,
+        "endless" => statement(caps, ComputeFeature::Endless, says()?)?,
+        "leave" => statement(caps, ComputeFeature::Leave, says()?)?,
+        "next-turn" => statement(caps, ComputeFeature::NextTurn, says()?)?,
+        "until" => statement(caps, ComputeFeature::Until, says()?)?,
         _ => return Err(format!("no capability {name}")),
     }
     Ok(())
@@ -172,7 +172,7 @@ fn computes(caps: &mut Caps) -> Result<&mut Computes, String> {
     caps.flow.computes.as_mut().map(Arc::make_mut).ok_or_else(|| "a target that does not compute".into())
 }
 
-fn statement(caps: &mut Caps, statement: Said, has: bool) -> Result<(), String> {
+fn statement(caps: &mut Caps, statement: ComputeFeature, has: bool) -> Result<(), String> {
     let computes = computes(caps)?;
     computes.statements.retain(|own| *own != statement);
     computes.statements.extend(has.then_some(statement));
@@ -270,10 +270,10 @@ fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnosti
     if let (true, Some(computes)) = (COMPUTING.contains(&pass), &told.target.caps.flow.computes) {
         match pass {
             "control-forms" => control_forms::run(program, computes),
-            "passed-labels" => passed_labels::run(program),
+            "passed-labels" => unused_labels::run(program),
             "planes-checked" => {
                 let alarm = computes.planes_alarm.ok_or("a target whose cycles check their planes")?;
-                planes_checked::run(program, alarm, told.target.decimals);
+                cycle_plane_check::run(program, alarm, told.target.decimals);
             }
             _ => exact_comparisons::run(program, computes, &mut diags),
         }
@@ -356,7 +356,7 @@ fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
         whole |= matches!(&stmt.op, Op::SynchronisedFeed(m) if !m.back);
         piece.push(stmt);
         if rest.peek().is_none_or(|next| !next.joined && !whole) {
-            let lines = Lines::of(&piece);
+            let lines = Lines::from_statements(&piece);
             legaliser.run(&mut piece, &before.assumed, lines, &mut diags);
             out.append(&mut piece);
         }

@@ -213,7 +213,7 @@ fn what_the_stream_cannot_say_is_refused() {
     ] {
         let (text, diags) = refused(op);
         assert_eq!(text, "");
-        assert!(matches!(diags[..], [Diagnostic { fault: Fault::CannotSay { .. }, .. }]), "{diags:?}");
+        assert!(matches!(diags[..], [Diagnostic { fault: Fault::TargetLacks { .. }, .. }]), "{diags:?}");
     }
     assert_eq!(refused(Op::EndCycle), (String::new(), vec![]));
     let long = Num { scale: 9, ..mm(1_234_567_899, 0) };

@@ -8,16 +8,10 @@ use ncc_ir::source::Span;
 use crate::finding::{Finding, What};
 use crate::limits::Unchecked;
 use crate::seen::Known;
-use crate::watch::Checker;
-
-/// Findings by axis.
-#[derive(Debug, Default)]
-pub(crate) struct Met {
-    axes: [Option<usize>; AXES],
-}
+use crate::watched::Watched;
 
 /// A feed is said.
-pub(crate) fn said(checker: &mut Checker, feed: Nanos, at: Span) {
+pub(crate) fn said(checker: &mut Watched, feed: Nanos, at: Span) {
     match checker.limits.max_feed {
         Some(limit) if feed > limit => {
             checker.find(What::FeedRange { axis: None, feed, limit }, at);
@@ -31,7 +25,7 @@ pub(crate) fn said(checker: &mut Checker, feed: Nanos, at: Span) {
 }
 
 /// A move at feed from `last`: the part of each axis.
-pub(crate) fn cut(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
+pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     let limits = &checker.limits;
     let fast = limits.axis_feed.iter().any(|limit| limit.is_some_and(|limit| event.rate > limit));
     let path = limits.max_feed.is_some_and(|limit| event.rate > limit);
@@ -60,7 +54,7 @@ pub(crate) fn cut(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
 }
 
 /// A move at feed, and no feed is in force.
-pub(crate) fn missing(checker: &mut Checker, at: Span) {
+pub(crate) fn missing(checker: &mut Watched, at: Span) {
     let known = std::mem::replace(&mut checker.seen.feed, Known::Lost);
     if known != Known::Lost {
         let at_entry = known == Known::Entry;

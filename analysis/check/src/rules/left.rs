@@ -3,10 +3,10 @@
 use ncc_ir::source::Span;
 
 use crate::finding::{Finding, LeftOn, What};
-use crate::watch::Checker;
+use crate::watched::Watched;
 
 /// The program ends here.
-pub(crate) fn on(checker: &mut Checker, end: Span) {
+pub(crate) fn on(checker: &mut Watched, end: Span) {
     for (mode, at) in checker.seen.on().to_vec() {
         // Where a program never cancels a length, the next one is not meant to find none.
         if mode == LeftOn::Length && !checker.cancels_length {

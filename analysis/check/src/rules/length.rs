@@ -5,10 +5,10 @@ use ncc_ir::source::Span;
 
 use crate::finding::{Finding, LeftOn, What};
 use crate::seen::Length;
-use crate::watch::Checker;
+use crate::watched::Watched;
 
 /// The tool was changed.
-pub(crate) fn changed(checker: &mut Checker, event: &Event) {
+pub(crate) fn changed(checker: &mut Watched, event: &Event) {
     // Without a tool there is nothing to measure.
     checker.seen.length = match event.state.tool {
         0 => Length::Fine,
@@ -18,7 +18,7 @@ pub(crate) fn changed(checker: &mut Checker, event: &Event) {
 }
 
 /// A length is said: a tool's, or none.
-pub(crate) fn said(checker: &mut Checker, at: Span, exec: &Exec) {
+pub(crate) fn said(checker: &mut Watched, at: Span, exec: &Exec) {
     let none = exec.length_entry() == Some(0) || exec.length_edge().is_some_and(|(_, edge)| edge == 0);
     if none {
         checker.cancels_length |= checker.seen.is_on(LeftOn::Length);
@@ -31,7 +31,7 @@ pub(crate) fn said(checker: &mut Checker, at: Span, exec: &Exec) {
 
 /// Z moves in the coordinates of a work offset.
 #[inline]
-pub(crate) fn z_moves(checker: &mut Checker, event: &Event) {
+pub(crate) fn z_moves(checker: &mut Watched, event: &Event) {
     let Length::Missing(change) = checker.seen.length else { return };
     checker.seen.length = Length::Fine;
     let tool = event.state.tool;

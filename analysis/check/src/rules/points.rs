@@ -2,14 +2,12 @@
 //! have points. Where no number has one, that is the programmer's habit, and nothing is found; nor of a
 //! number that would be absurd with a point (a metre and more, a feed of 20 m/min and more).
 
-use std::collections::VecDeque;
-
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use crate::finding::What;
 use crate::rule::Rule;
-use crate::watch::Checker;
+use crate::watched::Watched;
 
 /// So many numbers are kept; further ones are counted.
 const MOST: usize = 1000;
@@ -17,19 +15,8 @@ const MOST: usize = 1000;
 /// A block may be looked at twice: so many numbers back, the same one is looked for.
 const BACK: usize = 16;
 
-/// Numbers that were met.
-#[derive(Debug, Default)]
-pub(crate) struct Met {
-    bare: Vec<(Span, Num, Num)>,
-    /// How many more there are.
-    more: usize,
-    last: VecDeque<Span>,
-    /// Whether any length has a point.
-    pub(crate) pointed: bool,
-}
-
 /// A number without a point.
-pub(crate) fn note(checker: &mut Checker, span: Span, read: Num, with_point: Num, feed: bool) {
+pub(crate) fn note(checker: &mut Watched, span: Span, read: Num, with_point: Num, feed: bool) {
     // What would be absurd with a point is meant as increments.
     let most = match (with_point.unit, feed) {
         (Unit::Inch, false) => 100,
@@ -55,7 +42,7 @@ pub(crate) fn note(checker: &mut Checker, span: Span, read: Num, with_point: Num
 }
 
 /// The program is over.
-pub(crate) fn finish(checker: &mut Checker) {
+pub(crate) fn finish(checker: &mut Watched) {
     if checker.points.pointed {
         for (span, read, with_point) in std::mem::take(&mut checker.points.bare) {
             checker.find(What::BareNumber { read, with_point }, span);

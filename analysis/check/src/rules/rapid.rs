@@ -6,13 +6,13 @@ use ncc_ir::canon::{Axis, Distance, Plane};
 use ncc_ir::program::Op;
 
 use crate::finding::What;
-use crate::watch::{Checker, Step};
+use crate::watched::{Step, Watched};
 
 const Z: usize = Axis::Z as usize;
 
 /// A straight rapid has been made.
 #[inline]
-pub(crate) fn moved(checker: &mut Checker, step: &Step, exec: &Exec) {
+pub(crate) fn moved(checker: &mut Watched, step: &Step, exec: &Exec) {
     let Some(plane) = checker.limits.rapid_plane else { return };
     // Rapids of a cycle are its own matter.
     if step.raw || !matches!(step.stmt.op, Op::StraightTraverse(_) | Op::Position(_)) {
@@ -33,7 +33,7 @@ pub(crate) fn moved(checker: &mut Checker, step: &Step, exec: &Exec) {
 }
 
 /// A cycle has been called up.
-pub(crate) fn cycle(checker: &mut Checker, step: &Step, exec: &Exec) {
+pub(crate) fn cycle(checker: &mut Watched, step: &Step, exec: &Exec) {
     let Some(plane) = checker.limits.rapid_plane else { return };
     let Op::StartCycle(cycle) = &step.stmt.op else { return };
     let absolute = cycle.retract.distance.or(exec.distance()) == Distance::Absolute;

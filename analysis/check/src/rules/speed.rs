@@ -5,10 +5,10 @@ use ncc_ir::source::Span;
 
 use crate::finding::What;
 use crate::limits::Unchecked;
-use crate::watch::Checker;
+use crate::watched::Watched;
 
 /// A speed is said.
-pub(crate) fn said(checker: &mut Checker, speed: Nanos, at: Span) {
+pub(crate) fn said(checker: &mut Watched, speed: Nanos, at: Span) {
     match checker.limits.max_speed {
         Some(limit) if speed > limit => {
             checker.find(What::SpeedRange { speed, limit }, at);

@@ -5,31 +5,14 @@
 use ncc_exec::Event;
 use ncc_ir::canon::{AXES, Spindle, same_point};
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::source::Span;
 
 use crate::finding::{Finding, What};
+use crate::met::SpindleMet;
 use crate::seen::Known;
-use crate::watch::Checker;
-
-/// Whether it has been told.
-#[derive(Debug, Default)]
-pub(crate) struct Met {
-    told: bool,
-    /// Where it has been told that it stands.
-    stands: Option<Span>,
-    /// Whether the tool in it probes.
-    probes: bool,
-}
-
-impl Met {
-    /// The program has stopped it at an angle.
-    pub(crate) fn held() -> Met {
-        Met { told: true, ..Met::default() }
-    }
-}
+use crate::watched::Watched;
 
 /// A move until something is touched: what is in the spindle is a probe.
-pub(crate) fn probed(checker: &mut Checker) {
+pub(crate) fn probed(checker: &mut Watched) {
     if let Some(at) = checker.spindle.stands.take() {
         checker.findings.retain(|finding| finding.span != at || !matches!(finding.what, What::SpindleStands));
     }
@@ -38,15 +21,15 @@ pub(crate) fn probed(checker: &mut Checker) {
 }
 
 /// Another tool is in the spindle.
-pub(crate) fn changed(checker: &mut Checker) {
+pub(crate) fn changed(checker: &mut Watched) {
     if checker.spindle.probes {
-        checker.spindle = Met::default();
+        checker.spindle = SpindleMet::default();
     }
 }
 
 /// A move at feed from `last`.
 #[inline]
-pub(crate) fn cut(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
+pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     let stands = event.state.spindle == Spindle::Stopped;
     if !(stands || event.state.speed == 0) || checker.spindle.told {
         return;

@@ -9,21 +9,13 @@ use ncc_ir::expr::num::Nanos;
 
 use crate::finding::{Outside, What};
 use crate::limits::Unchecked;
-use crate::watch::Checker;
+use crate::watched::Watched;
 
 /// A limit is exceeded by more than this: a millionth of a millimetre.
 const TOLERANCE: Nanos = 1000;
 
-/// Findings by axis and side, and what was noted as not checked.
-#[derive(Debug, Default)]
-pub(crate) struct Met {
-    at: [[Option<usize>; 2]; AXES],
-    /// The last reason of each axis.
-    noted: [Option<Unchecked>; AXES],
-}
-
 /// A move from `last` to the event's end.
-pub(crate) fn moved(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
+pub(crate) fn moved(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     let (least, most) = extent(event, &last);
     for axis in 0..AXES {
         if event.end[axis] == last[axis] && least[axis] == most[axis] {
@@ -55,7 +47,7 @@ pub(crate) fn moved(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
 }
 
 #[cold]
-fn beyond(checker: &mut Checker, event: &Event, axis: usize, side: Outside, to: Nanos, limit: Nanos) {
+fn beyond(checker: &mut Watched, event: &Event, axis: usize, side: Outside, to: Nanos, limit: Nanos) {
     let slot = checker.travel.at[axis][side as usize];
     if let Some(finding) = slot.and_then(|index| checker.findings.get_mut(index)) {
         finding.more += u64::from(finding.span != event.span);

@@ -7,7 +7,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::cycle::{BoreStop, Clearance, CycleKind};
 use ncc_ir::program::{Op, Stmt};
-use ncc_ir::track::InForce;
+use ncc_ir::track::ActiveCycle;
 
 use super::{Printer, Turning, cannot, literal};
 
@@ -63,7 +63,7 @@ impl Printer<'_> {
     /// One hole, from the retract plane over it.
     fn hole(
         &mut self,
-        in_force: &InForce,
+        in_force: &ActiveCycle,
         to: [Nanos; AXES],
         normal: usize,
         retract: Nanos,

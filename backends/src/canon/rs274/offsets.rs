@@ -36,7 +36,7 @@ impl Printer<'_> {
     /// The offsets of the tool that are called up by now, in the unit in force; of an entry, where the program has put
     /// them all there.
     pub(super) fn tool_offsets(&mut self, entry: &Expr) -> Result<(), Fault> {
-        let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let entry = entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let stated = |entry| entry == 0 || self.exec.stated_entry(entry).is_some();
         if !entry.is_some_and(stated) {
             return Err(cannot("the length of a tool that the program has not put into the table"));

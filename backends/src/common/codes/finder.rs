@@ -5,10 +5,10 @@ use ncc_ir::canon::{FeedMode, PathMode, Side, SpindleMode};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{FrameSlot, Probe, ReferencePoint};
 
-use super::super::data::DataCode;
 use super::super::number::Format;
 use super::{
-    AdviceCode, CircleCode, Code, CycleCode, Dwell, FrameCodes, GridCode, LONGEST, Letter, ProbeCode,
+    AdviceCode, CircleCode, Code, CycleCode, DataCode, Dwell, FrameCodes, GridCode, LONGEST, Letter,
+    ProbeCode,
 };
 
 /// Looks rows up, and gives every modal group a bit.

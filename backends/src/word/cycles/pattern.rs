@@ -12,7 +12,7 @@ use super::super::Writer;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Code;
 use crate::common::fault::cannot;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::common::setting::Inserted;
 use crate::common::{Sink, number};
 
@@ -24,7 +24,7 @@ impl Writer {
                 self.held = Some(held);
                 return Err(cannot("a pattern of holes"));
             }
-            Some(held) if !held.in_text || self.force.motion != Some(Motion::Cycle) => {
+            Some(held) if !held.in_text || self.active.motion != Some(Motion::Cycle) => {
                 self.call_up(held, None, true, stmt, sink)?;
             }
             Some(held) => self.held = Some(held),
@@ -57,7 +57,7 @@ impl Writer {
         if centre.is_none() {
             let at = [self.tracker.position[Axis::X as usize], self.tracker.position[Axis::Y as usize]];
             if self.options.circle_about_zero {
-                let zero = self.stands(Axis::X)? == 0 && self.stands(Axis::Y)? == 0;
+                let zero = self.axis_position(Axis::X)? == 0 && self.axis_position(Axis::Y)? == 0;
                 if !zero {
                     return Err(cannot("a bolt circle about where the tool stands"));
                 }
@@ -125,7 +125,7 @@ impl Writer {
     fn pattern_block(
         &mut self,
         code: Code,
-        words: &[(u8, Worth)],
+        words: &[(u8, WordValue)],
         inserted: Inserted,
         sink: &mut Sink,
     ) -> Result<(), Fault> {

@@ -58,7 +58,7 @@ impl Writer {
         let variable = self.variable_of("alarm").ok_or_else(|| cannot("an alarm"))?;
         let number = alarm.number.as_ref().ok_or_else(|| cannot_compute("an alarm without a number"))?;
         if let (Some(n), Some([from, to])) = (number.literal(), self.dialect.formula.alarms) {
-            let known = n.whole().is_some_and(|n| (i64::from(from)..=i64::from(to)).contains(&n));
+            let known = n.whole_number().is_some_and(|n| (i64::from(from)..=i64::from(to)).contains(&n));
             if !known {
                 return Err(cannot("an alarm of this number"));
             }

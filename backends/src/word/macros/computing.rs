@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::canon::{Distance, Modes, Units};
-use ncc_ir::computed::call_of::call_of;
-use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computed_call::computed_call;
+use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::computed::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::units::Said;
@@ -44,7 +44,7 @@ pub(crate) struct Computing {
     /// Loops that are open.
     open: u8,
     /// Modes in force where stretches of blocks begin, by the places of their first statements.
-    stands: HashMap<u32, Modes>,
+    entries: HashMap<u32, Modes>,
     /// The distance mode of the program where the stretch at hand begins, if it is known.
     pub(in crate::word) entry: Option<Distance>,
     /// The distance mode that the text had before this writer put in another one.
@@ -57,9 +57,9 @@ pub(crate) struct Computing {
 
 impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
-    pub(crate) fn know(&mut self, program: &Program, stands: HashMap<u32, Modes>) {
+    pub(crate) fn know(&mut self, program: &Program, entries: HashMap<u32, Modes>) {
         let procedures = program.procedures.as_slice();
-        self.is_kept(stands);
+        self.is_kept(entries);
         self.computing.variables = true;
         self.computing.metric = Said::by(program).only() == Some(Units::Mm);
         self.computing.own = self
@@ -76,30 +76,30 @@ impl Writer {
     }
 
     /// A program that computes is written with its structure.
-    pub(crate) fn is_kept(&mut self, stands: HashMap<u32, Modes>) {
+    pub(crate) fn is_kept(&mut self, entries: HashMap<u32, Modes>) {
         self.computing.kept = true;
-        self.know_modes(stands);
+        self.know_modes(entries);
     }
 
     /// Takes which modes are in force where stretches of blocks begin.
-    pub(crate) fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
-        self.computing.stands = stands;
+    pub(crate) fn know_modes(&mut self, entries: HashMap<u32, Modes>) {
+        self.computing.entries = entries;
     }
 
     /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
     /// source: the text states each that the source does, and no other.
     pub(crate) fn stand(&mut self, stmt: &Stmt) {
-        let known = self.computing.stands.get(&stmt.span.start);
+        let known = self.computing.entries.get(&stmt.span.start);
         self.computing.entry = known.and_then(|known| known.distance);
         let Some(known) = known else { return };
         if self.preamble.is_some() {
             return;
         }
         self.forgotten = false;
-        self.computing.unsaid = self.force.distance.is_none();
-        self.force.distance = self.force.distance.or(known.distance);
-        self.force.plane = self.force.plane.or(known.plane);
-        self.force.units = self.force.units.or(known.units);
+        self.computing.unsaid = self.active.distance.is_none();
+        self.active.distance = self.active.distance.or(known.distance);
+        self.active.plane = self.active.plane.or(known.plane);
+        self.active.units = self.active.units.or(known.units);
         self.tracker.modes.work_offset = self.tracker.modes.work_offset.or(known.work_offset);
     }
 
@@ -201,8 +201,8 @@ impl Writer {
         if !e.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
             return;
         }
-        let told = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
-        for row in dialect.system.iter().filter(told) {
+        let reported = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
+        for row in dialect.system.iter().filter(reported) {
             if !row.counts(&self.settings) {
                 continue;
             }
@@ -308,16 +308,16 @@ impl Writer {
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.spelling(None)?;
         let computes = self.dialect.caps.flow.computes.as_ref();
-        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+        if let Some(entry) = computes.and_then(|computes| computes.computed_entry(control)) {
             return self.entry_of_number(&entry, stmt, sink);
         }
         if self.has_o_words() {
             return self.o_structure(control, stmt, sink);
         }
-        if let Some(call) = call_of(control).filter(|_| self.dialect.program.macro_b) {
+        if let Some(call) = computed_call(control).filter(|_| self.dialect.program.macro_b) {
             return self.computed_call(&call, stmt, sink);
         }
-        if let Some(code) = code_of(control).filter(|_| self.dialect.program.macro_b) {
+        if let Some(code) = computed_code(control).filter(|_| self.dialect.program.macro_b) {
             return self.code_of_variable(&code, stmt, sink);
         }
         match control {

@@ -110,14 +110,14 @@ impl Spelling<'_> {
         let within = Spelling { digits: None, ..*self };
         let Some([open, close]) = &self.rules.index else {
             return match &element.at[..] {
-                [number] => within.bracketed(self.whole(number), depth, out),
+                [number] => within.bracketed(self.without_rounding(number), depth, out),
                 _ => Err(cannot_compute("a variable of several numbers")),
             };
         };
         out.push_str(open);
         for (place, at) in element.at.iter().enumerate() {
             out.push_str(if place > 0 { "," } else { "" });
-            within.expr(whole(at), LOOSEST, true, depth + 1, out)?;
+            within.expr(without_rounding(at), LOOSEST, true, depth + 1, out)?;
         }
         out.push_str(close);
         Ok(())
@@ -155,7 +155,7 @@ impl Spelling<'_> {
     }
 
     /// What is looked at as a whole number, without the rounding that the control does by itself.
-    pub(crate) fn whole<'e>(&self, e: &'e Expr) -> &'e Expr {
+    pub(crate) fn without_rounding<'e>(&self, e: &'e Expr) -> &'e Expr {
         let (digits, inner) = rounding(e);
         if digits.is_some() && digits == self.rules.whole { inner } else { e }
     }
@@ -445,7 +445,7 @@ fn from_zero<'e>(operator: Binary, a: &'e Expr, b: &Expr) -> Option<(Function, &
 }
 
 /// What is rounded to a whole number where an index does that by itself.
-fn whole(at: &Expr) -> &Expr {
+fn without_rounding(at: &Expr) -> &Expr {
     match at {
         Expr::Node(node) => match &**node {
             Node::Call(Function::Round, arguments) => arguments.first().unwrap_or(at),

@@ -9,13 +9,13 @@
 //! Not here: passes that bring expressions within the target's capabilities.
 
 pub(super) mod alarm;
-pub(super) mod call_of;
-pub(super) mod code_of;
 pub(super) mod comparisons;
+pub(super) mod computed_call;
+pub(super) mod computed_code;
+pub(super) mod computed_entry;
+pub(super) mod computed_jump;
 pub(super) mod computing;
-pub(super) mod entry_of;
 pub(super) mod formula;
-pub(super) mod jump_of;
 pub(super) mod modal_call;
 pub(super) mod o_words;
 pub(super) mod output;

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 use ncc_ir::computed::computes::counted;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::fails::may_fail;
+use ncc_ir::expr::partial_expr::may_fail;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
@@ -130,13 +130,13 @@ impl Writer {
         known.into_iter().for_each(|units| self.units_stated[units as usize] = true);
         // They are passed over where they stand: what is in force there stays.
         let preamble = self.preamble.take();
-        let (force, tracker, held) = (self.force, self.tracker.clone(), self.held.take());
+        let (force, tracker, held) = (self.active, self.tracker.clone(), self.held.take());
         let (residue, residual, named, lost) = (self.residue, self.residual, self.named, self.lost);
         for procedure in &waiting {
             self.o_sub(procedure, sink);
         }
         self.preamble = preamble;
-        (self.force, self.tracker, self.held) = (force, tracker, held);
+        (self.active, self.tracker, self.held) = (force, tracker, held);
         (self.residue, self.residual, self.named, self.lost) = (residue, residual, named, lost);
         self.forgotten = false;
         lead

@@ -7,7 +7,8 @@ use std::io;
 use ncc_diff::change::Collector;
 use ncc_diff::measure::Measure;
 use ncc_diff::record::Batch;
-use ncc_diff::resync::{Rules, Tape, compare};
+use ncc_diff::resync::{Rules, compare};
+use ncc_diff::tape::Tape;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::num::Nanos;
 

@@ -1,12 +1,12 @@
 //! Values for what a program reads and has not set: the same in both programs, by the variables' names.
 //! They are made of the numbers of the program itself, so that its decisions go both ways. A local variable may have none.
 
-use ncc_ir::computed::open::{literals, open_variables};
+use ncc_ir::computed::free_variables::{free_variables, literals};
 use ncc_ir::expr::Var;
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::{Program, Type};
 use ncc_ir::source::Span;
-use ncc_passes::values::otherwise::Taken;
+use ncc_passes::values::assumption_check::Assumption;
 use ncc_passes::values::variables::renamed::Renamed;
 
 use crate::job::given::Given as Stated;
@@ -18,14 +18,14 @@ const LEFT_THERE: f64 = -791.3;
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
 /// What may be taken for granted of a source's numbers, alone and together.
-pub(super) const READINGS: [&[Taken]; 7] = [
-    &[Taken::Apart],
-    &[Taken::NotNegative],
-    &[Taken::Together],
-    &[Taken::Apart, Taken::NotNegative],
-    &[Taken::Apart, Taken::Together],
-    &[Taken::NotNegative, Taken::Together],
-    &[Taken::Apart, Taken::NotNegative, Taken::Together],
+pub(super) const READINGS: [&[Assumption]; 7] = [
+    &[Assumption::Apart],
+    &[Assumption::NotNegative],
+    &[Assumption::Together],
+    &[Assumption::Apart, Assumption::NotNegative],
+    &[Assumption::Apart, Assumption::Together],
+    &[Assumption::NotNegative, Assumption::Together],
+    &[Assumption::Apart, Assumption::NotNegative, Assumption::Together],
 ];
 
 /// Values for what a program reads and has not set.
@@ -47,7 +47,7 @@ pub struct Given<'g> {
 
 impl<'g> Given<'g> {
     pub(super) fn new(source: &Program, stated: &'g Stated) -> Given<'g> {
-        let open = open_variables(source);
+        let open = free_variables(source);
         let mut pool = FIRST.to_vec();
         if !open.is_empty() {
             let own = literals(source);

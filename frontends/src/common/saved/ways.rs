@@ -8,7 +8,7 @@ mod range;
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::take;
 
-use ncc_ir::computed::code_of::{CodeOf, code_of, of_number};
+use ncc_ir::computed::computed_code::{ComputedCode, computed_code, of_number};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
@@ -295,7 +295,7 @@ impl Ways<'_> {
             }
             Op::Return | Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_) => return None,
             Op::Control(control) => {
-                if let Some(code) = code_of(control)
+                if let Some(code) = computed_code(control)
                     && self.saved.back.iter().any(|(span, _)| *span == stmt.span)
                     && let Some(known) = &known
                 {
@@ -315,7 +315,7 @@ impl Ways<'_> {
     }
 
     /// Why such a code is not kept.
-    fn refused(&self, code: &CodeOf<'_>, at: Span) -> Fault {
+    fn refused(&self, code: &ComputedCode<'_>, at: Span) -> Fault {
         let told = self.saved.back.iter().find(|(span, _)| *span == at);
         let (code, name) = match told {
             Some((_, Told::Entry(name))) => ((*name).into(), ANY_PLACE.into()),
@@ -325,7 +325,7 @@ impl Ways<'_> {
     }
 
     /// Whether the number of a code is surely that of one of these.
-    fn is_one_of(&mut self, code: &CodeOf<'_>, at: Span, known: &Known) -> bool {
+    fn is_one_of(&mut self, code: &ComputedCode<'_>, at: Span, known: &Known) -> bool {
         let Some((_, told)) = self.saved.back.iter().find(|(span, _)| *span == at) else { return true };
         match told {
             Told::Saved(row, var) => {
@@ -470,7 +470,7 @@ fn where_it(condition: &Expr, holds: bool, known: Known) -> Option<Known> {
     };
     // A condition that is worth nothing does not hold.
     if let (Binary::Equal | Binary::NotEqual, Expr::Node(inner), Some(0)) =
-        (operator, a, b.literal().and_then(|n| n.whole()))
+        (operator, a, b.literal().and_then(|n| n.whole_number()))
         && let Node::Binary(decision, ..) = &**inner
         && decision.decides()
     {
@@ -508,7 +508,7 @@ fn limit(what: &Expr, operator: Binary, with: &Expr, mut known: Known) -> Option
 fn narrow(body: &mut [Stmt], ranges: &Ranges) {
     for stmt in body {
         let Op::Control(control) = &mut stmt.op else { continue };
-        let Some((code, range)) = code_of(control).zip(ranges.get(&stmt.span.start)) else {
+        let Some((code, range)) = computed_code(control).zip(ranges.get(&stmt.span.start)) else {
             control.bodies_mut().for_each(|body| narrow(body, ranges));
             continue;
         };

@@ -177,7 +177,7 @@ impl Lower {
         }
         let settle = self.time(a, Role::Settle, src, out);
         let dwell = self.time(a, Role::LastDwell, src, out).or_else(|| pause.clone());
-        let way = self.argument(a, Role::Way, src, out).and_then(Num::whole).unwrap_or(0);
+        let way = self.argument(a, Role::Way, src, out).and_then(Num::whole_number).unwrap_or(0);
         let role = if way == 0 { Role::Lift } else { Role::Clearance };
         let stated = self.argument(a, role, src, out).filter(|num| !num.is_zero());
         if stated.is_some_and(|num| num.mantissa < 0) {

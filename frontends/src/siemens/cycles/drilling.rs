@@ -76,7 +76,7 @@ impl Lower {
                 Some(Argument::Number(digits, span)) => {
                     let value =
                         Num { mantissa: digits.mantissa, scale: digits.scale, point: true, unit: Unit::One };
-                    let neutral = || value.whole().is_some_and(|w| parameter.neutral.contains(&w));
+                    let neutral = || value.whole_number().is_some_and(|w| parameter.neutral.contains(&w));
                     if let Some(refuse) = &parameter.refuse
                         && !value.is_zero()
                         && !neutral()
@@ -87,7 +87,7 @@ impl Lower {
                     if !parameter.sure && !value.is_zero() && self.first_time(&parameter.name) {
                         let what = parameter.name.as_str().into();
                         let value =
-                            value.whole().map_or_else(|| "?".into(), |value| value.to_string().into());
+                            value.whole_number().map_or_else(|| "?".into(), |value| value.to_string().into());
                         out.report(Fault::AssumedParameter { parameter: what, value }, *span);
                     }
                     Some(Given { digits: *digits, distance: None, way: None, computed: None, span: *span })
@@ -146,7 +146,7 @@ impl Lower {
     pub(in crate::siemens) fn whole_of(&self, a: &Arguments, role: ParameterRole) -> Option<i64> {
         let Some(given) = a.row.place(role).and_then(|place| *a.given.get(place)?) else { return Some(0) };
         let digits = given.computed.is_none().then_some(given.digits)?;
-        Num { mantissa: digits.mantissa, scale: digits.scale, point: true, unit: Unit::One }.whole()
+        Num { mantissa: digits.mantissa, scale: digits.scale, point: true, unit: Unit::One }.whole_number()
     }
 
     /// The number with a role; nothing for an empty argument, or one that is refused.
@@ -475,7 +475,7 @@ impl Lower {
         let settle = self.time(a, Role::Settle, src, out);
         let dwell = self.time(a, Role::LastDwell, src, out).or_else(|| pause.clone());
         let peck = Expr::Num(stroke);
-        let way = self.argument(a, Role::Way, src, out).and_then(Num::whole).unwrap_or(0);
+        let way = self.argument(a, Role::Way, src, out).and_then(Num::whole_number).unwrap_or(0);
         Some(match way {
             0 => {
                 let lift = self.argument(a, Role::Lift, src, out).filter(|num| !num.is_zero());

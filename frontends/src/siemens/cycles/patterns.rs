@@ -262,7 +262,7 @@ impl Lower {
 
     /// A number of holes, at least one.
     fn count(&mut self, a: &Arguments, role: ParameterRole, src: Source, out: &mut Batch) -> Option<u32> {
-        match self.needed(a, role, src, out)?.whole() {
+        match self.needed(a, role, src, out)?.whole_number() {
             Some(count @ 1..=MOST_HOLES) => u32::try_from(count).ok(),
             Some(_) | None => self.out_of_range(a, role, out),
         }
@@ -272,7 +272,7 @@ impl Lower {
     fn points(&mut self, a: &Arguments, plane: Plane, src: Source, out: &mut Batch) -> Option<Vec<Point>> {
         use ParameterRole as Role;
         for role in [Role::FirstFlags, Role::SecondFlags] {
-            if self.needed(a, role, src, out)?.whole() != Some(ALL_ABSOLUTE) {
+            if self.needed(a, role, src, out)?.whole_number() != Some(ALL_ABSOLUTE) {
                 self.not_supported(&a.row.name, "positions that are not all absolute", a.span, out);
                 return None;
             }

@@ -51,7 +51,7 @@ impl Lower {
     }
 
     fn whole_argument(&self, a: &Arguments, role: Role) -> i64 {
-        self.written(a, role).map_or(0, |num| num.whole().unwrap_or(i64::MAX))
+        self.written(a, role).map_or(0, |num| num.whole_number().unwrap_or(i64::MAX))
     }
 
     /// The sense in which the spindle turns for a cycle.
@@ -75,7 +75,7 @@ impl Lower {
             }
             (None, None) => return Some(None),
             (Some(size), None) => {
-                let nominal = size.whole().map_or(0, i64::abs);
+                let nominal = size.whole_number().map_or(0, i64::abs);
                 let Some((_, pitch)) = COARSE.iter().find(|(size, _)| *size == nominal) else {
                     return self.out_of_range(a, Role::ThreadSize, out);
                 };

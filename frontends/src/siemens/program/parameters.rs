@@ -21,7 +21,7 @@ use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_passes::flow::given_back;
+use ncc_passes::flow::restored_modes;
 
 use super::calls::Handing;
 use crate::Batch;
@@ -224,7 +224,7 @@ impl Lower {
                 self.not_supported(&src.text(place.span), what, place.span, out);
                 return None;
             };
-            match at.whole().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
+            match at.whole_number().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
                 Some(at) => found.push(at),
                 None => {
                     return self.refuse(Fault::OutOfRange { word: src.text(place.span) }, place.span, out);
@@ -300,7 +300,7 @@ impl Lower {
         let mut procedures = vec![Procedure { body: std::mem::take(&mut out.stmts), ..Procedure::default() }];
         procedures.append(&mut out.procedures);
         let mut program = Program { procedures, ..Program::default() };
-        given_back::run(&mut program, &entry, "SAVE", &mut out.diagnostics);
+        restored_modes::run(&mut program, &entry, "SAVE", &mut out.diagnostics);
         out.stmts = program.procedures.remove(0).body;
         out.procedures = program.procedures;
     }

@@ -151,7 +151,11 @@ impl Lower {
             (Some(number), []) => number,
             (None, [Some(_)]) => {
                 let at = self.indices(place, src, out)?;
-                match at.first().and_then(Expr::literal).map(|n| n.whole().and_then(|n| n.try_into().ok())) {
+                match at
+                    .first()
+                    .and_then(Expr::literal)
+                    .map(|n| n.whole_number().and_then(|n| n.try_into().ok()))
+                {
                     Some(Some(number)) => number,
                     Some(None) => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
                     None => {
@@ -311,7 +315,7 @@ impl Lower {
         let Some(at) = self.indices(place, src, out) else { return };
         let mut first = 0u32;
         for (at, size) in at.iter().zip(&variable.sizes) {
-            let whole = at.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+            let whole = at.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
             match whole {
                 Some(at) if at < *size => first = first * size + at,
                 Some(_) => return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out),

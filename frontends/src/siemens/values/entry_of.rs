@@ -7,7 +7,7 @@
 //! none.
 
 use ncc_ir::canon::Axis;
-use ncc_ir::computed::code_of::{code_of, of_number};
+use ncc_ir::computed::computed_code::{computed_code, of_number};
 use ncc_ir::expr::{Expr, Function, Node};
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
@@ -104,7 +104,7 @@ impl Lower {
         let mark = self.now.mark;
         let last = self.target(out).get(mark..)?.last()?;
         let Op::Control(control) = &last.op else { return None };
-        let code = code_of(control)?;
+        let code = computed_code(control)?;
         let other = |op: &Op| match op {
             Op::SetData(data) => {
                 matches!(&**data, Data::Offset { words, .. } if words[axis as usize].is_none())

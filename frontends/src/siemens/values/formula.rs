@@ -314,7 +314,7 @@ impl Lower {
             return value.expr;
         }
         if let Some(num) = value.expr.literal()
-            && let Some(whole) = num.whole()
+            && let Some(whole) = num.whole_number()
         {
             return Expr::int(whole);
         }

@@ -5,7 +5,7 @@
 //! front is none of theirs.
 
 use ncc_dialects::Quantity;
-use ncc_ir::computed::call_of::{of_number, so_often};
+use ncc_ir::computed::computed_call::{of_number, so_often};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Call, Op, Stmt, Text};

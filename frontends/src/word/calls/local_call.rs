@@ -5,7 +5,7 @@
 //! or out of; such a call in a subprogram, or beside jumps whose number is computed.
 
 use ncc_dialects::{CodeRow, Dialect, Meaning, Quantity};
-use ncc_ir::computed::call_of::so_often;
+use ncc_ir::computed::computed_call::so_often;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
@@ -90,7 +90,7 @@ impl Lower {
         let once = |times| Call { name: label(number), times, arguments: Vec::new(), shared: true };
         let op = match times {
             None => Op::Call(Box::new(once(1))),
-            Some(times) => match times.literal().and_then(|n| n.whole()) {
+            Some(times) => match times.literal().and_then(|n| n.whole_number()) {
                 Some(n @ 1..=9999) => Op::Call(Box::new(once(n as u32))),
                 Some(_) => {
                     let word = count.map(|count| src.text(count.span)).unwrap_or_default();

@@ -9,7 +9,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Procedure;
 use ncc_ir::source::Span;
-use ncc_passes::support::known_facts::ActiveCycles;
+use ncc_passes::support::mode_analysis::ActiveCycles;
 
 use crate::Batch;
 use crate::word::facts::InForce;
@@ -57,7 +57,7 @@ impl Lower {
         }
         let main = Procedure { body: out.stmts.clone(), ..Procedure::default() };
         let procedures: Vec<_> = std::iter::once(main).chain(out.procedures.iter().cloned()).collect();
-        let active = ActiveCycles::of(&procedures, self.cycles.entered);
+        let active = ActiveCycles::from_procedures(&procedures, self.cycles.entered);
         for (fault, span) in doubts {
             if active.as_ref().is_none_or(|active| active.at(span.start)) {
                 out.report(fault, span);

@@ -10,7 +10,7 @@ use std::mem::discriminant;
 
 use ncc_dialects::{Statement as Says, SystemRow};
 use ncc_ir::canon::Motion;
-use ncc_ir::computed::code_of::of_number;
+use ncc_ir::computed::computed_code::of_number;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
@@ -38,7 +38,7 @@ impl Lower {
         let Target::Var(var) = to else { return };
         let node = match value {
             Expr::Num(number) => {
-                let number = number.whole().filter(|_| !matches!(var, Var::System(_)));
+                let number = number.whole_number().filter(|_| !matches!(var, Var::System(_)));
                 self.computes.saved.numbers.extend(number.map(|number| (own, var.clone(), number)));
                 return;
             }

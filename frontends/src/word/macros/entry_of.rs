@@ -7,8 +7,8 @@
 //! control would take another of its variables.
 
 use ncc_dialects::SystemRow;
-use ncc_ir::computed::code_of::of_number;
-use ncc_ir::computed::entry_of::is_entry;
+use ncc_ir::computed::computed_code::of_number;
+use ncc_ir::computed::computed_entry::is_entry;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
@@ -62,7 +62,7 @@ impl Number {
 /// An expression as such a number.
 fn number(e: &Expr) -> Option<Number> {
     let node = match e {
-        Expr::Num(n) => return Some(Number { of: None, times: 0, more: n.whole()? }),
+        Expr::Num(n) => return Some(Number { of: None, times: 0, more: n.whole_number()? }),
         Expr::Node(node) => node,
     };
     match &**node {

@@ -5,7 +5,7 @@
 //! Not here: subprograms in the text that calls them (`o_subs`).
 
 use ncc_dialects::{Dialect, Meaning};
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::expr::Var;
 use ncc_ir::program::{Op, Procedure, Program, Text};
 
@@ -143,7 +143,7 @@ impl Reader {
         let whole =
             Program { procedures: vec![Procedure { body, ..Procedure::default() }], ..Program::default() };
         let number = |var: &Var| var.name().parse().ok().filter(|_| matches!(var, Var::Local(_)));
-        let most: u32 = open_variables(&whole).iter().filter_map(|(var, _)| number(var)).max().unwrap_or(0);
+        let most: u32 = free_variables(&whole).iter().filter_map(|(var, _)| number(var)).max().unwrap_or(0);
         out.stmts = whole.procedures.into_iter().next().map(|main| main.body).unwrap_or_default();
         let parameters = (1..=most).map(|n| Var::Local(n.to_string().into())).collect();
         let heading = Procedure { name: name.into(), parameters, ..Procedure::default() };

@@ -6,6 +6,7 @@
 //!
 //! Not here: which words a control has for a frame.
 
+pub(crate) mod chain;
 pub(crate) mod frame;
 pub(crate) mod slots;
 pub(crate) mod tilt;

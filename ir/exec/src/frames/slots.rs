@@ -6,7 +6,7 @@
 //!
 //! For execution and for passes alike. Not here: what a dialect forbids inside a frame.
 
-use crate::frames::frame::Chain;
+use crate::frames::chain::Chain;
 use ncc_ir::canon::{AXES, Distance, Fact, Plane};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE, Unit};

@@ -5,7 +5,7 @@ use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::round::{ArcRule, Around, Round, round};
+use ncc_ir::geometry::arc_solver::{ArcRule, Around, SolvedArc, solve_arc};
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Point, Shape};
 use ncc_ir::source::Span;
@@ -148,7 +148,7 @@ impl Exec {
         let normal = normal as usize;
         let flat = self.position[normal] == before[normal];
         let now = Now { exec: self, plane, before: &before, heading, flat, span };
-        let found = round(&arc.shape, plane, start, end, &now)?;
+        let found = solve_arc(&arc.shape, plane, start, end, &now)?;
         if found == Err(ArcFault::Straight) {
             self.heading = Heading::From(before);
             self.modes.motion = Motion::Feed;
@@ -159,7 +159,7 @@ impl Exec {
         if found == Err(ArcFault::NoWay) {
             return self.fault(Fault::NoArc, span);
         }
-        let Round { centre, end, turn } = self.shaped(found, span)?;
+        let SolvedArc { centre, end, turn } = self.shaped(found, span)?;
         self.position[first as usize] = end[0];
         self.position[second as usize] = end[1];
         self.go_round(Way { plane, turn, turns: arc.turns, before, centre }, span, out)

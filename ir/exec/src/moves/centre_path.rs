@@ -12,7 +12,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry;
 use ncc_ir::geometry::arc_feed::centre_speed;
-use ncc_ir::geometry::beside::{Beside, Leg, Rules, Spot, Unreachable};
+use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Rules, Spot, Unreachable};
 use ncc_ir::program::{CutterRadius, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -22,7 +22,7 @@ pub(crate) struct CentrePath {
     rules: Rules,
     /// Radius, less than nothing for the other side; `None` while compensation is off.
     radius: Option<f64>,
-    path: Option<Beside>,
+    path: Option<OffsetPath>,
     /// The plane, and its axes.
     plane: Plane,
     axes: [usize; 2],
@@ -275,7 +275,7 @@ impl CentrePath {
             }
             return Ok(());
         };
-        let refuse = |what: &str| Diagnostic::new(Fault::CannotSay { what: what.into() }, span);
+        let refuse = |what: &str| Diagnostic::new(Fault::TargetLacks { what: what.into() }, span);
         let programmed = event.end;
         if programmed[Axis::A as usize..] != self.contour[Axis::A as usize..] {
             return Err(refuse("a rotary axis along a contour whose compensation is computed"));
@@ -300,7 +300,7 @@ impl CentrePath {
         let left = (side == Some(Side::Left)) == (radius > 0.0);
         match &mut self.path {
             None => {
-                let path = Beside::enter(radius.abs(), left, self.rules, from, to)
+                let path = OffsetPath::enter(radius.abs(), left, self.rules, from, to)
                     .map_err(|why| unreachable(why, span))?;
                 put(&mut event.end, self.axes, path.now());
                 self.path = Some(path);

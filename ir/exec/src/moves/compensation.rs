@@ -160,7 +160,7 @@ impl Exec {
         if again && self.contour.elsewhere {
             // A Sinumerik takes the block for the way onto a contour, a Fanuc for a part of it.
             let what = "cutter radius compensation switched on again without G40";
-            return self.fault(Fault::CannotSay { what: what.into() }, span);
+            return self.fault(Fault::TargetLacks { what: what.into() }, span);
         }
         if again && (on.side, on.plane, on.radius) != (new.side, new.plane, new.radius) {
             return self
@@ -188,7 +188,7 @@ impl Exec {
         let none =
             || self.fault(Fault::NotExecuted { what: "compensation by a radius of no entry".into() }, span);
         let entry = match radius {
-            CutterRadius::Entry(entry) => match u32::try_from(self.whole(entry, span)?) {
+            CutterRadius::Entry(entry) => match u32::try_from(self.whole_number(entry, span)?) {
                 Ok(entry) => entry,
                 Err(_) => return self.fault(Fault::OutOfRange { word: "".into() }, span),
             },
@@ -297,7 +297,7 @@ impl Exec {
                         Some(at) => (NOWHERE, at),
                         None => (STILL, span),
                     };
-                    return self.fault(Fault::CannotSay { what: what.into() }, at);
+                    return self.fault(Fault::TargetLacks { what: what.into() }, at);
                 }
                 if let Some(event) = out.get_mut(events) {
                     event.state.compensation.gap = true;
@@ -335,7 +335,7 @@ impl Exec {
             let feed = match (self.state.advice & arc_feed::ADVICE) >> AdviceKind::CompensatedFeed.bits() {
                 0 => {
                     self.asked |= Behaviour::FeedOnArcs.bit();
-                    ArcFeed::of(&self.world.behaviours)
+                    ArcFeed::from_behaviours(&self.world.behaviours)
                 }
                 value => ArcFeed::stated(value as u8 - 1),
             };
@@ -410,12 +410,12 @@ impl Exec {
             Op::SynchronisedFeed(_) => Some("a thread under cutter radius compensation"),
             Op::ChangeTool => Some("a tool change under cutter radius compensation"),
             Op::UseToolLengthOffset(entry) => {
-                let entry = u32::try_from(self.whole(entry, span)?).unwrap_or(u32::MAX);
+                let entry = u32::try_from(self.whole_number(entry, span)?).unwrap_or(u32::MAX);
                 (length != Length::Entry(entry)).then_some("another length under cutter radius compensation")
             }
             Op::UseToolLength(_) => Some("another length under cutter radius compensation"),
             Op::UseToolEdge { edge, .. } => {
-                let edge = u32::try_from(self.whole(edge, span)?).unwrap_or(u32::MAX);
+                let edge = u32::try_from(self.whole_number(edge, span)?).unwrap_or(u32::MAX);
                 (length != self.edge(edge)).then_some("another edge under cutter radius compensation")
             }
             Op::SetData(data) => match **data {

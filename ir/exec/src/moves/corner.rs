@@ -38,7 +38,7 @@ struct Held {
     leg: Leg,
     event: Event,
     /// What was told since.
-    told: Vec<Event>,
+    reported: Vec<Event>,
 }
 
 /// What a statement is to a corner.
@@ -133,7 +133,7 @@ impl Exec {
         let before = out.len();
         self.step_on_way(stmt, out)?;
         if let Some(held) = &mut corner.held {
-            held.told.extend(out.drain(before..));
+            held.reported.extend(out.drain(before..));
         }
         self.corner = Some(corner);
         Ok(())
@@ -191,7 +191,7 @@ impl Exec {
             Some(_) if leg.from == leg.to => {
                 return no_corner(corner::CornerFault::TooLarge.words(), span);
             }
-            Some(asked) => corner.held = Some(Held { asked, plane, leg, event, told: Vec::new() }),
+            Some(asked) => corner.held = Some(Held { asked, plane, leg, event, reported: Vec::new() }),
             None if leg.from == leg.to => {}
             None => out.push(event),
         }
@@ -247,7 +247,7 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        let Held { asked, plane: own, leg: before, mut event, mut told } = held;
+        let Held { asked, plane: own, leg: before, mut event, mut reported } = held;
         if own != plane {
             return no_corner("a change of the plane at a corner", span);
         }
@@ -269,7 +269,7 @@ impl Exec {
         let made = made.map_err(|fault| Diagnostic::new(fault.fault(), asked.span))?;
         let Some(made) = made else {
             out.push(event);
-            out.append(&mut told);
+            out.append(&mut reported);
             return Ok(());
         };
         let (first, second, _) = plane.axes();
@@ -297,7 +297,7 @@ impl Exec {
         }
         self.feed_of_arcs(&mut inserted);
         out.extend(inserted);
-        out.append(&mut told);
+        out.append(&mut reported);
         leg.from = made.to;
         Ok(())
     }

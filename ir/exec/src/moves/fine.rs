@@ -34,7 +34,7 @@ impl Increments {
     }
 
     /// The least increment of an axis, nanos of a millimetre or a degree.
-    fn of(self, axis: usize, inch: bool) -> Nanos {
+    fn least_increment(self, axis: usize, inch: bool) -> Nanos {
         let least = ONE / 10_i64.pow(u32::from(self.digits(axis, inch).min(9)));
         if inch && axis < 3 { least * 127 / 5 } else { least }
     }
@@ -73,7 +73,9 @@ impl Exec {
     /// An incremental way of an axis as the control takes it.
     #[cold]
     pub(crate) fn cut_off(&mut self, axis: usize, way: Nanos) -> Nanos {
-        let Some(least) = self.world.increments.map(|all| all.of(axis, self.modes.inch)) else { return way };
+        let Some(least) = self.world.increments.map(|all| all.least_increment(axis, self.modes.inch)) else {
+            return way;
+        };
         let rest = way % least;
         if rest == 0 || !self.does(DIGITS) { way } else { way - rest }
     }
@@ -93,7 +95,7 @@ impl Exec {
             }
             let fine = |(axis, word): (usize, &Option<Coord>)| {
                 let nanos = word.as_ref().and_then(|word| word.value.literal()).and_then(|n| n.nanos(inch));
-                nanos.is_some_and(|nanos| nanos % increments.of(axis, inch) != 0)
+                nanos.is_some_and(|nanos| nanos % increments.least_increment(axis, inch) != 0)
             };
             words_of(&stmt.op).is_some_and(|to| to.axes.iter().take(AXES).enumerate().any(fine))
         })

@@ -8,17 +8,17 @@ use ncc_ir::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::places::{Here, Places};
+use ncc_ir::geometry::hole_positions::{Here, HolePositions};
 use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift, next_peck};
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
 
 /// Most pecks of one hole; more is a slip of the pen.
-const MOST_PECKS: i64 = 100_000;
+const MAX_PECKS: i64 = 100_000;
 
 /// A cycle in force, in program coordinates.
 #[derive(Clone, Debug)]
-pub(crate) struct InForce {
+pub(crate) struct ActiveCycle {
     plane: Plane,
     initial: Nanos,
     /// The work offset in which the initial level was found.
@@ -37,7 +37,7 @@ pub(crate) struct InForce {
     way: Way,
 }
 
-impl InForce {
+impl ActiveCycle {
     /// Its plane, the retract plane and the bottom.
     pub(crate) fn levels(&self) -> (Plane, Nanos, Nanos) {
         (self.plane, self.retract, self.depth)
@@ -220,7 +220,7 @@ impl Exec {
             self.counts_z(true);
         }
         self.modes.motion = Motion::Cycle;
-        self.cycle = Some(InForce {
+        self.cycle = Some(ActiveCycle {
             plane,
             initial,
             initial_in,
@@ -267,7 +267,7 @@ impl Exec {
         let (peck, first) = (self.value(words[0], span)?, self.value(words[1], span)?);
         let less = less.map(|less| self.value(less, span)).transpose()?;
         let grows = less.is_some_and(|less| less < 0 || first < peck);
-        if peck <= 0 || first <= 0 || grows || way / peck > MOST_PECKS {
+        if peck <= 0 || first <= 0 || grows || way / peck > MAX_PECKS {
             return self.fault(Fault::OutOfRange { word: "depth of a peck".into() }, span);
         }
         Ok(Strokes { first, peck, less, pause: None, dwell: None })
@@ -306,7 +306,8 @@ impl Exec {
         };
         let (first, second, _) = cycle.plane.axes();
         let (f, s) = (first as usize, second as usize);
-        let places = Places::of(pattern, cycle.plane, &Now { exec: self, axes: [f, s], span })?;
+        let places =
+            HolePositions::from_pattern(pattern, cycle.plane, &Now { exec: self, axes: [f, s], span })?;
         for k in 0..places.count() {
             self.hole_at(&cycle, f, s, places.get(k), span, out)?;
         }
@@ -315,7 +316,7 @@ impl Exec {
 
     fn hole_at(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         first: usize,
         second: usize,
         at: [Nanos; 2],
@@ -332,7 +333,7 @@ impl Exec {
     /// commanded in the plane, which takes a waiting length up.
     fn make_hole(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         next: [Nanos; AXES],
         z: bool,
         span: Span,
@@ -379,7 +380,7 @@ impl Exec {
     }
 
     /// Refuses a hole of which the level to return to is not known: that of another work offset or length.
-    fn level_is_known(&mut self, cycle: &InForce, level: Nanos, span: Span) -> Result<(), Diagnostic> {
+    fn level_is_known(&mut self, cycle: &ActiveCycle, level: Nanos, span: Span) -> Result<(), Diagnostic> {
         let normal = cycle.plane.axes().2 as usize;
         if cycle.return_plane.is_none()
             && level != cycle.retract
@@ -404,7 +405,7 @@ impl Exec {
     /// to return to.
     fn cut_hole(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         out_to: Nanos,
         span: Span,
         out: &mut Vec<Event>,
@@ -507,7 +508,7 @@ impl Exec {
     /// What the spindle does after the hole, at the level to return to; `turned` is what it did before.
     fn after_hole(
         &mut self,
-        cycle: &InForce,
+        cycle: &ActiveCycle,
         turned: Spindle,
         span: Span,
         out: &mut Vec<Event>,

@@ -3,7 +3,7 @@
 //! As far as its number says; or the shortest way to that angle; or to that angle in the direction of the number's sign.
 //! From a place that the program has not said itself it turns as its number says on all controls: nobody could tell.
 //!
-//! Not here: words that say the way themselves (`conduct`).
+//! Not here: words that say the way themselves (`motion_modes`).
 
 use crate::Exec;
 use ncc_ir::behaviour::Behaviour;

@@ -1,6 +1,6 @@
 //! What a speed of the spindle counts, and its limit: what needs to be so before anything happens.
 //!
-//! Not here: turning and stopping it (`conduct`), and what goes in step with it (`thread`).
+//! Not here: turning and stopping it (`motion_modes`), and what goes in step with it (`thread`).
 
 use crate::{Attribute, Event, Exec, Kind};
 use ncc_ir::canon::{Spindle, SpindleMode, Units};

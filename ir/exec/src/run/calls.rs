@@ -20,7 +20,7 @@ impl<'p> Runner<'p> {
     #[inline]
     pub(super) fn goes_on(&mut self, from: At, span: Span) -> Result<(), Diagnostic> {
         let back = self.at < from && !self.asks();
-        if back && self.rounds.again(self.at, &self.variables, &self.calls, &self.turns, &self.blocks) {
+        if back && self.endless_loop.again(self.at, &self.variables, &self.calls, &self.turns, &self.blocks) {
             return Err(Diagnostic::new(Fault::Endless, span));
         }
         Ok(())

@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use crate::run::repeated;
 use crate::run::term::{Indexed, Names, Place, Term};
 use ncc_ir::expr::{Expr, Target};
 use ncc_ir::program::arguments;
@@ -285,7 +286,7 @@ impl<'p> Maker<'p> {
             }
             Op::Return => Step::Return(stmt),
             Op::RepeatBlocks(repeat) => {
-                let blocks = crate::run::blocks_again(body, place, &repeat.from, repeat.to.as_deref());
+                let blocks = repeated::blocks_again(body, place, &repeat.from, repeat.to.as_deref());
                 let steps = blocks.map(|blocks| (begins[blocks.start], begins[blocks.end]));
                 let computed = repeat.times.literal().is_none();
                 let times = self.code.names.term(&repeat.times);

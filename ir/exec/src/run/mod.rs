@@ -9,26 +9,27 @@
 
 mod calls;
 pub(crate) mod code;
+pub(crate) mod endless_loop;
 pub(crate) mod entry;
 pub(crate) mod go;
 pub(crate) mod left;
-pub(crate) mod needed;
 pub(crate) mod nesting;
-pub(crate) mod rounds;
+mod repeated;
+pub(crate) mod required_arguments;
 pub(crate) mod term;
 
-use std::ops::Range;
 use std::rc::Rc;
 
 use super::{Exec, message};
 use crate::halt;
 use crate::run::code::{At, Code, Declared, Step};
-use crate::run::needed::needed;
+use crate::run::endless_loop::EndlessLoop;
 use crate::run::nesting::{Blocks, Frame};
-use crate::run::rounds::Rounds;
+pub use crate::run::repeated::again;
+use crate::run::required_arguments::required_arguments;
 use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why, real};
 use ncc_ir::canon::FeedMode;
-use ncc_ir::computed::code_of::is_last;
+use ncc_ir::computed::computed_code::is_last;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::expr::value::Value;
@@ -65,7 +66,7 @@ pub struct Runner<'p> {
     pub(super) steps: u64,
     /// Steps at the last event.
     pub(super) eventful: u64,
-    rounds: Rounds,
+    endless_loop: EndlessLoop,
     /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
     taken: Vec<u8>,
     /// Most steps of all.
@@ -73,7 +74,7 @@ pub struct Runner<'p> {
     /// Most steps between two statements that are executed by themselves.
     pub(super) most_idle: u64,
     /// Parameters of the main procedure that are read, with the place where it begins.
-    pub(super) needed: Vec<(Var, Place, Span)>,
+    pub(super) required: Vec<(Var, Place, Span)>,
 }
 
 /// No step.
@@ -83,7 +84,7 @@ impl<'p> Runner<'p> {
     /// Ready to run the main procedure.
     pub fn new(program: &'p Program) -> Runner<'p> {
         let code = Code::new(program);
-        let needed = needed(program, &code.names);
+        let required = required_arguments(program, &code.names);
         let (parameters, given) = (Rc::new([]), Rc::new([]));
         let main =
             Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, shared: false, parameters, given };
@@ -97,11 +98,11 @@ impl<'p> Runner<'p> {
             now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
             steps: 0,
             eventful: 0,
-            rounds: Rounds::default(),
+            endless_loop: EndlessLoop::default(),
             taken: vec![0; code.steps.len()],
             most: MOST_STEPS,
             most_idle: MOST_IDLE,
-            needed,
+            required,
             code: Rc::new(code),
         }
     }
@@ -114,6 +115,18 @@ impl<'p> Runner<'p> {
                 self.variables.set(place, value);
             }
         }
+    }
+
+    /// What the main procedure takes must be given to it from elsewhere.
+    #[cold]
+    pub(crate) fn parameters_have_values(&self) -> Result<(), Diagnostic> {
+        for (var, place, span) in &self.required {
+            if self.variables.get(*place) == Value::Vacant {
+                let name = var.name().into();
+                return Err(Diagnostic::new(Fault::VariableUnset { name }, *span));
+            }
+        }
+        Ok(())
     }
 
     /// The block of the step that was made last.
@@ -142,7 +155,7 @@ impl<'p> Runner<'p> {
     /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
     /// were, 0 to 2, as of [`Runner::add_taken`]. Checks that the call of a cycle makes of its own values are not
     /// the program's decisions.
-    pub fn untaken(&self, all: &[u8]) -> Vec<(Span, u8)> {
+    pub fn uncovered_branches(&self, all: &[u8]) -> Vec<(Span, u8)> {
         let steps = self.code.steps.iter().zip(all).enumerate();
         let mut found: Vec<(Span, u8)> = steps
             .filter_map(|(at, (step, taken))| match step {
@@ -496,29 +509,4 @@ fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
     // Half away from zero.
     let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
     Ok(Some(Num { mantissa, scale, point: true, unit }))
-}
-
-/// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of
-/// another label's block.
-pub fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str>) -> Option<&'p [Stmt]> {
-    blocks_again(body, at, from, to).map(|blocks| &body[blocks])
-}
-
-/// Their places in the body.
-pub(super) fn blocks_again(body: &[Stmt], at: usize, from: &str, to: Option<&str>) -> Option<Range<usize>> {
-    let label =
-        |name: &str| body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name));
-    let start = label(from)?;
-    let end = match to {
-        None => {
-            // The repetition's own block is not executed again.
-            (start..=at).rev().find(|&i| !body[i].joined)?.max(start)
-        }
-        Some(to) => {
-            let last = label(to).filter(|last| *last >= start)?;
-            let block = body[last + 1..at].iter().take_while(|s| s.joined).count();
-            last + 1 + block
-        }
-    };
-    Some(start..end)
 }

@@ -41,7 +41,7 @@ impl Comparison {
         }
         match &self.seen {
             None => self.same_tooled(a, b),
-            Some(seen) => self.same_tooled(&seen.of(a), &seen.of(b)),
+            Some(seen) => self.same_tooled(&seen.as_seen(a), &seen.as_seen(b)),
         }
     }
 

@@ -12,7 +12,7 @@ use ncc_ir::canon::{AXES, Axis, Fact, Plane};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::round::{ArcRule, Around, Round, round};
+use ncc_ir::geometry::arc_solver::{ArcRule, Around, SolvedArc, solve_arc};
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::kinds::{conduct, miscellaneous};
@@ -27,8 +27,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(ARC) && !l.target.caps.arcs.forms,
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ArcFormState>(), &l.target, p.diags),
+        |l, p| {
+            convert_arc_form(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ArcFormState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -50,11 +59,13 @@ enum Heading {
 
 /// Writes them by their centre.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut ArcFormState::default(), target, diags));
+    each_body(program, entry, |body, walk| {
+        convert_arc_form(body, walk, &mut ArcFormState::default(), target, diags)
+    });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_arc_form(
     body: &mut [Stmt],
     walk: &mut Walk,
     state: &mut ArcFormState,
@@ -184,7 +195,7 @@ impl Around for Known<'_> {
     fn value(&self, value: &Expr) -> Result<Nanos, Fault> {
         self.at.nanos(value).ok_or(match self.at.modes.units {
             None => Fault::EntryFactNeeded { fact: ModeName::Units },
-            Some(_) => Fault::CannotSay { what: "an arc with a computed value".into() },
+            Some(_) => Fault::TargetLacks { what: "an arc with a computed value".into() },
         })
     }
 
@@ -192,7 +203,7 @@ impl Around for Known<'_> {
         let (first, second, normal) = self.plane.axes();
         let via = self.at.target(point);
         if via[normal as usize] != self.at.position[normal as usize] {
-            return Err(Fault::CannotSay { what: "a circle in space".into() });
+            return Err(Fault::TargetLacks { what: "a circle in space".into() });
         }
         let at =
             |axis: Axis| via[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
@@ -212,7 +223,7 @@ impl Around for Known<'_> {
                 Ok([along(first)?, along(second)?])
             }
             Heading::Unknown => {
-                Err(Fault::CannotSay { what: "a tangent arc after a move that is not known".into() })
+                Err(Fault::TargetLacks { what: "a tangent arc after a move that is not known".into() })
             }
         }
     }
@@ -241,11 +252,11 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
     let end = walk.at.target(&arc.to);
     let at = |axis: Axis| end[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
     let end = [at(first)?, at(second)?];
-    let found = round(&arc.shape, plane, start, end, &known)?;
+    let found = solve_arc(&arc.shape, plane, start, end, &known)?;
     if found == Err(ArcFault::Straight) {
         return Ok((Op::StraightFeed(Move { to: arc.to.clone(), said: arc.said }), None));
     }
-    let Round { centre, end, turn } = found.map_err(|fault| match fault {
+    let SolvedArc { centre, end, turn } = found.map_err(|fault| match fault {
         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
         ArcFault::NoWay | ArcFault::Straight => Fault::NoArc,
         ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },

@@ -15,7 +15,7 @@ use crate::support::write::is_absolute;
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::{Arc, Centre, CentreFrom};
 
@@ -31,7 +31,7 @@ pub(crate) enum Judged {
 
 /// Judges an arc by the target's rule, for the walk that stands before it. What the source's rule refuses is left to
 /// the source's execution.
-pub(crate) fn over(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
+pub(crate) fn judge_radii(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
     let Some(plane) = walk.at.plane(arc.plane) else { return Judged::Kept };
     let (first, second, _) = plane.axes();
     let unknown = |axis: Axis| walk.at.position[axis as usize].is_none();
@@ -77,7 +77,9 @@ fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: 
         Err(ArcFault::EndOffCircle { radii, allowed }) => {
             Judged::Refused(Fault::ArcRadiiDiffer { radii, allowed })
         }
-        Err(ArcFault::NoRadius) => Judged::Refused(Fault::CannotSay { what: "an arc of this radius".into() }),
+        Err(ArcFault::NoRadius) => {
+            Judged::Refused(Fault::TargetLacks { what: "an arc of this radius".into() })
+        }
         _ => Judged::Kept,
     }
 }

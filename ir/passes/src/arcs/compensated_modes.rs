@@ -7,7 +7,7 @@
 //! Not here: what every control refuses there, and what the source's does, which are execution's.
 
 use crate::pass::{Moment, Pass, Step};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::write::{Rebuild, rebuild};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::compensated::Refused;
@@ -30,16 +30,22 @@ pub(crate) const PASS: Pass = Pass {
         },
         run: |l, p| {
             let entries = l.entries.clone();
-            over(p.stmts, l.states.of::<CompensatedModesState>(), entries.as_deref(), p.diags);
+            convert_compensated_modes(
+                p.stmts,
+                l.states.state_mut::<CompensatedModesState>(),
+                entries.as_deref(),
+                p.diags,
+            );
         },
         otherwise: |l, p| {
-            let own = l.states.of::<CompensatedModesState>();
+            let own = l.states.state_mut::<CompensatedModesState>();
             if own.refused.any() {
                 own.note(p.stmts);
             }
         },
         first: None,
     }),
+    program: &[],
     parametric: None,
 };
 
@@ -114,7 +120,7 @@ impl CompensatedModesState {
 /// Brings statements into a form that the target takes.
 ///
 /// `entries` is what holds after each call and label.
-pub(crate) fn over(
+pub(crate) fn convert_compensated_modes(
     stmts: &mut Vec<Stmt>,
     state: &mut CompensatedModesState,
     entries: Option<&Known>,

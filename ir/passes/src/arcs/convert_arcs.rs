@@ -18,6 +18,17 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
 /// This pass.
+pub(crate) const BY_CENTRE: Pass =
+    Pass::named("arcs-by-centre", "gives arcs by radius their centre", Some(by_centre));
+
+/// This pass.
+pub(crate) const BY_RADIUS: Pass = Pass::named(
+    "arcs-by-radius",
+    "gives arcs their radius instead of the centre, where it says the same",
+    Some(by_radius),
+);
+
+/// This pass.
 pub(crate) const FINE: Pass = Pass {
     name: "fine-arcs",
     about: "refuses arcs that the target's digits do not resolve",
@@ -27,6 +38,7 @@ pub(crate) const FINE: Pass = Pass {
         |_, p| p.needs(ARC),
         |l, p| too_fine(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

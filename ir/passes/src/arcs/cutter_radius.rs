@@ -25,8 +25,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(RADIUS),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<CutterRadiusState>(), &l.target, p.diags),
+        |l, p| {
+            convert_radius(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<CutterRadiusState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -34,7 +43,7 @@ pub(crate) const PASS: Pass = Pass {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CutterRadiusState {
     /// Whether entry and exit were told.
-    told: bool,
+    reported: bool,
     /// Entries of the tables that were told.
     entries: Vec<u32>,
 }
@@ -42,11 +51,11 @@ pub(crate) struct CutterRadiusState {
 /// Names radii as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = CutterRadiusState::default();
-    each_body(program, entry, |body, walk| over(body, walk, &mut state, target, diags));
+    each_body(program, entry, |body, walk| convert_radius(body, walk, &mut state, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_radius(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut CutterRadiusState,
@@ -69,7 +78,7 @@ pub(crate) fn over(
                 }
                 Err(fault) => diags.push(Diagnostic::new(fault, span)),
             }
-            if target.other_control && !std::mem::replace(&mut state.told, true) {
+            if target.other_control && !std::mem::replace(&mut state.reported, true) {
                 diags.push(Diagnostic::new(Fault::AssumedContourEnds, span));
             }
         }
@@ -84,7 +93,7 @@ fn number(n: i64) -> Option<u32> {
 
 /// A radius as the target names it, and the entry that it is taken for where that is another way.
 fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRadius, Option<u32>), Fault> {
-    let cannot = |what: String| Err(Fault::CannotSay { what: what.into() });
+    let cannot = |what: String| Err(Fault::TargetLacks { what: what.into() });
     if *radii == Radii::default() {
         return cannot("cutter radius compensation".into());
     }
@@ -92,7 +101,9 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRa
     let length = at.modes.length_offset.filter(|n| *n > 0);
     // Where the tables have it, as far as the program shows.
     let (entry, can) = match radius {
-        CutterRadius::Entry(entry) => (entry.literal().and_then(|n| n.whole()).and_then(number), radii.entry),
+        CutterRadius::Entry(entry) => {
+            (entry.literal().and_then(|n| n.whole_number()).and_then(number), radii.entry)
+        }
         CutterRadius::Tool => (tool, radii.tool),
         CutterRadius::InForce => (length, radii.in_force),
         CutterRadius::Diameter(_) => (None, radii.diameter),

@@ -4,7 +4,7 @@
 //! The radius must be known: the program states a diameter, has put a radius into the table, or a profile
 //! has the tool's. Every leg is written with coordinates of the plane from program zero; corners away from
 //! the tool get an arc before the move that follows them. Refused is a contour that cannot be gone along
-//! without cutting into it ([`ncc_ir::geometry::beside`]), and what would have to be known and is not: a position, what
+//! without cutting into it ([`ncc_ir::geometry::offset_path`]), and what would have to be known and is not: a position, what
 //! a block that may be skipped does, a called program, frames that turn left into right or scale.
 //!
 //! Where F counts along the contour on arcs ([`ncc_ir::geometry::arc_feed`]), each arc gets the F of the tool centre that takes the
@@ -13,23 +13,31 @@
 mod contour;
 mod written;
 
+use crate::pass::Pass;
 use std::collections::BTreeMap;
 
 use self::contour::{Contour, contour};
-use self::written::Written;
+use self::written::{Written, cannot, mm, nanos, straight};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
 use ncc_exec::world::Tables;
 use ncc_ir::canon::{AdviceKind, FeedMode, Motion, Plane, Side};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::expr::num::{Nanos, Num, ONE};
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::arc_feed::ArcFeed;
-use ncc_ir::geometry::beside::{Beside, Leg, Rules, Unreachable};
+use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Rules, Unreachable};
 use ncc_ir::program::kinds::flow;
-use ncc_ir::program::{CutterRadius, Data, Move, Op, Point, Program, Stmt};
+use ncc_ir::program::{CutterRadius, Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named(
+    "expand-compensation",
+    "writes the path of the tool's centre for cutter radius compensation",
+    Some(run),
+);
 
 /// How compensation is worked out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,7 +58,7 @@ pub struct Compensating {
 
 /// Works compensation out.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    let mut told = false;
+    let mut reported = false;
     let begins = target.compensating.arc_feed;
     let mut one = Some(begins);
     program.procedures.iter().for_each(|procedure| only_meaning(&procedure.body, &mut one));
@@ -64,7 +72,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
             on: None,
             leaving: None,
             no_arc: false,
-            told: std::mem::take(&mut told),
+            reported: std::mem::take(&mut reported),
             one_meaning: one.is_some(),
             // A subprogram has the meaning of its caller.
             arc_feed: one.or(main.then_some(begins)),
@@ -78,7 +86,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
                 (pass.on, pass.leaving) = (None, None);
             }
         });
-        told = pass.told;
+        reported = pass.reported;
     });
 }
 
@@ -92,7 +100,7 @@ struct Expansion<'t> {
     leaving: Option<Plane>,
     /// The next move must be straight.
     no_arc: bool,
-    told: bool,
+    reported: bool,
     /// Whether all arcs of the program have one meaning of F.
     one_meaning: bool,
     /// What F counts on arcs; `None` is not known here.
@@ -117,19 +125,6 @@ fn only_meaning(body: &[Stmt], one: &mut Option<ArcFeed>) {
             _ => {}
         }
     }
-}
-
-fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
-    let what = format!("{what} under cutter radius compensation that is worked out");
-    Err(Diagnostic::new(Fault::CannotSay { what: what.into() }, span))
-}
-
-fn mm(nanos: Nanos) -> f64 {
-    nanos as f64 / ONE as f64
-}
-
-fn nanos(mm: f64) -> Nanos {
-    (mm * ONE as f64).round() as Nanos
 }
 
 impl Expansion<'_> {
@@ -159,7 +154,7 @@ impl Expansion<'_> {
                     Fault::CompensationExpanded { radius: nanos(contour.radius) },
                     span,
                 ));
-                if !self.how.known && !std::mem::replace(&mut self.told, true) {
+                if !self.how.known && !std::mem::replace(&mut self.reported, true) {
                     diags.push(Diagnostic::new(Fault::AssumedContourPath, span));
                 }
                 let side = if contour.left { Side::Left } else { Side::Right };
@@ -240,7 +235,7 @@ impl Expansion<'_> {
                 let radius = mm(at.nanos(diameter).ok_or(fault)?) / 2.0;
                 return Ok(contour(plane, side, radius, span));
             }
-            CutterRadius::Entry(n) => entry(n.literal().and_then(|n| n.whole())),
+            CutterRadius::Entry(n) => entry(n.literal().and_then(|n| n.whole_number())),
             CutterRadius::Tool => entry(at.tool),
             CutterRadius::InForce => at.modes.length_offset.filter(|n| *n > 0),
         };
@@ -317,7 +312,7 @@ impl Expansion<'_> {
         let part = match leg {
             Leg::Arc { .. } => {
                 let feed = self.arc_feed.ok_or_else(|| {
-                    refuse(Fault::CannotSay {
+                    refuse(Fault::TargetLacks {
                         what: "an arc under cutter radius compensation that is worked out, where what F counts on it is not known"
                             .into(),
                     })
@@ -331,7 +326,7 @@ impl Expansion<'_> {
         if enters {
             self.leaving = None;
         }
-        let now = contour.path.as_ref().map_or(to, Beside::now);
+        let now = contour.path.as_ref().map_or(to, OffsetPath::now);
         let words = writer.spot(now, writer.others(words).map_err(refuse)?);
         let op = match leg {
             Leg::Arc { centre, ccw, turns } => writer.arc(words, centre, ccw, turns),
@@ -457,7 +452,7 @@ impl Expansion<'_> {
                 let named = m.to.get(first).is_some() || m.to.get(second).is_some();
                 if named || self.how.rules.left_at_once {
                     let writer = Written { walk, decimals: self.decimals, plane };
-                    m.to = writer.whole(&m.to).map_err(|fault| Diagnostic::new(fault, span))?;
+                    m.to = writer.absolute_point(&m.to).map_err(|fault| Diagnostic::new(fault, span))?;
                     self.leaving = None;
                 }
             }
@@ -467,14 +462,6 @@ impl Expansion<'_> {
         walk.step(&stmt);
         made.push(stmt);
         Ok(())
-    }
-}
-
-fn straight(motion: Motion, to: Point) -> Op {
-    let to = Move { to, said: true };
-    match motion {
-        Motion::Traverse => Op::StraightTraverse(to),
-        Motion::Feed | Motion::Arc(_) | Motion::Cycle => Op::StraightFeed(to),
     }
 }
 

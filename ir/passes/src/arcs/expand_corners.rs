@@ -31,10 +31,10 @@ pub(crate) const PASS: Pass = Pass {
         |l, p| {
             let (found, whole) = (p.diags.len(), p.needs(FRAME));
             let keep = if whole { Keep::None } else { Keep::Sayable };
-            over(
+            expand_corners(
                 p.stmts,
                 &mut p.start.clone(),
-                l.states.of::<ExpandCornersState>(),
+                l.states.state_mut::<ExpandCornersState>(),
                 &l.target,
                 keep,
                 p.diags,
@@ -44,6 +44,7 @@ pub(crate) const PASS: Pass = Pass {
             p.needs |= if written { l.lacks & ARC } else { 0 };
         },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -78,14 +79,14 @@ fn no_next() -> Fault {
 }
 
 fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }
 
 /// Writes them out.
 pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = ExpandCornersState::default();
-        over(body, walk, &mut state, target, Keep::Sayable, diags);
+        expand_corners(body, walk, &mut state, target, Keep::Sayable, diags);
         state.flush(body, diags);
     });
 }
@@ -123,7 +124,7 @@ struct Before {
 }
 
 /// The same for one piece of a body. What waits for its next move stays behind.
-pub(crate) fn over(
+pub(crate) fn expand_corners(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ExpandCornersState,

@@ -11,7 +11,7 @@ use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry;
-use ncc_ir::geometry::beside::{Leg, Spot};
+use ncc_ir::geometry::offset_path::{Leg, Spot};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt, Turns};
 use ncc_ir::track::Tracker;
@@ -24,8 +24,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(ARC) && !l.target.caps.arcs.turns,
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| expand_turns(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -34,11 +35,16 @@ const MOST_TURNS: u32 = 10_000;
 
 /// Splits the arcs.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| expand_turns(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn expand_turns(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     rebuild(body, |stmt, made| {
         walk.enter(stmt.skip);
         let arcs = match &stmt.op {
@@ -83,7 +89,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     let (first, second, normal) = plane.axes();
     let words = [first, second, normal];
     if Axis::ALL.into_iter().any(|a| !words.contains(&a) && arc.to.get(a).is_some()) {
-        return Err(Fault::CannotSay { what: "an arc of several turns with a rotary axis".into() });
+        return Err(Fault::TargetLacks { what: "an arc of several turns with a rotary axis".into() });
     }
     // A whole turn has no radius that says it.
     let mut by_centre = arc.clone();
@@ -108,7 +114,9 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     if arc.to.get(normal).is_some() {
         if walk.waiting {
             // The length is taken up on the way, by so much more or less of it.
-            return Err(Fault::CannotSay { what: "a helix of several turns that takes a length up".into() });
+            return Err(Fault::TargetLacks {
+                what: "a helix of several turns that takes a length up".into(),
+            });
         }
         let levels = levels((arc, turns), walk, [first, second, normal])?;
         let unit = unit_of(normal, walk.unit());

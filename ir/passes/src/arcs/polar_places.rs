@@ -14,7 +14,7 @@ use ncc_ir::program::{Op, Polar};
 /// # Errors
 /// It is not known.
 pub(crate) fn by_coordinates(polar: &Polar, walk: &Walk, target: &Target) -> Result<Op, Fault> {
-    let unknown = || Fault::CannotSay {
+    let unknown = || Fault::TargetLacks {
         what: "a point by radius and angle whose place is known only when the program runs".into(),
     };
     let (at, plane, _) = walk.at.polar(polar).ok_or_else(unknown)?;

@@ -35,6 +35,7 @@ pub(crate) const PASS: Pass = Pass {
         otherwise: |_, _| {},
         first: Some(First { tried: in_its_form, kept: holes_are_kept }),
     }),
+    program: &[],
     parametric: None,
 };
 
@@ -43,7 +44,7 @@ fn in_coordinates(l: &mut Shared, p: &mut Piece) {
     // Corners and frames are worked out from exact points.
     let exact = Target { decimals: EXACT - 1, ..l.target.clone() };
     let target = if p.needs(CORNER | FRAME) { &exact } else { &l.target };
-    over(p.stmts, &mut p.start.clone(), l.states.of(), target, false, p.diags);
+    convert_polar_words(p.stmts, &mut p.start.clone(), l.states.state_mut(), target, false, p.diags);
     p.needs &= !POLAR;
 }
 
@@ -53,7 +54,7 @@ fn in_its_form(l: &mut Shared, p: &mut Piece) -> bool {
     if l.target.caps.moves.polar == PolarForm::None || p.needs(FRAME | EVERY | CORNER) || holes {
         return false;
     }
-    over(p.stmts, &mut p.start.clone(), l.states.of(), &l.target, true, p.diags);
+    convert_polar_words(p.stmts, &mut p.start.clone(), l.states.state_mut(), &l.target, true, p.diags);
     p.needs &= !POLAR;
     true
 }
@@ -83,12 +84,12 @@ pub(crate) struct PolarWordsState {
 /// Says them so.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, walk, &mut PolarWordsState::default(), target, true, diags);
+        convert_polar_words(body, walk, &mut PolarWordsState::default(), target, true, diags);
     });
 }
 
 /// The same for one piece of a body; `keep` is whether a form of the target's may be used.
-pub(crate) fn over(
+pub(crate) fn convert_polar_words(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut PolarWordsState,

@@ -26,8 +26,16 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, _| l.states.ask(|own: &StillBlocksState| own.looked_over),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<StillBlocksState>(), p.diags),
+        |l, p| {
+            drop_still_blocks(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<StillBlocksState>(),
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -37,14 +45,14 @@ pub(crate) struct StillBlocksState {
     /// The source looks over such blocks.
     pub(crate) looked_over: bool,
     /// Whether that was told.
-    told: bool,
+    reported: bool,
 }
 
 /// The fact that the blocks rest on, in messages.
 const WITHOUT_WAY: &str = "block of a compensated contour that goes nowhere";
 
 /// Leaves them out.
-pub(crate) fn over(
+pub(crate) fn drop_still_blocks(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut StillBlocksState,
@@ -54,7 +62,7 @@ pub(crate) fn over(
         walk.enter(stmt.skip);
         let still = goes_nowhere(walk, &stmt);
         walk.step(&stmt);
-        if still && !std::mem::replace(&mut state.told, true) {
+        if still && !std::mem::replace(&mut state.reported, true) {
             let (parameter, value) = (WITHOUT_WAY.into(), "looked over".into());
             diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
         }

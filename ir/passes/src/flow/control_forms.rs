@@ -21,9 +21,9 @@ use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::pass::Pass;
-use ncc_ir::computed::call_of::call_of;
-use ncc_ir::computed::changed::Changed;
-use ncc_ir::computed::computes::{Computes, Handed, Said, counted};
+use ncc_ir::computed::assigned_variables::AssignedVariables;
+use ncc_ir::computed::computed_call::computed_call;
+use ncc_ir::computed::computes::{ComputeFeature, Computes, Handed, counted};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
@@ -39,17 +39,17 @@ pub(crate) const PASS: Pass = Pass::parametric(
 
 /// Says a program's control in the target's forms.
 pub fn run(program: &mut Program, computes: &Computes) {
-    let mut taken = Names::of(program);
-    worked_out::over(program, computes, &mut taken);
-    let by_subprograms = Changed::by_subprograms(&program.procedures);
+    let mut taken = Names::from_program(program);
+    worked_out::compute_missing_words(program, computes, &mut taken);
+    let by_subprograms = AssignedVariables::by_subprograms(&program.procedures);
     let mut forms = Forms { computes, by_subprograms, taken, turning: Vec::new(), open: 0, split: false };
     for procedure in &mut program.procedures {
         if !has_control(&procedure.body) {
             continue;
         }
         forms.taken.only_once(procedure);
-        if !computes.has(Said::Jump) && computes.blocks && computes.has(Said::Leave) {
-            structures::over(procedure, &mut forms.taken, computes.opposite);
+        if !computes.has(ComputeFeature::Jump) && computes.blocks && computes.has(ComputeFeature::Leave) {
+            structures::structure_jumps(procedure, &mut forms.taken, computes.opposite);
         }
         let body = std::mem::take(&mut procedure.body);
         procedure.body = forms.body(body);
@@ -96,7 +96,7 @@ struct Loop {
 struct Forms<'c> {
     computes: &'c Computes,
     /// What may be another value when a call is made again.
-    by_subprograms: Changed,
+    by_subprograms: AssignedVariables,
     taken: Names,
     turning: Vec<Turning>,
     /// Loops that are open, of those that stay loops.
@@ -106,7 +106,7 @@ struct Forms<'c> {
 }
 
 impl Forms<'_> {
-    fn has(&self, statement: Said) -> bool {
+    fn has(&self, statement: ComputeFeature) -> bool {
         self.computes.has(statement)
     }
 
@@ -168,7 +168,7 @@ impl Forms<'_> {
     fn truth(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Assign(to, value) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
         let one = |n: i64| Stmt::new(stmt.span, Op::Assign(to.clone(), Expr::int(n)));
-        let mut changed = Changed::default();
+        let mut changed = AssignedVariables::default();
         changed.look(&[one(0)]);
         if changed.keeps(&value) && stmt.skip.is_none() {
             let (number, joined, comment) = (stmt.number, stmt.joined, stmt.comment.take());
@@ -194,7 +194,7 @@ impl Forms<'_> {
         if stmt.skip.is_some() {
             return out.push(stmt);
         }
-        let changed = Changed { shared: call.shared, ..self.by_subprograms.clone() };
+        let changed = AssignedVariables { shared: call.shared, ..self.by_subprograms.clone() };
         for argument in &mut call.arguments {
             if !changed.keeps(argument) {
                 let own = self.taken.counter("GIVEN");
@@ -219,7 +219,7 @@ impl Forms<'_> {
 
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Control(mut control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
-        if self.has(Said::CallOf) && call_of(&control).is_some() {
+        if self.has(ComputeFeature::CallOf) && computed_call(&control).is_some() {
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
         if self.computes.says_number(&control) {
@@ -262,20 +262,20 @@ impl Forms<'_> {
             Control::Loop { body } => {
                 self.turns(Loop { span, head: None, body, tail: Vec::new(), until: None }, out);
             }
-            Control::Until { condition, body } if !self.has(Said::Until) => {
+            Control::Until { condition, body } if !self.has(ComputeFeature::Until) => {
                 let until = Some(condition);
                 self.turns(Loop { span, head: None, body, tail: Vec::new(), until }, out);
             }
             Control::Until { condition, body } => {
                 self.kept(span, body, |body| Control::Until { condition, body }, out);
             }
-            Control::For { variable, from, to, step, body } if !self.has(Said::Count) => {
+            Control::For { variable, from, to, step, body } if !self.has(ComputeFeature::Count) => {
                 self.counted(span, variable, [from, to, step], body, out);
             }
             Control::For { variable, from, to, step, body } => {
                 self.kept(span, body, |body| Control::For { variable, from, to, step, body }, out);
             }
-            Control::Repeat { times, body } if !self.has(Said::Times) => {
+            Control::Repeat { times, body } if !self.has(ComputeFeature::Times) => {
                 self.times(span, times, body, out);
             }
             Control::Repeat { times, body } => {
@@ -315,12 +315,12 @@ impl Forms<'_> {
 
     /// The body of a loop that stays one, of which every turn ends with `tail`; and what stands behind the loop.
     fn turning(&mut self, body: Vec<Stmt>, span: Span, tail: &[Stmt]) -> (Vec<Stmt>, Option<Stmt>) {
-        let jumps = self.has(Said::Jump);
-        let leave = match self.has(Said::Leave) || !jumps {
+        let jumps = self.has(ComputeFeature::Jump);
+        let leave = match self.has(ComputeFeature::Leave) || !jumps {
             true => Way::Own,
             false => Way::Jump(self.taken.label("LEFT"), false),
         };
-        let next = match self.has(Said::NextTurn) || !jumps {
+        let next = match self.has(ComputeFeature::NextTurn) || !jumps {
             true if tail.is_empty() => Way::Own,
             true => Way::Behind(tail.to_vec()),
             false => Way::Jump(self.taken.label("NEXT"), false),
@@ -353,7 +353,7 @@ impl Forms<'_> {
         let when = |condition: Expr, stmt: Stmt| decided(span, condition, stmt);
         let then = self.body(then);
         let otherwise = self.body(otherwise);
-        if self.computes.blocks || !self.has(Said::Jump) {
+        if self.computes.blocks || !self.has(ComputeFeature::Jump) {
             let control = Control::If { condition, then, otherwise };
             return out.push(Stmt::new(span, Op::Control(Box::new(control))));
         }
@@ -401,7 +401,7 @@ impl Forms<'_> {
         out: &mut Vec<Stmt>,
     ) {
         let assign = |var: &Var, value: Expr| Stmt::new(span, Op::Assign(Target::Var(var.clone()), value));
-        let mut changed = Changed::default();
+        let mut changed = AssignedVariables::default();
         changed.look(&body);
         changed.variables.insert(variable.clone());
         out.push(assign(&variable, from));
@@ -452,7 +452,7 @@ impl Forms<'_> {
     }
 
     fn turns(&mut self, of: Loop, out: &mut Vec<Stmt>) {
-        let stays = of.until.is_none() && self.open < self.computes.loops || !self.has(Said::Jump);
+        let stays = of.until.is_none() && self.open < self.computes.loops || !self.has(ComputeFeature::Jump);
         if stays { self.stays_loop(of, out) } else { self.as_jumps(of, out) }
     }
 
@@ -470,7 +470,7 @@ impl Forms<'_> {
             Some(condition) if condition.literal().is_none_or(|n| n.is_zero()) => {
                 Control::While { condition, body }
             }
-            _ if self.has(Said::Endless) => Control::Loop { body },
+            _ if self.has(ComputeFeature::Endless) => Control::Loop { body },
             _ => Control::While { condition: Expr::int(1), body },
         };
         out.push(Stmt::new(span, Op::Control(Box::new(control))));

@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use crate::flow::repeat_ends;
-use crate::pass::{Moment, Pass, Step};
+use crate::pass::{Moment, Pass, ProgramMoment, ProgramStep, Step, Subprograms};
 use crate::support::needs::CONTROL;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{MOST_STATEMENTS, Target};
@@ -32,7 +32,23 @@ pub(crate) const PASS: Pass = Pass {
     name: "expand-repeats",
     about: "writes counted repetitions out",
     alone: Some(run),
-    step: Step::at(Moment::Placing, |_, p| p.needs(CONTROL), |l, p| over(p.stmts, &l.target, p.diags)),
+    step: Step::at(
+        Moment::Placing,
+        |_, p| p.needs(CONTROL),
+        |l, p| expand_repetitions(p.stmts, &l.target, p.diags),
+    ),
+    program: &[
+        ProgramStep {
+            moment: ProgramMoment::Repetitions,
+            needed: |_, _| true,
+            run: |_, p| everywhere(p.program, p.diags),
+        },
+        ProgramStep {
+            moment: ProgramMoment::SubprogramRepetitions,
+            needed: |_, p| p.subprograms == Subprograms::Expand,
+            run: |l, p| in_procedures(p.program, l.target.caps.flow.repeat_blocks, p.diags),
+        },
+    ],
     parametric: None,
 };
 
@@ -42,12 +58,12 @@ const DEEPEST: u32 = 64;
 /// Writes them out, or says them in the target's form.
 pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, target, diags);
+        expand_repetitions(&mut procedure.body, target, diags);
     }
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn expand_repetitions(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagnostic>) {
     let caps = &target.caps;
     if !caps.flow.repeats {
         if caps.flow.repeat_blocks {
@@ -70,7 +86,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagno
 
 /// Writes repetitions of blocks out, before subprograms are written out themselves; `but_main` leaves those of
 /// the main program.
-pub(crate) fn in_procedures(program: &mut Program, but_main: bool, diags: &mut Vec<Diagnostic>) {
+fn in_procedures(program: &mut Program, but_main: bool, diags: &mut Vec<Diagnostic>) {
     for procedure in program.procedures.iter_mut().skip(usize::from(but_main)) {
         if has_blocks(&procedure.body) {
             blocks(&mut procedure.body, false, diags);
@@ -84,9 +100,9 @@ pub(crate) fn repeats_blocks(program: &Program) -> bool {
 }
 
 /// Writes every repetition out.
-pub(crate) fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
+fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, &Target::default(), diags);
+        expand_repetitions(&mut procedure.body, &Target::default(), diags);
     }
 }
 
@@ -201,7 +217,8 @@ fn flatten(
                     *full = true;
                     return;
                 }
-                let written = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+                let written =
+                    times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
                 if let (None, Some(times)) = (under, written) {
                     diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
                 }
@@ -230,7 +247,7 @@ fn flatten(
 }
 
 fn cannot(what: &str, span: Span, diags: &mut Vec<Diagnostic>) {
-    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
 }
 
 /// Says repetitions of a body by labels: the body once, and its blocks again.
@@ -238,7 +255,8 @@ fn by_labels(body: &mut Vec<Stmt>, known: &BTreeSet<Text>, last: &mut u32, diags
     rebuild(body, |mut stmt, made| {
         let Stmt { span, skip, .. } = stmt;
         let Some((times, mut inner)) = repeat_of(&mut stmt) else { return made.push(stmt) };
-        let Some(times) = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok()) else {
+        let Some(times) = times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
+        else {
             cannot("a computed repetition", span, diags);
             return made.push(stmt);
         };
@@ -307,7 +325,7 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         let Stmt { span, skip, .. } = stmt;
         let (times, inner) = match &stmt.op {
             Op::Control(control) => match &**control {
-                Control::Repeat { times, body } => (times.literal().and_then(|n| n.whole()), body),
+                Control::Repeat { times, body } => (times.literal().and_then(|n| n.whole_number()), body),
                 Control::Loop { .. }
                 | Control::While { .. }
                 | Control::Until { .. }
@@ -320,7 +338,7 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         };
         let Some(times) = times.and_then(|n| u32::try_from(n).ok()) else {
             let what = "a computed repetition".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
             return made.push(stmt);
         };
         diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
@@ -328,7 +346,7 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         bodies(&mut inner, diags);
         if inner.len().saturating_mul(times as usize) > MOST_STATEMENTS {
             let what = "a repetition that is too long to be written out".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
             return made.push(stmt);
         }
         made.leave_out(stmt);

@@ -5,9 +5,10 @@
 //! word of the axis makes good, so that nothing adds up. Comments stand wherever their blocks are executed. Refused are
 //! flow and variables in blocks that a switch can take out, and programs that do not come to an end.
 
+use crate::pass::Pass;
 use std::collections::HashSet;
 
-use crate::flow::expand_calls::settle;
+use crate::support::settle::settle;
 use crate::support::walk::Walk;
 use crate::{MOST_STATEMENTS, Target};
 use ncc_exec::world::World;
@@ -17,12 +18,16 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, POW10, Unit};
 use ncc_ir::expr::value::Value;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::kinds::{flow, variables};
 use ncc_ir::program::valid;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("flatten", "executes what computes and decides, and writes straight blocks", Some(run));
 
 /// The refusal of a block that the block-skip switch takes out and that decides what is executed.
 pub const SWITCHED: &str = "a block that can be skipped and decides what is executed, written out";
@@ -133,7 +138,7 @@ fn straight(
         walk.step(&stmt);
         if out.len() >= most || target.tried_upto.is_some_and(|most| runner.steps() > u64::from(most)) {
             let what = "more blocks than a program may grow to".into();
-            return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            return Err(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
         }
         out.push(stmt);
         if over {
@@ -231,7 +236,7 @@ fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnosti
 fn no_switch(body: &[Stmt]) -> Result<(), Diagnostic> {
     for stmt in body {
         if stmt.skip.is_some() && matches!(stmt.op, flow!() | variables!()) {
-            return Err(Diagnostic::new(Fault::CannotSay { what: SWITCHED.into() }, stmt.span));
+            return Err(Diagnostic::new(Fault::TargetLacks { what: SWITCHED.into() }, stmt.span));
         }
         let Op::Control(control) = &stmt.op else { continue };
         for body in control.bodies() {

@@ -7,21 +7,36 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Target;
+use crate::pass::{Pass, ProgramMoment, ProgramStep};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "number-names",
+    about: "gives subprograms numbers where the target calls by number",
+    alone: Some(run),
+    step: None,
+    program: &[ProgramStep {
+        moment: ProgramMoment::Names,
+        needed: |_, _| true,
+        run: |l, p| number_subprograms(p.program, &l.target, p.known.is_some(), p.diags),
+    }],
+    parametric: None,
+};
 
 /// First number that is given.
 const FIRST: u32 = 1001;
 
 /// Numbers them.
 pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, target, false, diags);
+    number_subprograms(program, target, false, diags);
 }
 
 /// The same; `computes` is whether calls have variables of their own.
-pub(crate) fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
+fn number_subprograms(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
     // No digits leave every name.
     let digits = target.caps.flow.call_digits;
     let fits = |name: &str| {
@@ -46,7 +61,7 @@ pub(crate) fn over(program: &mut Program, target: &Target, computes: bool, diags
         let at = procedure.body.first().map_or(Span::default(), |s| s.span);
         let Some(number) = free.next() else {
             let what = format!("a subprogram called {}", procedure.name).into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, at));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, at));
             continue;
         };
         let name: Text = number.to_string().into();

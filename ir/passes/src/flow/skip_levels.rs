@@ -18,25 +18,26 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(SKIP),
-        |l, p| over(p.stmts, l.states.of::<SkipLevelsState>(), &l.target, p.diags),
+        |l, p| limit_skip_levels(p.stmts, l.states.state_mut::<SkipLevelsState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// Levels that were reported: bit n is level n.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SkipLevelsState {
-    told: u16,
+    reported: u16,
 }
 
 /// Makes the levels one, or refuses them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = SkipLevelsState::default();
-    each_body(program, entry, |body, _| over(body, &mut state, target, diags));
+    each_body(program, entry, |body, _| limit_skip_levels(body, &mut state, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn limit_skip_levels(
     body: &mut [Stmt],
     state: &mut SkipLevelsState,
     target: &Target,
@@ -46,13 +47,13 @@ pub(crate) fn over(
     for stmt in body {
         let Some(level) = stmt.skip.filter(|l| *l > highest) else { continue };
         let bit = 1u16 << level.min(15);
-        if state.told & bit == 0 {
-            state.told |= bit;
+        if state.reported & bit == 0 {
+            state.reported |= bit;
             let fault = match highest {
-                0 => Fault::CannotSay { what: "a block that can be skipped".into() },
+                0 => Fault::TargetLacks { what: "a block that can be skipped".into() },
                 1 => Fault::SkipLevelLost { level },
                 // Which of the target's switches is free is not known before the program's end.
-                _ => Fault::CannotSay { what: "a tenth block-skip switch".into() },
+                _ => Fault::TargetLacks { what: "a tenth block-skip switch".into() },
             };
             diags.push(Diagnostic::new(fault, stmt.span));
         }

@@ -7,7 +7,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::flow::expand_calls::{settle, settle_point};
+use crate::pass::{Pass, ProgramMoment, ProgramStep, Subprograms};
+use crate::support::settle::{settle, settle_point};
 use crate::support::walk::Walk;
 use crate::{MOST_STATEMENTS, Target};
 use ncc_ir::canon::Motion;
@@ -15,18 +16,32 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Procedure, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
 
+/// This pass. It comes before subprograms are inlined: what callers disagree about may be all that is missing.
+pub(crate) const PASS: Pass = Pass {
+    name: "specialise-procedures",
+    about: "gives subprograms what their callers have in force, a copy for each that differs",
+    alone: Some(run),
+    step: None,
+    program: &[ProgramStep {
+        moment: ProgramMoment::Calls,
+        needed: |_, p| p.subprograms == Subprograms::Specialise,
+        run: |l, p| specialise_subprograms(p.program, &l.walk, l.target.caps.flow.inherits_motion, p.diags),
+    }],
+    parametric: None,
+};
+
 /// Times that a repeated call is looked at until what holds before it does not change any more.
 const MOST_TURNS: u32 = 8;
 
 /// Settles the subprograms.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, &Walk::new(entry.clone()), false, diags);
+    specialise_subprograms(program, &Walk::new(entry.clone()), false, diags);
 }
 
 /// The same, with a walk that stands before the main procedure. With `inherits`, positions under a
 /// caller's cycle stay what they are: the target's subprograms take the cycle from their callers too,
 /// so that one serves under several.
-pub(crate) fn over(program: &mut Program, walk: &Walk, inherits: bool, diags: &mut Vec<Diagnostic>) {
+fn specialise_subprograms(program: &mut Program, walk: &Walk, inherits: bool, diags: &mut Vec<Diagnostic>) {
     let Some((main, subs)) = program.procedures.split_first() else { return };
     let mut names: BTreeSet<Text> = subs.iter().map(|p| p.name.clone()).collect();
     names.extend(program.name.number.map(|n| n.to_string().into()));

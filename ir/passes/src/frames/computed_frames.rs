@@ -15,7 +15,10 @@ mod chained;
 
 use chained::{Held, as_chain};
 
-use crate::support::known_facts::Known;
+use crate::frames::expand_frames::ExpandFramesState;
+use crate::pass::{KeptProgram, Pass, ProgramMoment, ProgramStep, Shared};
+use crate::support::mode_analysis::Known;
+use crate::support::needs::FRAME;
 use crate::support::write::{Rebuild, is_absolute, rebuild};
 use crate::values::variables::{round, rounded};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
@@ -26,14 +29,35 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::arguments;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Coord, Frame, FrameSlot, FrameStep, Op, Program, Slot, Stmt};
+use ncc_ir::source::Span;
 
-/// What becomes of a program's frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Found {
-    /// There are none but before its first decision, loop or call, with written words: they are those of straight blocks.
-    Straight,
-    /// Every statement says its frame as the target has it.
-    Said,
+/// This pass.
+pub(crate) const PASS: Pass = Pass {
+    name: "computed-frames",
+    about: "says all that is in force of frames behind each statement, where a program computes",
+    alone: None,
+    step: None,
+    program: &[ProgramStep {
+        moment: ProgramMoment::Frames,
+        needed: |_, p| behind_control(p.program),
+        run: in_shared,
+    }],
+    parametric: None,
+};
+
+/// What the legaliser runs: the target lacks no frames after it.
+fn in_shared(shared: &mut Shared, kept: &mut KeptProgram) {
+    let Some(known) = kept.known else { return };
+    if let Err(refusal) = run(kept.program, &shared.target.caps, known) {
+        return kept.refuse(refusal);
+    }
+    if shared.states.ask(ExpandFramesState::is_busy) {
+        let at = kept.program.procedures.first().and_then(|main| main.body.first());
+        let what = "other frames than those before it, where a program computes".into();
+        let at = at.map_or_else(Span::default, |stmt| stmt.span);
+        return kept.refuse(Diagnostic::new(Fault::Computes { what }, at));
+    }
+    shared.lacks &= !FRAME;
 }
 
 /// Whether a program has frames behind its first statement of control, or computed ones, so that every block has to say by itself from
@@ -46,27 +70,25 @@ pub fn behind_control(program: &Program) -> bool {
     used.behind
 }
 
-/// Says the frames of a program so.
+/// Says the frames of a program so, which has frames behind its first statement of control. `known` is what holds where
+/// stretches of its blocks begin.
 ///
 /// # Errors
 /// The first one that cannot be said, at its place.
-pub(crate) fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<Found, Diagnostic> {
+fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<(), Diagnostic> {
     let mut used = Used::default();
     for (at, procedure) in program.procedures.iter().enumerate() {
         used.look(&procedure.body, at == 0, caps);
-    }
-    if !used.behind {
-        return Ok(Found::Straight);
     }
     if used.increments {
         program.procedures.iter().try_for_each(|procedure| absolute(&procedure.body, known))?;
     }
     if used.unsaid {
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
-            over(&mut procedure.body, &used, caps, Held::at_start(&used, at == 0))?;
+            state_frames(&mut procedure.body, &used, caps, Held::at_start(&used, at == 0))?;
         }
     }
-    Ok(Found::Said)
+    Ok(())
 }
 
 /// Whether a statement changes a frame.
@@ -201,7 +223,7 @@ fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
 }
 
 /// `held` is what is in force where the body begins.
-fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Result<(), Diagnostic> {
+fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Result<(), Diagnostic> {
     if !body.iter().any(|stmt| is_frame(&stmt.op) || matches!(stmt.op, Op::Control(_))) {
         return Ok(());
     }
@@ -214,7 +236,7 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Resul
         if !is_frame(&stmt.op) {
             if let Op::Control(control) = &mut stmt.op {
                 held = held.across(control, used);
-                let within = |body: &mut Vec<Stmt>| over(body, used, caps, held.clone());
+                let within = |body: &mut Vec<Stmt>| state_frames(body, used, caps, held.clone());
                 refused = refused.take().or(control.bodies_mut().try_for_each(within).err());
             } else {
                 held.behind(&stmt.op, used);

@@ -10,12 +10,12 @@ mod pending;
 
 use std::collections::HashMap;
 
-use crate::pass::{Moment, Pass, Step};
+use crate::pass::{Moment, Pass, ProgramMoment, ProgramStep, Step};
 use crate::support::walk::Walk;
 use crate::support::write::at;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
-use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::arguments::{words_of, words_of_mut};
 use ncc_ir::program::kinds::flow;
@@ -36,13 +36,30 @@ pub(crate) const PASS: Pass = Pass {
             p.lines.is_none()
                 && l.states.ask(|own: &FrameIncrementsState| own.concerns(p.stmts, l.walk.at.modes.distance))
         },
-        run: |l, p| l.states.of::<FrameIncrementsState>().over(p.stmts, &l.walk, p.diags),
+        run: |l, p| l.states.state_mut::<FrameIncrementsState>().count_increments(p.stmts, &l.walk, p.diags),
         otherwise: |l, p| match p.lines {
-            Some(lines) => l.states.of::<FrameIncrementsState>().note_lines(lines),
-            None => l.states.of::<FrameIncrementsState>().note(p.stmts, &l.walk),
+            Some(lines) => l.states.state_mut::<FrameIncrementsState>().note_lines(lines),
+            None => l.states.state_mut::<FrameIncrementsState>().note(p.stmts, &l.walk),
         },
         first: None,
     }),
+    program: &[
+        ProgramStep {
+            moment: ProgramMoment::SourceIncrements,
+            needed: |_, _| true,
+            run: |l, p| {
+                let mut source = l.states.state_mut::<FrameIncrementsState>().take_source();
+                source.count_program(p.program, &l.walk.at, p.diags);
+            },
+        },
+        ProgramStep {
+            moment: ProgramMoment::Increments,
+            needed: |_, _| true,
+            run: |l, p| {
+                l.states.state_mut::<FrameIncrementsState>().count_program(p.program, &l.walk.at, p.diags)
+            },
+        },
+    ],
     parametric: None,
 };
 
@@ -102,7 +119,7 @@ impl FrameIncrementsState {
     }
 
     /// Statements of a program that streams.
-    pub(crate) fn over(&mut self, stmts: &mut [Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn count_increments(&mut self, stmts: &mut [Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
         if !self.is_used() {
             return;
         }
@@ -150,7 +167,7 @@ impl FrameIncrementsState {
         if self.from && stmts.iter().any(changes) {
             // Where the program had put the axes before it counts.
             let mut own = stmts.to_vec();
-            return self.over(&mut own, start, &mut Vec::new());
+            return self.count_increments(&mut own, start, &mut Vec::new());
         }
         for stmt in stmts {
             note(&mut self.pending, &stmt.op, None, stmt.skip.is_some());
@@ -158,7 +175,7 @@ impl FrameIncrementsState {
     }
 
     /// A program that is kept whole, from its first statement that was not seen yet. It is done then.
-    pub fn whole(&mut self, program: &mut Program, start: &Tracker, diags: &mut Vec<Diagnostic>) {
+    pub fn count_program(&mut self, program: &mut Program, start: &Tracker, diags: &mut Vec<Diagnostic>) {
         if !self.is_used() {
             return;
         }
@@ -319,7 +336,7 @@ fn within_turns(
 /// Whether a decision is about the code of a group that a variable was given: it puts back what was in force, as a rule,
 /// and where it does not, execution judges what follows.
 fn is_code(control: &Control) -> bool {
-    code_of(control).is_some()
+    computed_code(control).is_some()
 }
 
 /// What may be pending after a call.
@@ -492,7 +509,7 @@ impl Way<'_> {
         let raw = walk.at.raw;
         let (op, skipped) = (&mut stmt.op, stmt.skip.is_some());
         if self.state.pending.any() && !raw && self.absolute(op, walk) == Err(()) {
-            self.diags.push(Diagnostic::new(Fault::CannotSay { what: REFUSED.into() }, stmt.span));
+            self.diags.push(Diagnostic::new(Fault::TargetLacks { what: REFUSED.into() }, stmt.span));
         }
         let axes = changes(op, walk.at.modes.plane, &self.state.pending.rotated);
         let Some(axes) = axes.filter(|_| !self.same_offset(op, walk)) else {

@@ -10,7 +10,7 @@
 //! target's own (`machine_moves`).
 
 use crate::pass::Pass;
-use crate::support::known_facts::{self, Known};
+use crate::support::mode_analysis::{self, Known};
 use crate::support::write::exact;
 use crate::values::variables::{round, rounded};
 use ncc_ir::canon::{Axis, Distance, Fact, Units};
@@ -36,7 +36,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
 /// Whether a target says cuts in machine coordinates in its work offsets.
 pub(crate) fn in_work(caps: &Caps) -> bool {
     caps.machine.rapid
-        && caps.flow.computes.as_ref().is_some_and(|there| asks(there, System::ExternalOffset(Axis::X)))
+        && caps.flow.computes.as_ref().is_some_and(|target| asks(target, System::ExternalOffset(Axis::X)))
 }
 
 /// Whether straight blocks have such a cut, which a target of these capabilities computes.
@@ -50,8 +50,8 @@ pub fn computes(stmts: &[Stmt], caps: &Caps) -> bool {
     in_work(caps) && stmts.windows(2).any(cuts)
 }
 
-fn asks(there: &Computes, system: System) -> bool {
-    there.system.contains(&system)
+fn asks(target: &Computes, system: System) -> bool {
+    target.system.contains(&system)
 }
 
 /// The words of a cut in machine coordinates as those of the work offset in force; with its number.
@@ -59,8 +59,8 @@ fn asks(there: &Computes, system: System) -> bool {
 /// # Errors
 /// Why that cannot be said.
 pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16), &'static str> {
-    let there = caps.flow.computes.as_deref().filter(|_| in_work(caps));
-    let there = there.ok_or("a cut in machine coordinates")?;
+    let target = caps.flow.computes.as_deref().filter(|_| in_work(caps));
+    let target = target.ok_or("a cut in machine coordinates")?;
     if has_frame(at) {
         return Err("a cut in machine coordinates under a frame of the program");
     }
@@ -74,7 +74,7 @@ pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16
     for axis in Axis::ALL {
         let Some(word) = &mut made.to.axes[axis as usize] else { continue };
         let offsets = offsets(axis, number);
-        if !offsets.iter().all(|offset| asks(there, offset.clone())) {
+        if !offsets.iter().all(|offset| asks(target, offset.clone())) {
             return Err("a cut in machine coordinates: no variable has this offset");
         }
         let inch = units == Units::Inch && !axis.is_rotary();
@@ -96,8 +96,8 @@ pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16
         // Nothing less an offset is written as the offset with its sign.
         let place = if place.literal().is_some_and(Num::is_zero) { Expr::int(0) } else { place };
         word.value = offsets.into_iter().fold(place, less);
-        if there.rounds {
-            round(&mut word.value, there.increments[usize::from(inch)]);
+        if target.rounds {
+            round(&mut word.value, target.increments[usize::from(inch)]);
         }
     }
     Ok((made, number))
@@ -186,7 +186,8 @@ fn less(value: &Expr) -> Option<(Expr, System)> {
 /// Has words from which the offsets in force are taken off say the place of the machine, for a target that can cut there
 /// and cannot be asked for the common offset. `entry` is what holds where the program begins.
 pub fn read(program: &mut Program, entry: &Tracker, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let asked = caps.flow.computes.as_ref().is_some_and(|there| asks(there, System::ExternalOffset(Axis::X)));
+    let asked =
+        caps.flow.computes.as_ref().is_some_and(|target| asks(target, System::ExternalOffset(Axis::X)));
     if asked
         || caps.machine.rapid
         || !caps.machine.coordinates
@@ -194,9 +195,9 @@ pub fn read(program: &mut Program, entry: &Tracker, caps: &Caps, diags: &mut Vec
     {
         return;
     }
-    let known = known_facts::run(&mut program.clone(), entry, false);
+    let known = mode_analysis::run(&mut program.clone(), entry, false);
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, &known, diags);
+        settle_cuts(&mut procedure.body, &known, diags);
     }
 }
 
@@ -209,14 +210,14 @@ fn any(body: &[Stmt]) -> bool {
     })
 }
 
-fn over(body: &mut Vec<Stmt>, known: &Known, diags: &mut Vec<Diagnostic>) {
+fn settle_cuts(body: &mut Vec<Stmt>, known: &Known, diags: &mut Vec<Diagnostic>) {
     let mut at: Option<Tracker> = None;
     let mut out = Vec::with_capacity(body.len());
     for mut stmt in std::mem::take(body) {
         if matches!(stmt.op, flow!()) {
             at = None;
             if let Op::Control(control) = &mut stmt.op {
-                control.bodies_mut().for_each(|body| over(body, known, diags));
+                control.bodies_mut().for_each(|body| settle_cuts(body, known, diags));
             }
             out.push(stmt);
             continue;

@@ -42,14 +42,21 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(MACHINE),
         |l, p| {
             let found = p.diags.len();
-            over(p.stmts, &mut p.start.clone(), l.states.of::<MachineMovesState>(), &l.target, p.diags);
+            expand_machine_moves(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<MachineMovesState>(),
+                &l.target,
+                p.diags,
+            );
             let cut = p.diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
             if let Some(at) = cut.map(|cut| cut.span) {
-                origin_shift::take(l.states.of::<origin_shift::OriginShiftState>(), at, p.diags);
+                origin_shift::take(l.states.state_mut::<origin_shift::OriginShiftState>(), at, p.diags);
             }
             p.needs |= l.lacks & (EDGE | TABLE | LENGTH);
         },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -76,7 +83,7 @@ impl MachineMovesState {
         let word = words_of(&stmt.op).and_then(|to| to.get(Axis::Z))?;
         let takes_up = self.put_off.is_some() && self.cancelled;
         (takes_up && !is_absolute(word, walk.at.modes.distance))
-            .then(|| Diagnostic::new(Fault::CannotSay { what: FROM_MACHINE.into() }, stmt.span))
+            .then(|| Diagnostic::new(Fault::TargetLacks { what: FROM_MACHINE.into() }, stmt.span))
     }
 
     /// Whether something waits for the statements that come.
@@ -92,12 +99,12 @@ impl MachineMovesState {
 /// Brings the moves into the target's form.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, walk, &mut MachineMovesState::default(), target, diags)
+        expand_machine_moves(body, walk, &mut MachineMovesState::default(), target, diags)
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn expand_machine_moves(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut MachineMovesState,
@@ -118,7 +125,7 @@ pub(crate) fn over(
         take(stmt, walk, state, target, &mut made, diags);
     }
     *body = made.out;
-    around::over(body, before);
+    around::drop_distance_mode(body, before);
 }
 
 fn take(
@@ -145,11 +152,11 @@ fn take(
                 (true, _) => "a probing move away from a contact",
                 (false, _) => "a probing move of this kind",
             };
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         Op::Detour(Detour::OneSide) if !caps.moves.detours[Detour::OneSide as usize] => {
             let what = "positioning from one side: how far beyond is the machine's".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
         }
         Op::Detour(Detour::Intermediate) if !caps.moves.detours[Detour::Intermediate as usize] => {
             walk.step(&stmt);
@@ -204,7 +211,7 @@ fn take(
         }
         Op::Position(_) if state.motion_lost => {
             let what = "a position by the caller's motion, behind a return to a point of the machine".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
         }
         Op::UseToolLengthOffset(_)
         | Op::UseToolLength(_)
@@ -219,7 +226,7 @@ fn take(
             if let Some(span) = state.lost.take() {
                 let what = "a return to a point of the machine behind which Z moves by a length that is not \
                             said anew";
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
             }
         }
         _ => {}
@@ -303,7 +310,7 @@ fn cut(
             diags.push(Diagnostic::new(Fault::MachineCutExpanded { offset }, stmt.span));
             stmt.op = Op::StraightFeed(to);
         }
-        Err(what) => diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span)),
+        Err(what) => diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span)),
     }
     let (joined, number) = (machine.joined, machine.number);
     let off = !length && puts_off(with_z, in_force, state, stmt.span);
@@ -332,7 +339,7 @@ fn in_other_form(
     let none = in_force == Some(0) || state.put_off.is_some();
     if with_z && length && !none {
         let what = "a move in machine coordinates that is measured with the tool's length";
-        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, machine.span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, machine.span));
     }
     if !length && puts_off(with_z, in_force, state, machine.span) {
         let mut off = Stmt::new(machine.span, Op::UseToolLengthOffset(Expr::int(0)));
@@ -368,7 +375,7 @@ fn by_intermediate(
 ) -> Stmt {
     let Some(points) = walk.at.intermediate(&to.to) else {
         let what = "a return by an intermediate point that is not known here".into();
-        diags.push(Diagnostic::new(Fault::CannotSay { what }, detour.span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what }, detour.span));
         return rest;
     };
     let mut via = Point::default();
@@ -395,7 +402,7 @@ fn by_machine_zero(
     diags: &mut Vec<Diagnostic>,
 ) {
     let mut cannot = |what: &str| {
-        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
     };
     if reference.point != ReferencePoint::Home {
         cannot(match reference.point {

@@ -25,8 +25,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Arrival,
         |l, p| p.lines.is_none() && concerns(p.stmts, &l.target.caps),
-        |l, p| over(p.stmts, l.walk.clone(), &l.target.caps),
+        |l, p| set_offset_here(p.stmts, l.walk.clone(), &l.target.caps),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -53,7 +54,7 @@ pub(crate) fn concerns(stmts: &[Stmt], caps: &Caps) -> bool {
 }
 
 /// Says those whose places are known in the other form.
-pub(crate) fn over(stmts: &mut [Stmt], mut walk: Walk, caps: &Caps) {
+pub(crate) fn set_offset_here(stmts: &mut [Stmt], mut walk: Walk, caps: &Caps) {
     let Some([lacks, has]) = forms(caps) else { return };
     for stmt in stmts {
         walk.enter(stmt.skip);

@@ -20,8 +20,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(SHIFT),
-        |l, p| over(p.stmts, l.states.of::<OriginShiftState>(), p.diags),
+        |l, p| cancel_origin_shift(p.stmts, l.states.state_mut::<OriginShiftState>(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -35,11 +36,15 @@ pub(crate) struct OriginShiftState {
 /// Takes the cancelling statements out.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = OriginShiftState::default();
-    each_body(program, entry, |body, _| over(body, &mut state, diags));
+    each_body(program, entry, |body, _| cancel_origin_shift(body, &mut state, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut OriginShiftState, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn cancel_origin_shift(
+    body: &mut Vec<Stmt>,
+    state: &mut OriginShiftState,
+    diags: &mut Vec<Diagnostic>,
+) {
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
         if stmt.op != Op::ClearFrame(FrameSlot::Shift) {
             return made.push(stmt);

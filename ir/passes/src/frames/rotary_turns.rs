@@ -21,8 +21,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Arrival,
         |l, p| p.lines.is_none() && l.states.ask(RotaryTurnsState::is_used),
-        |l, p| l.states.of::<RotaryTurnsState>().check(p.stmts, &l.walk, p.diags),
+        |l, p| l.states.state_mut::<RotaryTurnsState>().check(p.stmts, &l.walk, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 

@@ -23,8 +23,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(TURN),
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| state_rotary_ways(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -34,11 +35,16 @@ const HALF: u64 = 180 * ONE as u64;
 
 /// Leaves out what plain words say.
 pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| state_rotary_ways(body, walk, target, diags));
 }
 
 /// The same for one piece of a body, which ends with a block.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn state_rotary_ways(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     if target.caps.moves.rotary_ways {
         return;
     }
@@ -65,7 +71,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
                     Some((from, to)) if to.abs_diff(from) < HALF => continue,
                     Some(_) => "a rotary axis that goes a stated way by half a turn or more",
                 };
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, said.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, said.span));
             }
         }
         walk.step(&stmt);

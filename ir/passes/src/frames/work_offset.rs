@@ -24,8 +24,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(WORK),
-        |l, p| over(p.stmts, l.states.of::<WorkOffsetState>(), p.assumed, &l.target, p.diags),
+        |l, p| {
+            select_work_offset(
+                p.stmts,
+                l.states.state_mut::<WorkOffsetState>(),
+                p.assumed,
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -34,7 +43,7 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct WorkOffsetState {
     /// The work offset that the target's own one stands for.
     pub(crate) only: Option<u16>,
-    told: bool,
+    reported: bool,
     /// The work offset in force, if the target cannot name it and nothing has moved in it, and where the
     /// program says it.
     idle: Option<(u16, Span)>,
@@ -103,18 +112,18 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
 }
 
 fn cannot_name(offset: u16, span: Span) -> Diagnostic {
-    Diagnostic::new(Fault::CannotSay { what: format!("work offset {offset}").into() }, span)
+    Diagnostic::new(Fault::TargetLacks { what: format!("work offset {offset}").into() }, span)
 }
 
 /// Takes the work offsets out, or refuses them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = WorkOffsetState::default();
     let assumed = entry.modes;
-    each_body(program, entry, |body, _| over(body, &mut state, &assumed, target, diags));
+    each_body(program, entry, |body, _| select_work_offset(body, &mut state, &assumed, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn select_work_offset(
     body: &mut Vec<Stmt>,
     state: &mut WorkOffsetState,
     assumed: &Modes,
@@ -145,9 +154,9 @@ pub(crate) fn over(
             Some(first) if first != number => {
                 diags.push(Diagnostic::new(Fault::SecondWorkOffset { first, second: number }, stmt.span));
             }
-            _ if !state.told => {
+            _ if !state.reported => {
                 diags.push(Diagnostic::new(Fault::AssumedWorkOffset { offset: number }, stmt.span));
-                state.told = true;
+                state.reported = true;
                 state.only = Some(number);
             }
             _ => {}

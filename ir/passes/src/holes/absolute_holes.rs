@@ -23,8 +23,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(CYCLE) && !l.target.caps.holes.incremental,
-        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+        |_, p| state_positions(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -38,16 +39,17 @@ pub(crate) const ALIKE: Pass = Pass {
         |l, p| p.needs(CYCLE) && l.target.caps.holes.incremental && l.target.caps.holes.measured_anew,
         |_, p| alike(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// Makes them absolute.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, diags));
+    each_body(program, entry, |body, walk| state_positions(body, walk, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn state_positions(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     for stmt in body {
         walk.enter(stmt.skip);
         let before = walk.clone();
@@ -91,7 +93,7 @@ pub(crate) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnost
                     Some(Distance::Incremental) => incremental_point(m, &before),
                     None => {
                         let what = "a hole placed otherwise than the planes of its cycle";
-                        Err(Fault::CannotSay { what: what.into() })
+                        Err(Fault::TargetLacks { what: what.into() })
                     }
                 }
             }

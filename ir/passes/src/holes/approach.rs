@@ -17,7 +17,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::{Approach, Cycle};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
-use ncc_ir::track::{InForce, Tracker};
+use ncc_ir::track::{ActiveCycle, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -27,13 +27,14 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| convert_approach(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
-pub(crate) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
+pub(crate) fn is_one_way(walk: &Walk, in_force: &ActiveCycle, way: Approach) -> bool {
     let cycle = &in_force.cycle;
     if length_decides(walk, cycle.approach, way) {
         return false;
@@ -83,11 +84,16 @@ pub(crate) fn length_decides(walk: &Walk, own: Approach, way: Approach) -> bool 
 
 /// Writes out first legs that the target would make in another order.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| convert_approach(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn convert_approach(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     let Some(way) = target.caps.holes.approach else { return };
     let mut i = 0;
     let in_force = walk.at.cycle.as_ref();
@@ -112,7 +118,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             )
         {
             let what = "another zero under a cycle that goes another way to its holes";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, body[i].span));
         }
         another_length = chained && by_height && other_way && (another_length || body[i].op.calls_length());
         if another_length
@@ -120,7 +126,7 @@ pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             && matches!(body[i].op, Op::Position(_) | Op::Hole(_) | Op::Pattern(_))
         {
             let what = "a hole on whose way a length is taken up";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, body[i].span));
         }
         if let Op::StartCycle(cycle) = &body[i].op {
             another_length = false;

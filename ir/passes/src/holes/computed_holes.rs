@@ -33,7 +33,10 @@ pub fn run(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
     let mut planes = Vec::from_iter(program.assumed.plane);
     program.procedures.iter().for_each(|procedure| planes_of(&procedure.body, &mut planes));
     let [plane] = planes[..] else { return };
-    program.procedures.iter_mut().for_each(|procedure| over(&mut procedure.body, plane, caps, diags));
+    program
+        .procedures
+        .iter_mut()
+        .for_each(|procedure| expand_computed_holes(&mut procedure.body, plane, caps, diags));
 }
 
 /// The planes that a body says, each once.
@@ -52,10 +55,10 @@ fn planes_of(body: &[Stmt], planes: &mut Vec<Plane>) {
     }
 }
 
-fn over(body: &mut Vec<Stmt>, plane: Plane, caps: &Caps, diags: &mut Vec<Diagnostic>) {
+fn expand_computed_holes(body: &mut Vec<Stmt>, plane: Plane, caps: &Caps, diags: &mut Vec<Diagnostic>) {
     rebuild(body, |mut stmt, made| {
         if let Op::Control(control) = &mut stmt.op {
-            control.bodies_mut().for_each(|body| over(body, plane, caps, diags));
+            control.bodies_mut().for_each(|body| expand_computed_holes(body, plane, caps, diags));
         }
         let holes = match &stmt.op {
             op @ Op::Pattern(pattern)

@@ -5,11 +5,20 @@
 //! as it is.
 
 use crate::holes::expand_patterns;
+use crate::pass::Pass;
 use crate::{Target, each_body};
 use ncc_ir::caps::{Caps, CircleStart, HoleCaps};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const POLAR: Pass =
+    Pass::named("polar-circles", "gives the first hole of a circle by radius and angle", Some(polar));
+
+/// This pass.
+pub(crate) const CARTESIAN: Pass =
+    Pass::named("cartesian-circles", "gives the first hole of a circle by its position", Some(cartesian));
 
 /// By radius and angle.
 pub fn polar(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

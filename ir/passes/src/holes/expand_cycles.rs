@@ -35,7 +35,7 @@ use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::track::{InForce, Tracker};
+use ncc_ir::track::{ActiveCycle, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -45,8 +45,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandCyclesState>(), &l.target, p.diags),
+        |l, p| {
+            expand_cycles(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ExpandCyclesState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -70,7 +79,7 @@ struct Owed {
 
 /// Expands the cycles that the target cannot say, and their patterns.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut Default::default(), target, diags));
+    each_body(program, entry, |body, walk| expand_cycles(body, walk, &mut Default::default(), target, diags));
 }
 
 impl ExpandCyclesState {
@@ -81,7 +90,7 @@ impl ExpandCyclesState {
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn expand_cycles(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ExpandCyclesState,
@@ -211,7 +220,7 @@ impl ExpandCyclesState {
             self.expanding = false;
             return made.push(stmt);
         }
-        told(&stmt, target, diags);
+        reported(&stmt, target, diags);
         self.expanding = true;
         if stmt.skip.is_some() || feed.is_none() {
             self.pay(&mut stmt, made);
@@ -249,9 +258,9 @@ impl ExpandCyclesState {
         for to in holes {
             let moved = match &inner.at.cycle {
                 Some(in_force) => hole(&inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
-                None => {
-                    Err(Fault::CannotSay { what: "a cycle called up in a block that can be skipped".into() })
-                }
+                None => Err(Fault::TargetLacks {
+                    what: "a cycle called up in a block that can be skipped".into(),
+                }),
             };
             if let Err(fault) = moved {
                 diags.push(Diagnostic::new(fault, stmt.span));
@@ -284,7 +293,7 @@ fn bores_out(kind: &CycleKind) -> bool {
     matches!(kind, CycleKind::Bore { feed_out: Some(_), .. })
 }
 
-fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
+fn reported(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     let Op::StartCycle(cycle) = &stmt.op else { return };
     diags.push(Diagnostic::new(Fault::CycleExpanded { kind: cycle.kind.name().into() }, stmt.span));
     let (parameter, value) = match &cycle.kind {
@@ -324,7 +333,7 @@ fn in_force_before(walk: &Walk) -> [bool; 2] {
 
 fn must_expand(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     kept: bool,
     target: &Target,
     span: Span,
@@ -341,7 +350,7 @@ fn must_expand(
 /// The moves of one hole; `true` marks those that stand in the block of the one before.
 pub(crate) fn hole(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     to: &Point,
     feed: Option<&Expr>,
     target: &Target,
@@ -421,7 +430,7 @@ pub(crate) fn hole(
     if !stated && bores_out(&cycle.kind) {
         // Nothing says to which feed to go back.
         let what = "boring with another feed on the way out, under a feed that the cycle does not state";
-        return Err(Fault::CannotSay { what: what.into() });
+        return Err(Fault::TargetLacks { what: what.into() });
     }
     if let Some(feed) = feed {
         moves.push((false, Op::SetFeedRate(feed.clone())));
@@ -454,7 +463,7 @@ pub(crate) fn hole(
 }
 
 /// Where the tool is left above the hole, if that is not the retract plane.
-fn way_out(walk: &Walk, in_force: &InForce, normal: Axis) -> Result<Option<Point>, Fault> {
+fn way_out(walk: &Walk, in_force: &ActiveCycle, normal: Axis) -> Result<Option<Point>, Fault> {
     let cycle = &in_force.cycle;
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
     match cycle.return_level.known().or(walk.at.modes.return_level) {

@@ -23,8 +23,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(PATTERN),
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| expand_patterns(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -38,20 +39,26 @@ pub(crate) const REFORM: Pass = Pass {
         |_, p| p.needs(PATTERN),
         |l, p| reform(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// Expands the patterns that the target cannot say.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, &mut walk.clone(), target, diags);
+        expand_patterns(body, &mut walk.clone(), target, diags);
         reform(body, walk, target, diags);
     });
 }
 
 /// Patterns that have no form in one body become positions. The others stay as they are, for a cycle
 /// that is written out needs them as exact as they are.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn expand_patterns(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     rebuild(body, |stmt, made| {
         walk.enter(stmt.skip);
         let holes = match &stmt.op {

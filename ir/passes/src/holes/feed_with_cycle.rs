@@ -4,21 +4,26 @@
 //! nothing but remarks stands between, under the same block skip, and the cycle says no feed itself.
 
 use crate::Target;
+use crate::pass::Pass;
 use crate::support::write::rebuild;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("feed-with-cycle", "lets a cycle say the feed that stands right before it", Some(run));
+
 /// Moves the feeds.
 pub fn run(program: &mut Program, _: &Target, _: &Tracker, _: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body);
+        join_feed(&mut procedure.body);
     }
 }
 
 /// The same for one body.
-fn over(body: &mut Vec<Stmt>) {
+fn join_feed(body: &mut Vec<Stmt>) {
     let mut moved: Option<Expr> = None;
     let takes: Vec<bool> = (0..body.len()).map(|at| is_taken(&body[at..])).collect();
     let mut takes = takes.into_iter();

@@ -12,7 +12,7 @@ use ncc_ir::canon::{Axis, Plane};
 use ncc_ir::caps::{Caps, CircleStart, GridWay};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, POW10, Unit};
-use ncc_ir::geometry::places::{Places, Step};
+use ncc_ir::geometry::hole_positions::{HolePositions, Step};
 use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::track::Tracker;
@@ -45,7 +45,7 @@ pub(crate) fn fit(walk: &Walk, pattern: &Pattern, plane: Plane, target: &Target)
     if here.says(pattern) {
         return Some(vec![pattern.clone()]);
     }
-    let places = walk.at.places(pattern);
+    let places = walk.at.hole_positions(pattern);
     if let Pattern::List(points) = pattern {
         return here.lists(points, places.as_ref());
     }
@@ -159,15 +159,15 @@ impl Here<'_> {
         if !self.caps.holes.order_by_position {
             return true;
         }
-        let Some(places) = self.walk.at.places(pattern) else { return false };
+        let Some(places) = self.walk.at.hole_positions(pattern) else { return false };
         places.count() <= 1 || self.stands() == places.get(0).map(Some)
     }
 
     /// Whether a form makes the same holes.
-    fn same_holes(&self, form: &Pattern, places: &Places) -> bool {
+    fn same_holes(&self, form: &Pattern, places: &HolePositions) -> bool {
         let unit = POW10[9 - self.decimals.min(9) as usize];
         let half = if self.unit == Unit::Inch { unit * 254 / 10 } else { unit } / 2;
-        self.walk.at.places(form).is_some_and(|other| {
+        self.walk.at.hole_positions(form).is_some_and(|other| {
             other.count() == places.count()
                 && (0..places.count()).all(|k| {
                     let (a, b) = (places.get(k), other.get(k));
@@ -209,17 +209,18 @@ impl Here<'_> {
     }
 
     /// Other forms that a pattern may have.
-    fn forms(&self, pattern: &Pattern, places: &Places) -> Vec<Pattern> {
+    fn forms(&self, pattern: &Pattern, places: &HolePositions) -> Vec<Pattern> {
         match (pattern, places) {
-            (Pattern::Circle { centre, first, step, count }, Places::Circle { centre: c, first: f, .. }) => {
-                self.circles(centre.as_ref(), first, step, *count, [*c, *f])
-            }
+            (
+                Pattern::Circle { centre, first, step, count },
+                HolePositions::Circle { centre: c, first: f, .. },
+            ) => self.circles(centre.as_ref(), first, step, *count, [*c, *f]),
             (
                 Pattern::Line { start, angle, offset, pitch, count },
-                Places::Line { angle: a, pitch: p, .. },
+                HolePositions::Line { angle: a, pitch: p, .. },
             ) => {
                 let mut forms = Vec::new();
-                if let Places::Line { start: s, .. } = places {
+                if let HolePositions::Line { start: s, .. } = places {
                     for start in self.starts(start.as_ref(), *s) {
                         let (angle, offset, pitch) = (angle.clone(), offset.clone(), pitch.clone());
                         forms.push(Pattern::Line { start, angle, offset, pitch, count: *count });
@@ -230,7 +231,7 @@ impl Here<'_> {
             }
             (
                 Pattern::Grid { start, columns, rows, serpentine },
-                Places::Grid { start: s, columns: c, rows: r, counts, .. },
+                HolePositions::Grid { start: s, columns: c, rows: r, counts, .. },
             ) => {
                 let mut forms = Vec::new();
                 if counts[1] <= 1 {
@@ -327,7 +328,7 @@ impl Here<'_> {
     }
 
     /// A list of positions as lists of as many as the target takes.
-    fn lists(&self, points: &[Point], places: Option<&Places>) -> Option<Vec<Pattern>> {
+    fn lists(&self, points: &[Point], places: Option<&HolePositions>) -> Option<Vec<Pattern>> {
         let upto = self.caps.holes.list_upto as usize;
         if upto == 0 || points.is_empty() {
             return None;

@@ -11,20 +11,19 @@ use crate::holes::sayable::lasts;
 use crate::support::walk::Walk;
 use crate::support::write::{cut, exact, only, traverse, unit_of};
 use ncc_ir::canon::ReturnLevel;
-use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::cycle::{Clearance, CycleKind, absolute, next_peck};
 use ncc_ir::program::{Op, Point};
-use ncc_ir::track::InForce;
+use ncc_ir::track::ActiveCycle;
 
 /// Most pecks of one hole; more is a slip of the pen.
-const MOST_PECKS: i64 = 100_000;
+const MAX_PECKS: i64 = 100_000;
 
 /// Whether a control that returns to where the tool stood before the block, and not before the series, comes to the
 /// same level.
-pub(super) fn level_is_here(walk: &Walk, in_force: &InForce, target: &Target) -> bool {
+pub(super) fn level_is_here(walk: &Walk, in_force: &ActiveCycle, target: &Target) -> bool {
     let cycle = &in_force.cycle;
     let retract = cycle.return_level.known().or(walk.at.modes.return_level) == Some(ReturnLevel::Retract);
     if !target.caps.holes.level_of_block || retract || cycle.return_plane.is_some() {
@@ -33,16 +32,6 @@ pub(super) fn level_is_here(walk: &Walk, in_force: &InForce, target: &Target) ->
     let Some(plane) = walk.at.plane(cycle.plane) else { return false };
     let here = walk.at.position[plane.axes().2 as usize];
     here.is_some() && here == in_force.initial && in_force.retract.is_some_and(|r| here >= Some(r))
-}
-
-/// Whether a control that dwells after each peck by itself does so for as long as the cycle has it, at the bottom too.
-/// `None` if the target's cycle of this kind has no such dwell.
-pub(super) fn dwells_alike(caps: &Caps, kind: &str, dwells: [&Option<Expr>; 2]) -> Option<bool> {
-    let own = caps.holes.cycles.iter().find(|c| c.kind == kind)?.pause?;
-    let same = |dwell: &Option<Expr>| {
-        dwell.as_ref().and_then(Expr::literal).is_some_and(|n| n.nanos(false) == own.nanos(false))
-    };
-    Some(dwells.into_iter().all(same))
 }
 
 /// What comes between two pecks.
@@ -56,7 +45,7 @@ enum Between<'c> {
 /// All pecks but the last.
 pub(super) fn pecks(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     [retract_word, left]: [&Point; 2],
     target: &Target,
     stated: bool,
@@ -67,7 +56,7 @@ pub(super) fn pecks(
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
     let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
         Some(nanos) => Ok(nanos),
-        None => Err(Fault::CannotSay { what: what.into() }),
+        None => Err(Fault::TargetLacks { what: what.into() }),
     };
     let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
     let (peck, first, less, pause, between) = match &in_force.cycle.kind {
@@ -107,7 +96,7 @@ pub(super) fn pecks(
     };
     let less = less.as_ref().map(length).transpose()?;
     let grows = less.is_some_and(|less| less < 0 || first < peck);
-    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MOST_PECKS {
+    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MAX_PECKS {
         return Err(Fault::OutOfRange { word: "depth of a peck".into() });
     }
     let unit = unit_of(normal, walk.unit());

@@ -21,7 +21,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
-use ncc_ir::track::{InForce, Tracker};
+use ncc_ir::track::{ActiveCycle, Tracker};
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -31,18 +31,24 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target, p.diags),
+        |l, p| convert_return_plane(p.stmts, &mut p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// Puts one in the other's place, as the target has it.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| convert_return_plane(body, walk, target, diags));
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn convert_return_plane(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     match target.caps.holes.returns {
         ReturnsTo::Plane => by_planes(body, walk),
         ReturnsTo::Level => by_levels(body, walk, target, diags),
@@ -195,7 +201,13 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
 }
 
 /// Writes the first hole of the cycle called up at `i` out, if others follow.
-fn behind_first(body: &[Stmt], i: usize, in_force: &InForce, walk: &Walk, target: &Target) -> Option<Split> {
+fn behind_first(
+    body: &[Stmt],
+    i: usize,
+    in_force: &ActiveCycle,
+    walk: &Walk,
+    target: &Target,
+) -> Option<Split> {
     let cycle = &in_force.cycle;
     let normal = walk.at.plane(cycle.plane)?.axes().2;
     let mut new = cycle.clone();
@@ -304,10 +316,10 @@ fn level_is_free(body: &[Stmt]) -> bool {
 
 /// Whether a cycle that the target cannot say becomes sayable by this pass, with nothing known but
 /// what the program says; for a decision before the passes run.
-pub(crate) fn mends(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
+pub(crate) fn converts_all(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
     let (mut trial, mut diags) = (body.to_vec(), Vec::new());
-    over(&mut trial, &mut walk.clone(), target, &mut diags);
+    convert_return_plane(&mut trial, &mut walk.clone(), target, &mut diags);
     let mut state = expand_cycles::ExpandCyclesState::default();
-    expand_cycles::over(&mut trial, &mut walk.clone(), &mut state, target, &mut diags);
+    expand_cycles::expand_cycles(&mut trial, &mut walk.clone(), &mut state, target, &mut diags);
     diags.is_empty()
 }

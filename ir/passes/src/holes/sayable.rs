@@ -1,7 +1,6 @@
 //! Which cycles a target says as they are.
 
 use crate::Target;
-use crate::holes::pecks::dwells_alike;
 use crate::support::walk::Walk;
 use crate::support::write::{as_absolute, at, is_absolute};
 use ncc_ir::canon::{Axis, ReturnLevel};
@@ -118,4 +117,14 @@ pub(crate) fn level(
 /// Whether a cycle's dwell is one: of no seconds it is none.
 pub(crate) fn lasts(seconds: &Expr) -> bool {
     seconds.literal().is_none_or(|n| !n.is_zero())
+}
+
+/// Whether a control that dwells after each peck by itself does so for as long as the cycle has it, at the bottom too.
+/// `None` if the target's cycle of this kind has no such dwell.
+fn dwells_alike(caps: &Caps, kind: &str, dwells: [&Option<Expr>; 2]) -> Option<bool> {
+    let own = caps.holes.cycles.iter().find(|c| c.kind == kind)?.pause?;
+    let same = |dwell: &Option<Expr>| {
+        dwell.as_ref().and_then(Expr::literal).is_some_and(|n| n.nanos(false) == own.nanos(false))
+    };
+    Some(dwells.into_iter().all(same))
 }

@@ -18,12 +18,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::cycle::{BoreStop, Cycle, CycleKind, FineBore, Shift, Tap, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Synchronised};
-use ncc_ir::track::InForce;
+use ncc_ir::track::ActiveCycle;
 
 /// A hole in which the cycle drives the spindle, from the retract plane on.
 struct Driven<'h> {
     walk: &'h Walk,
-    in_force: &'h InForce,
+    in_force: &'h ActiveCycle,
     to: &'h Point,
     retract: Point,
     depth: Point,
@@ -36,7 +36,7 @@ struct Driven<'h> {
 /// The moves of a hole in which the cycle drives the spindle, from the retract plane on.
 pub(crate) fn with_spindle(
     walk: &Walk,
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     to: &Point,
     [retract, depth]: [Point; 2],
     out: Option<Point>,
@@ -99,7 +99,7 @@ impl Driven<'_> {
             Some(spindle) => Ok(turn_it(spindle)),
             None => {
                 let what = "a cycle after which the spindle turns as before, which is not known";
-                Err(Fault::CannotSay { what: what.into() })
+                Err(Fault::TargetLacks { what: what.into() })
             }
         }
     }
@@ -145,7 +145,7 @@ impl Driven<'_> {
                 true => format!("the cycle {} in this form", self.in_force.cycle.kind.name()),
                 false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
             };
-            return Err(Fault::CannotSay { what: what.into() });
+            return Err(Fault::TargetLacks { what: what.into() });
         }
         moves.push((false, in_step(tap, self.depth, tap.turn)));
         dwell(&tap.dwell, moves);
@@ -154,7 +154,7 @@ impl Driven<'_> {
             dwell(&tap.back, moves);
         } else if tap.back.as_ref().is_some_and(lasts) {
             let what = "a rigid tap that dwells when the spindle has turned round".into();
-            return Err(Fault::CannotSay { what });
+            return Err(Fault::TargetLacks { what });
         }
         let (end, out) = match self.out {
             Some(out) if tap.to_level => (out, None),
@@ -186,7 +186,7 @@ impl Driven<'_> {
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             let Some(by) = &by[axis as usize] else { continue };
             let (Some(by), Expr::Num(num)) = (self.walk.at.nanos(by), by) else {
-                return Err(Fault::CannotSay { what: "a computed shift".into() });
+                return Err(Fault::TargetLacks { what: "a computed shift".into() });
             };
             if by == 0 {
                 continue;
@@ -245,7 +245,7 @@ impl Driven<'_> {
 /// The cycle with which a target taps one hole over which the tool stands at the retract plane, to leave it
 /// there: where its own cycle would go on at feed to the level of return, or has no such level.
 fn own_tap(
-    in_force: &InForce,
+    in_force: &ActiveCycle,
     kind: &CycleKind,
     plane: Plane,
     [retract, depth]: [&Point; 2],
@@ -283,7 +283,7 @@ fn off_the_wall(shift: &Shift, plane: Plane, target: &Target) -> Result<[Option<
         Shift::Stated(words) => Ok(words.clone()),
         Shift::Parameter(amount) => {
             let what = "fine boring whose direction of shift is a parameter of the control";
-            let cannot = || Fault::CannotSay { what: what.into() };
+            let cannot = || Fault::TargetLacks { what: what.into() };
             let (direction, amount) = target.bore_shift.zip(amount.literal()).ok_or_else(cannot)?;
             let (first, second, _) = plane.axes();
             let along = if direction.second { second } else { first };

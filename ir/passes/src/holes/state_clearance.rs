@@ -23,18 +23,24 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, p.start.clone(), &l.target, p.diags),
+        |l, p| state_clearance(p.stmts, p.start.clone(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// States them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk.clone(), target, diags));
+    each_body(program, entry, |body, walk| state_clearance(body, walk.clone(), target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn state_clearance(
+    body: &mut [Stmt],
+    mut walk: Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     for stmt in body {
         walk.enter(stmt.skip);
         walk.step(stmt);
@@ -58,7 +64,7 @@ pub(crate) fn over(body: &mut [Stmt], mut walk: Walk, target: &Target, diags: &m
         };
         if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
             *clearance = Clearance::Stated(in_unit(value, walk.at.modes.units, target).into());
-            diags.push(Diagnostic::new(told(parameter, value), stmt.span));
+            diags.push(Diagnostic::new(reported(parameter, value), stmt.span));
         }
     }
 }
@@ -72,7 +78,7 @@ fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
 }
 
 /// What is told of a parameter that was taken for granted.
-pub(crate) fn told(parameter: &str, value: Num) -> Fault {
+pub(crate) fn reported(parameter: &str, value: Num) -> Fault {
     let nanos = value.nanos(false).unwrap_or(0);
     Fault::AssumedParameter {
         parameter: parameter.into(),

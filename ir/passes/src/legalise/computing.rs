@@ -9,20 +9,17 @@ use crate::arcs::still_blocks::StillBlocksState;
 use crate::frames::expand_frames::ExpandFramesState;
 use crate::frames::frame_increments::FrameIncrementsState;
 use crate::frames::origin_shift::OriginShiftState;
-use crate::modes::at_once::AtOnceState;
+use crate::modes::immediate_effects::ImmediateEffectsState;
 use crate::threads::taps::TapsState;
 use crate::tools::z_after_change::ZAfterChangeState;
 use std::rc::Rc;
 
-use crate::flow::number_names;
-use crate::frames::computed_frames;
 use crate::frames::machine_cuts;
 use crate::legalise::{Legaliser, Target};
 use crate::modes::feed_unit;
-use crate::pass::Shared;
-use crate::support::known_facts::{self, Known};
+use crate::pass::{KeptProgram, ProgramMoment, Shared, Subprograms};
+use crate::support::mode_analysis::{self, Known};
 use crate::threads::taps;
-use crate::watch::ran_whole;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::arguments;
@@ -41,21 +38,37 @@ impl Legaliser {
     /// Brings a program that computes within the target's capabilities, its structure kept.
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
-        number_names::over(program, &self.shared.target, true, diags);
-        ran_whole("number-names", program);
+        self.on_computing(ProgramMoment::Names, program, known, diags);
         let mut found = Vec::new();
         let mut bare = program.clone();
-        let any =
-            bare.procedures.iter_mut().map(|p| known_facts::positions(&mut p.body)).fold(false, |a, b| a | b);
-        if any && self.shared.target.caps.flow.computes.as_ref().is_some_and(|there| !there.restates) {
+        let any = bare
+            .procedures
+            .iter_mut()
+            .map(|p| mode_analysis::positions(&mut p.body))
+            .fold(false, |a, b| a | b);
+        if any && self.shared.target.caps.flow.computes.as_ref().is_some_and(|target| !target.restates) {
             self.stretches(&mut bare, known, &mut found);
             if found.iter().all(|d| d.fault.gravity() != Gravity::Error) {
                 *program = bare;
                 return diags.append(&mut found);
             }
-            known_facts::holes(program, known);
+            mode_analysis::holes(program, known);
         }
         self.stretches(program, known, diags);
+    }
+
+    /// Runs the passes of a moment on a program that computes. Tells whether one of them refused it.
+    fn on_computing(
+        &mut self,
+        moment: ProgramMoment,
+        program: &mut Program,
+        known: &Known,
+        diags: &mut Vec<Diagnostic>,
+    ) -> bool {
+        let subprograms = Subprograms::Keep;
+        let mut kept = KeptProgram { program, subprograms, known: Some(known), diags, refused: false };
+        self.on_kept(moment, &mut kept);
+        kept.refused
     }
 
     fn stretches(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
@@ -63,24 +76,13 @@ impl Legaliser {
         // What the target says of a program's flow has been looked at before.
         let mut fresh = self.clone();
         fresh.shared.lacks &= !(crate::legalise::CONTROL | crate::legalise::CALL);
-        match computed_frames::run(program, &self.shared.target.caps, known) {
-            Ok(computed_frames::Found::Straight) => {}
-            Ok(computed_frames::Found::Said) if !self.shared.states.ask(ExpandFramesState::is_busy) => {
-                ran_whole("computed-frames", program);
-                fresh.shared.lacks &= !crate::legalise::FRAME
-            }
-            Ok(computed_frames::Found::Said) => {
-                let at = program.procedures.first().and_then(|main| main.body.first());
-                let what = "other frames than those before it, where a program computes".into();
-                let at = at.map_or_else(Span::default, |stmt| stmt.span);
-                return diags.push(Diagnostic::new(Fault::Computes { what }, at));
-            }
-            Err(refusal) => return diags.push(refusal),
+        if fresh.on_computing(ProgramMoment::Frames, program, known, diags) {
+            return;
         }
         fresh.shared.entries = fresh.entries_of(program).map(Rc::new);
         let mut first = fresh.clone();
         first.shared.entries = None;
-        let bare = program.procedures.iter().any(|procedure| known_facts::has_bare_holes(&procedure.body));
+        let bare = program.procedures.iter().any(|procedure| mode_analysis::has_bare_holes(&procedure.body));
         let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body, bare));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             let start = match at {
@@ -88,8 +90,14 @@ impl Legaliser {
                 _ => None,
             };
             let inherits = has_positions(&procedure.body);
-            let mut region =
-                Region { fresh: &fresh, known, inherits, levels, diags, shift: *self.shared.states.of() };
+            let mut region = Region {
+                fresh: &fresh,
+                known,
+                inherits,
+                levels,
+                diags,
+                shift: *self.shared.states.state_mut(),
+            };
             region.body(&mut procedure.body, start);
             self.shared.states.put(region.shift);
         }
@@ -98,7 +106,7 @@ impl Legaliser {
     /// The feed that has to be said again before a statement of control.
     fn feed_before(&mut self, control: &Stmt, behind: &[Stmt]) -> Option<Result<Stmt, Diagnostic>> {
         let Shared { states, walk, target, .. } = &mut self.shared;
-        feed_unit::before_control(states.of(), &walk.at, target, control, behind)
+        feed_unit::before_control(states.state_mut(), &walk.at, target, control, behind)
     }
 
     /// The same legaliser where nothing is known of what was before but this.
@@ -112,16 +120,16 @@ impl Legaliser {
             (self.shared.source_arcs, self.shared.feed_again, self.shared.times_differ);
         own.shared.walk = crate::legalise::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.shared.walk.at.z_lost_at_change = self.shared.walk.at.z_lost_at_change;
-        own.shared.states.of::<CompensatedModesState>().refused =
+        own.shared.states.state_mut::<CompensatedModesState>().refused =
             self.shared.states.ask(|here: &CompensatedModesState| here.refused);
         own.shared.entries.clone_from(&self.shared.entries);
         own.shared.states.put(self.shared.states.ask(StillBlocksState::clone));
         own.enter(first);
         own.shared.states.put(TapsState::entered(&own.shared.walk.at));
-        own.shared.states.forget::<AtOnceState>();
+        own.shared.states.forget::<ImmediateEffectsState>();
         own.shared.states.put(self.shared.states.ask(FrameIncrementsState::clone));
         own.shared.states.put(self.shared.states.ask(ZAfterChangeState::clone));
-        own.shared.states.of::<ZAfterChangeState>().start_over();
+        own.shared.states.state_mut::<ZAfterChangeState>().start_over();
         own
     }
 }
@@ -298,7 +306,7 @@ impl Region<'_> {
             Some(Err(refusal)) => found.push(refusal),
             None => {}
         }
-        self.shift = *own.shared.states.of();
+        self.shift = *own.shared.states.state_mut();
         if own.shared.states.ask(ExpandFramesState::is_worked_in)
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)
         {
@@ -308,7 +316,7 @@ impl Region<'_> {
         if own.shared.states.ask(TapsState::has_lost_feed)
             && let Some(last) = before.last()
         {
-            found.push(Diagnostic::new(Fault::CannotSay { what: taps::LOST.into() }, last.span));
+            found.push(Diagnostic::new(Fault::TargetLacks { what: taps::LOST.into() }, last.span));
         }
         own.finish(stmts, &mut found);
         // It may stand in the block of what came before it.

@@ -1,11 +1,20 @@
 //! Messages to the operator, for a target that cannot show them, or only where the program stops; text for devices that it
 //! does not write to.
 
+use crate::pass::Pass;
 use ncc_ir::caps::Caps;
-use ncc_ir::computed::computes::Said;
+use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Output, Piece, Program, Stmt, Text};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const OUTPUT: Pass =
+    Pass::named("leave-out-output", "leaves out what is written to devices that the target has not", None);
+
+/// This pass.
+pub(crate) const VALUES: Pass =
+    Pass::named("leave-out-values", "leaves out of messages the values that the target cannot show", None);
 
 /// A message that is a comment from here on, by what stands behind it: where the program stops before another one takes its
 /// place, the operator is told something to do.
@@ -28,7 +37,7 @@ fn stops_first(stmts: &[Stmt]) -> Option<bool> {
 /// stop or in the one before it, in the characters that it shows. One without a text, which takes another back, is none
 /// where none stays.
 pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let alarms = caps.flow.computes.as_ref().and_then(|there| there.alarms.as_ref());
+    let alarms = caps.flow.computes.as_ref().and_then(|target| target.alarms.as_ref());
     for at in 0..stmts.len() {
         let (before, behind) = stmts.split_at_mut(at + 1);
         let Some(stmt) = before.last_mut() else { continue };
@@ -52,7 +61,7 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Dia
 /// Messages with values become comments where the target shows no message while the program runs. What they read has no
 /// effect on the cut.
 pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    let says = caps.flow.computes.as_ref().is_some_and(|there| there.has(Said::Values));
+    let says = caps.flow.computes.as_ref().is_some_and(|target| target.has(ComputeFeature::Values));
     if !caps.modes.messages && !says {
         program.procedures.iter_mut().for_each(|procedure| values(&mut procedure.body, diags));
     }
@@ -60,7 +69,7 @@ pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diag
 
 /// Text for devices becomes comments where the target writes to none.
 pub fn leave_out_output(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
-    if !caps.flow.computes.as_ref().is_some_and(|there| there.has(Said::Output)) {
+    if !caps.flow.computes.as_ref().is_some_and(|target| target.has(ComputeFeature::Output)) {
         program.procedures.iter_mut().for_each(|procedure| output(&mut procedure.body, diags));
     }
 }
@@ -89,7 +98,7 @@ pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
     bodies.for_each(|body| written(body, &mut opens, &mut line, &mut value));
     let unopened = line.filter(|_| opened && !opens).map(|at| {
         let what = "text for a device that the program does not open".into();
-        Diagnostic::new(Fault::CannotSay { what }, at)
+        Diagnostic::new(Fault::TargetLacks { what }, at)
     });
     let digits = value.map(|at| {
         let parameter = "a value that is written to a device".into();

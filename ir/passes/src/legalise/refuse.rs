@@ -21,6 +21,7 @@ pub(crate) const PASS: Pass = Pass {
         |_, p| p.needs(ARC | MESSAGE | CALL | CONTROL | MACHINE),
         |l, p| refuse(l, p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -33,7 +34,7 @@ fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<
             work_offset::leave_straight(&mut stmt.op);
         }
         if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &shared.source_arcs) {
-            match arc_radii::over(arc, walk, source, &shared.target) {
+            match arc_radii::judge_radii(arc, walk, source, &shared.target) {
                 arc_radii::Judged::Kept => {}
                 arc_radii::Judged::ByCentre => {
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
@@ -42,7 +43,7 @@ fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<
             }
         }
         let mut cannot = |what: &str| {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         };
         match &stmt.op {
             Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot("a helix"),

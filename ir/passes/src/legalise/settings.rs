@@ -16,7 +16,7 @@ use ncc_exec::world::Sideways;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::compensated::Refused;
 use ncc_ir::expr::num::Num;
-use ncc_ir::geometry::round::ArcRule;
+use ncc_ir::geometry::arc_solver::ArcRule;
 
 impl Legaliser {
     /// The value of the source control's lift of chip breaking, for cycles that must be written out.
@@ -26,13 +26,13 @@ impl Legaliser {
 
     /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
     pub fn set_source_refuses(&mut self, source: Refused) {
-        self.shared.states.of::<CompensatedModesState>().refused =
+        self.shared.states.state_mut::<CompensatedModesState>().refused =
             self.shared.target.caps.compensation.refused.without(source);
     }
 
     /// Whether the source looks over blocks of a compensated contour that go nowhere. They are left out then.
     pub fn set_source_looks_over(&mut self, looks_over: bool) {
-        self.shared.states.of::<StillBlocksState>().looked_over = looks_over;
+        self.shared.states.state_mut::<StillBlocksState>().looked_over = looks_over;
         self.shared.follow |= looks_over;
     }
 

@@ -12,9 +12,9 @@ use crate::frames::expand_frames::ExpandFramesState;
 use crate::frames::machine_moves::MachineMovesState;
 use crate::holes::expand_cycles::ExpandCyclesState;
 use crate::holes::sayable::sayable;
-use crate::modes::at_once::AtOnceState;
 use crate::modes::feed_time::FeedTimeState;
 use crate::modes::feed_unit::FeedUnitState;
+use crate::modes::immediate_effects::ImmediateEffectsState;
 use crate::modes::one_move::OneMoveState;
 use crate::modes::path_control::PathControlState;
 use crate::threads::in_step::ThreadsState;
@@ -27,23 +27,12 @@ use std::collections::{BTreeSet, HashSet};
 use std::rc::Rc;
 
 use super::*;
-use crate::support::known_facts::has_bare_holes;
-use crate::watch::ran_whole;
+use crate::support::mode_analysis::has_bare_holes;
+use crate::watch::unwatched;
 use ncc_ir::canon::FeedMode;
 use ncc_ir::program::Text;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::valid::{ends_callers_cycle, leaves_a_cycle};
-
-/// What is done with subprograms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Subprograms {
-    /// They stay as they are.
-    Keep,
-    /// They get what their callers have in force.
-    Specialise,
-    /// They are written out.
-    Expand,
-}
 
 impl Legaliser {
     /// Brings a program that is kept whole within the target's capabilities: the rest of the main
@@ -67,8 +56,7 @@ impl Legaliser {
             }
         }
         if frames || self.repeats_in_the_way(rest) {
-            expand_repeats::everywhere(rest, diags);
-            ran_whole("expand-repeats", rest);
+            self.on_program(ProgramMoment::Repetitions, rest, Subprograms::Keep, diags);
         }
         // A subprogram may lack what only its callers know: it is given that, or written out.
         let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
@@ -77,8 +65,10 @@ impl Legaliser {
             false if !self.calls_under_expanded(rest) => 0,
             false => {
                 let mut own = rest.clone();
-                let inherits = self.shared.target.caps.flow.inherits_motion;
-                specialise_procedures::over(&mut own, &self.shared.walk, inherits, &mut Vec::new());
+                let mut nothing = Vec::new();
+                unwatched(|| {
+                    self.on_program(ProgramMoment::Calls, &mut own, Subprograms::Specialise, &mut nothing)
+                });
                 if self.calls_under_expanded(&own) { 2 } else { 1 }
             }
         };
@@ -107,19 +97,16 @@ impl Legaliser {
     /// Subprograms get what their callers have in force, and those alone are written out that take a cycle from
     /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
-        let (mut given, mut told) = (rest.clone(), Vec::new());
-        let inherits = self.shared.target.caps.flow.inherits_motion;
-        specialise_procedures::over(&mut given, &self.shared.walk, inherits, &mut told);
-        ran_whole("specialise-procedures", &given);
+        let (mut given, mut reported) = (rest.clone(), Vec::new());
+        self.on_program(ProgramMoment::Calls, &mut given, Subprograms::Specialise, &mut reported);
         let subs = given.procedures.iter().skip(1);
         let mut names: BTreeSet<Text> = match self.calls_under_expanded(&given) {
             true => subs.clone().filter(|sub| takes_cycle(&sub.body)).map(|sub| sub.name.clone()).collect(),
             false => BTreeSet::new(),
         };
         loop {
-            let (mut own, mut program, mut found) = (self.clone(), given.clone(), told.clone());
-            expand_calls::some(&mut program, &mut self.shared.walk.clone(), &names, &mut found);
-            ran_whole("expand-calls", &program);
+            let (mut own, mut program, mut found) = (self.clone(), given.clone(), reported.clone());
+            own.on_program(ProgramMoment::Calls, &mut program, Subprograms::ExpandNamed(&names), &mut found);
             if program.procedures.len() < 2 || self.calls_under_expanded(&program) {
                 return false;
             }
@@ -145,24 +132,10 @@ impl Legaliser {
     /// The same, with subprograms treated in one way.
     fn run_whole(&mut self, rest: &mut Program, way: Subprograms, diags: &mut Vec<Diagnostic>) {
         let assumed = rest.assumed;
-        match way {
-            Subprograms::Keep => {}
-            Subprograms::Specialise => {
-                let inherits = self.shared.target.caps.flow.inherits_motion;
-                specialise_procedures::over(rest, &self.shared.walk, inherits, diags);
-                ran_whole("specialise-procedures", rest);
-            }
-            Subprograms::Expand => {
-                expand_repeats::in_procedures(rest, self.shared.target.caps.flow.repeat_blocks, diags);
-                ran_whole("expand-repeats", rest);
-                // The walk is needed again for the other passes.
-                expand_calls::over(rest, &mut self.shared.walk.clone(), diags);
-                ran_whole("expand-calls", rest);
-            }
-        }
+        self.on_program(ProgramMoment::SubprogramRepetitions, rest, way, diags);
+        self.on_program(ProgramMoment::Calls, rest, way, diags);
         self.refuse_cycles_left(rest, diags);
-        number_names::over(rest, &self.shared.target, false, diags);
-        ran_whole("number-names", rest);
+        self.on_program(ProgramMoment::Names, rest, way, diags);
         self.shared.entries = self.entries_of(rest).map(Rc::new);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
@@ -175,23 +148,23 @@ impl Legaliser {
             self.shared.states.forget::<TapsState>();
             self.shared.states.forget::<FeedUnitState>();
             self.shared.states.forget::<ThreadsState>();
-            self.shared.states.of::<ToolEdgeState>().start_over();
-            self.shared.states.of::<ToolAxisState>().start_over();
-            self.shared.states.of::<PathControlState>().start_over();
+            self.shared.states.state_mut::<ToolEdgeState>().start_over();
+            self.shared.states.state_mut::<ToolAxisState>().start_over();
+            self.shared.states.state_mut::<PathControlState>().start_over();
             self.shared.states.forget::<OneMoveState>();
             self.shared.states.forget::<PolarWordsState>();
             self.shared.states.forget::<ExpandCornersState>();
             self.shared.states.forget::<ArcFormState>();
-            self.shared.states.of::<ExpandFramesState>().start_over();
+            self.shared.states.state_mut::<ExpandFramesState>().start_over();
             self.shared.states.forget::<MachineMovesState>();
-            self.shared.states.of::<ToolChangeState>().start_over();
-            self.shared.states.forget::<AtOnceState>();
-            self.shared.states.of::<ZAfterChangeState>().start_over();
+            self.shared.states.state_mut::<ToolChangeState>().start_over();
+            self.shared.states.forget::<ImmediateEffectsState>();
+            self.shared.states.state_mut::<ZAfterChangeState>().start_over();
             self.enter(procedure.body.first());
             self.run(&mut procedure.body, &Modes::default(), None, diags);
-            self.shared.states.of::<ToolChangeState>().start_over();
+            self.shared.states.state_mut::<ToolChangeState>().start_over();
             self.finish(&mut procedure.body, diags);
-            self.shared.states.of::<AtOnceState>().end_of_sub(&procedure.body, diags);
+            self.shared.states.state_mut::<ImmediateEffectsState>().end_of_sub(&procedure.body, diags);
         }
     }
 
@@ -201,14 +174,14 @@ impl Legaliser {
             return;
         }
         let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
-        let fault = || Fault::CannotSay { what: "a cycle that a subprogram leaves in force".into() };
+        let fault = || Fault::TargetLacks { what: "a cycle that a subprogram leaves in force".into() };
         diags.extend(left.map(|at| Diagnostic::new(fault(), at)));
-        let fault = || Fault::CannotSay { what: "a subprogram that ends a cycle of its caller".into() };
+        let fault = || Fault::TargetLacks { what: "a subprogram that ends a cycle of its caller".into() };
         diags.extend(ends_callers_cycle(program).into_iter().map(|at| Diagnostic::new(fault(), at)));
     }
 
     /// What holds after each call and label, where a pass asks for it.
-    pub(super) fn entries_of(&self, program: &Program) -> Option<known_facts::Known> {
+    pub(super) fn entries_of(&self, program: &Program) -> Option<mode_analysis::Known> {
         let has = |wanted| program.procedures.iter().any(|procedure| has(&procedure.body, wanted));
         let units = self.shared.feed_again && has(|op| matches!(op, Op::UseLengthUnits(_)));
         let starts = || has(|op| matches!(op, Op::StartCutterRadiusCompensation { .. }));
@@ -223,7 +196,7 @@ impl Legaliser {
             false => Tracker::unknown(),
         };
         entry.compensated = compensated.on;
-        known_facts::starts(program, &entry, compensated.path())
+        mode_analysis::starts(program, &entry, compensated.path())
     }
 
     /// Control comes from elsewhere to a body, or to what follows control.
@@ -232,9 +205,9 @@ impl Legaliser {
         let at = first.and_then(|first| entries.as_ref()?.before(first));
         let path = first.and_then(|first| entries.as_ref()?.path_before(first));
         let unknown = Tracker { compensated: self.shared.walk.at.compensated, ..Tracker::unknown() };
-        self.shared.states.of::<CompensatedModesState>().enter(at.unwrap_or(&unknown), path);
-        self.shared.states.of::<FeedUnitState>().enter();
-        self.shared.states.of::<FeedTimeState>().enter();
+        self.shared.states.state_mut::<CompensatedModesState>().enter(at.unwrap_or(&unknown), path);
+        self.shared.states.state_mut::<FeedUnitState>().enter();
+        self.shared.states.state_mut::<FeedTimeState>().enter();
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
@@ -280,7 +253,7 @@ impl Legaliser {
         bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
             Op::StartCycle(cycle) if !planes.says(cycle.return_plane.is_some()) => {
                 let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
-                !return_plane::mends(body, &stands(at), &self.shared.target)
+                !return_plane::converts_all(body, &stands(at), &self.shared.target)
             }
             Op::StartCycle(cycle) => {
                 let other = self.shared.target.caps.holes.approach.is_some_and(|a| a != cycle.approach);

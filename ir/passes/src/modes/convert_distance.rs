@@ -5,12 +5,21 @@
 
 use crate::Target;
 use crate::each_body;
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{at, exact, unit_of};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::program::{Coord, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const ABSOLUTE: Pass =
+    Pass::named("absolute", "measures words of moves from program zero", Some(absolute));
+
+/// This pass.
+pub(crate) const INCREMENTAL: Pass =
+    Pass::named("incremental", "measures words of moves from where the axes stand", Some(incremental));
 
 /// From program zero.
 pub fn absolute(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

@@ -5,6 +5,7 @@
 //! errors do not add up; a pitch or a peck, of which there are many, must come out exact or is
 //! refused.
 
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rounded, unit_of};
 use crate::{Target, each_body};
@@ -20,6 +21,13 @@ use ncc_ir::program::{
     ToolLength,
 };
 use ncc_ir::track::Tracker;
+
+/// This pass.
+pub(crate) const MILLIMETRES: Pass =
+    Pass::named("millimetres", "writes lengths and feeds in millimetres", Some(millimetres));
+
+/// This pass.
+pub(crate) const INCHES: Pass = Pass::named("inches", "writes lengths and feeds in inches", Some(inches));
 
 /// Everything in millimetres.
 pub fn millimetres(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
@@ -68,7 +76,7 @@ impl Converter<'_> {
             Op::SynchronisedFeed(m) => {
                 self.point(&mut m.to)?;
                 if let Pitch::Stated(pitch) = &mut m.pitch {
-                    self.whole(pitch)?;
+                    self.convert_exact(pitch)?;
                 }
             }
             // The tool comes out at another level than the words say.
@@ -118,12 +126,12 @@ impl Converter<'_> {
             }
             Op::SetFeedRate(feed) => self.loose(feed)?,
             Op::SetSpindleMode(SpindleMode::Surface) => {
-                return Err(Fault::CannotSay { what: "a surface speed in other units".into() });
+                return Err(Fault::TargetLacks { what: "a surface speed in other units".into() });
             }
             // Where the corner ends follows from it.
-            Op::Corner { size, .. } => self.whole(size)?,
+            Op::Corner { size, .. } => self.convert_exact(size)?,
             Op::StartCutterRadiusCompensation { radius: CutterRadius::Diameter(diameter), .. } => {
-                self.whole(diameter)?;
+                self.convert_exact(diameter)?;
             }
             Op::StartCycle(cycle) => self.cycle(cycle)?,
             Op::Pattern(pattern) => self.pattern(pattern)?,
@@ -133,32 +141,32 @@ impl Converter<'_> {
             }
             Op::SetData(data) => match &mut **data {
                 Data::Offset { words, .. } | Data::Measured { words, .. } => {
-                    words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
+                    words.iter_mut().take(3).flatten().try_for_each(|word| self.convert_exact(word))?;
                 }
-                Data::Tool { value, .. } => self.whole(value)?,
+                Data::Tool { value, .. } => self.convert_exact(value)?,
                 Data::Position(_) | Data::ToolInSpindle(_) => {}
             },
             Op::SetFrame(frame) => {
                 if let FrameStep::Translate(words) = &mut frame.step {
-                    words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
+                    words.iter_mut().take(3).flatten().try_for_each(|word| self.convert_exact(word))?;
                 }
             }
             Op::SetSlot(slot) => match &mut **slot {
                 Slot::Shift { axes, .. } => {
-                    axes.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
+                    axes.iter_mut().take(3).flatten().try_for_each(|word| self.convert_exact(word))?;
                 }
                 Slot::Rotation { centre: words, .. }
                 | Slot::Scale { centre: words, .. }
                 | Slot::Mirror(words) => {
-                    words.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
+                    words.iter_mut().flatten().try_for_each(|word| self.convert_exact(word))?;
                 }
                 Slot::Tilt(tilt) => {
-                    tilt.origin.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
+                    tilt.origin.iter_mut().flatten().try_for_each(|word| self.convert_exact(word))?;
                 }
                 Slot::NoMirror(_) => {}
             },
             Op::SetPosition(axes) => {
-                axes.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
+                axes.iter_mut().take(3).flatten().try_for_each(|word| self.convert_exact(word))?;
             }
             Op::ExactStop
             | Op::TurnRotaryAxes(_)
@@ -183,9 +191,9 @@ impl Converter<'_> {
             op @ tooling!() => {
                 if let Op::UseToolLength(length) = op {
                     match &mut **length {
-                        ToolLength::Value(value) | ToolLength::Added(value) => self.whole(value)?,
+                        ToolLength::Value(value) | ToolLength::Added(value) => self.convert_exact(value)?,
                         ToolLength::Offsets { words, .. } => {
-                            words.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
+                            words.iter_mut().flatten().try_for_each(|word| self.convert_exact(word))?;
                         }
                         ToolLength::AddedEntry(_) => {}
                     }
@@ -208,7 +216,7 @@ impl Converter<'_> {
     /// A number that may be rounded to the target's digits.
     fn loose(&self, value: &mut Expr) -> Result<(), Fault> {
         let Some(num) = value.literal() else {
-            return Err(Fault::CannotSay { what: "a computed value in another unit".into() });
+            return Err(Fault::TargetLacks { what: "a computed value in another unit".into() });
         };
         let num = self.known(num)?;
         let is_length = matches!(num.unit, Unit::Mm | Unit::Inch);
@@ -228,14 +236,14 @@ impl Converter<'_> {
     }
 
     /// A number that must come out exact.
-    fn whole(&self, value: &mut Expr) -> Result<(), Fault> {
+    fn convert_exact(&self, value: &mut Expr) -> Result<(), Fault> {
         let before = value.literal().map(|n| self.known(n)).transpose()?.and_then(|n| n.nanos(false));
         self.loose(value)?;
         match (before, value.literal().and_then(|n| n.nanos(false))) {
             (Some(a), Some(b)) if a == b => Ok(()),
             _ => {
                 let what = "a pitch, a peck, a shift or a corner that is not exact in inches".into();
-                Err(Fault::CannotSay { what })
+                Err(Fault::TargetLacks { what })
             }
         }
     }
@@ -272,7 +280,7 @@ impl Converter<'_> {
             return self.loose(&mut word.value);
         }
         let (Some(next), Some(now)) = (next, self.before.at.position[axis as usize]) else {
-            return self.whole(&mut word.value);
+            return self.convert_exact(&mut word.value);
         };
         let place = |nanos| self.nearest(nanos).nanos(false).unwrap_or(nanos);
         let way = place(next).wrapping_sub(place(now));
@@ -285,7 +293,7 @@ impl Converter<'_> {
         for word in planes.chain(&mut cycle.reference).chain(&mut cycle.return_plane) {
             match word.distance.known().or(self.before.at.modes.distance) {
                 Some(Distance::Absolute) => self.loose(&mut word.value)?,
-                Some(Distance::Incremental) | None => self.whole(&mut word.value)?,
+                Some(Distance::Incremental) | None => self.convert_exact(&mut word.value)?,
             }
         }
         if let Some(feed) = &mut cycle.feed {
@@ -294,8 +302,8 @@ impl Converter<'_> {
         match &mut cycle.kind {
             CycleKind::DrillPeck { peck, first, less, clearance, .. }
             | CycleKind::DrillBreak { peck, first, less, lift: clearance, .. } => {
-                self.whole(peck)?;
-                first.iter_mut().chain(less).try_for_each(|first| self.whole(first))?;
+                self.convert_exact(peck)?;
+                first.iter_mut().chain(less).try_for_each(|first| self.convert_exact(first))?;
                 match clearance {
                     Clearance::Stated(value) => self.loose(value)?,
                     Clearance::Parameter | Clearance::FromReturn => {}
@@ -304,7 +312,9 @@ impl Converter<'_> {
             CycleKind::Bore { feed_out, .. } => {
                 feed_out.iter_mut().try_for_each(|feed| self.loose(feed))?;
             }
-            kind @ (CycleKind::Tap(_) | CycleKind::FineBore(_)) => kind.each_length(|e| self.whole(e))?,
+            kind @ (CycleKind::Tap(_) | CycleKind::FineBore(_)) => {
+                kind.each_length(|e| self.convert_exact(e))?
+            }
             CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::BoreStop(_) => {}
         }
         Ok(())
@@ -314,7 +324,7 @@ impl Converter<'_> {
         let pair = |pair: &mut [Coord; 2]| pair.iter_mut().try_for_each(|c| self.loose(&mut c.value));
         let row = |row: &mut Row| match &mut row.along {
             Along::Axis(_) | Along::Angle(_) if row.count <= 2 => self.loose(&mut row.pitch),
-            Along::Axis(_) | Along::Angle(_) => self.whole(&mut row.pitch),
+            Along::Axis(_) | Along::Angle(_) => self.convert_exact(&mut row.pitch),
         };
         match pattern {
             Pattern::Circle { centre, first, .. } => {
@@ -326,8 +336,8 @@ impl Converter<'_> {
             }
             Pattern::Line { start, offset, pitch, .. } => {
                 start.iter_mut().try_for_each(pair)?;
-                self.whole(offset)?;
-                self.whole(pitch)
+                self.convert_exact(offset)?;
+                self.convert_exact(pitch)
             }
             Pattern::Grid { start, columns, rows, .. } => {
                 start.iter_mut().try_for_each(pair)?;
@@ -339,7 +349,7 @@ impl Converter<'_> {
                 .flat_map(|p| p.axes.iter_mut().take(3).flatten())
                 .try_for_each(|word| match word.distance.known().or(self.before.at.modes.distance) {
                     Some(Distance::Absolute) => self.loose(&mut word.value),
-                    Some(Distance::Incremental) | None => self.whole(&mut word.value),
+                    Some(Distance::Incremental) | None => self.convert_exact(&mut word.value),
                 }),
         }
     }

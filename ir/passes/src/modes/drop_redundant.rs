@@ -11,6 +11,7 @@
 //! as unsaid.
 
 use crate::fold::fold_cycles::feed;
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::rebuild;
 use crate::{Target, each_body};
@@ -21,13 +22,17 @@ use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{FrameSlot, Move, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("drop-redundant", "leaves out statements that change nothing", Some(run));
+
 /// Leaves out what changes nothing.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
-    each_body(program, entry, over);
+    each_body(program, entry, drop_statements);
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk) {
+pub(crate) fn drop_statements(body: &mut Vec<Stmt>, walk: &mut Walk) {
     // What the program itself has said.
     let start = Tracker { modes: Modes::default(), ..walk.at.clone() };
     let mut said = Walk::new(start);

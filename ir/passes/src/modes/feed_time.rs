@@ -16,7 +16,7 @@
 //! Not here: how long they take, which is execution's.
 
 use crate::pass::{Moment, Pass, Step};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use crate::{Target, each_body};
@@ -45,15 +45,23 @@ pub(crate) const PASS: Pass = Pass {
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            over(p.stmts, &mut l.walk.clone(), l.states.of::<FeedTimeState>(), &l.target, known, p.diags);
+            convert_feed_time(
+                p.stmts,
+                &mut l.walk.clone(),
+                l.states.state_mut::<FeedTimeState>(),
+                &l.target,
+                known,
+                p.diags,
+            );
         },
         otherwise: |l, p| {
             if l.times_differ && p.lines.is_none() {
-                l.states.of::<FeedTimeState>().note(p.stmts);
+                l.states.state_mut::<FeedTimeState>().note(p.stmts);
             }
         },
         first: None,
     }),
+    program: &[],
     parametric: None,
 };
 
@@ -69,7 +77,7 @@ pub(crate) struct FeedTimeState {
     /// The tool's tip is controlled.
     tip: bool,
     /// Whether it was told that moves are written by time.
-    told: bool,
+    reported: bool,
     /// Control comes from elsewhere before the next statement.
     enters: bool,
 }
@@ -126,12 +134,12 @@ impl FeedTimeState {
 /// Runs it alone.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, walk, &mut FeedTimeState::default(), target, None, diags)
+        convert_feed_time(body, walk, &mut FeedTimeState::default(), target, None, diags)
     });
 }
 
 /// Writes such moves so that the target takes the same time.
-pub(crate) fn over(
+pub(crate) fn convert_feed_time(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut FeedTimeState,
@@ -164,26 +172,26 @@ pub(crate) fn over(
                 match line(&m.to, &before, target) {
                     Ok(None) => state.back(&mut stmt, &before, target, made),
                     Ok(Some(time)) => {
-                        if !std::mem::replace(&mut state.told, true) {
+                        if !std::mem::replace(&mut state.reported, true) {
                             diags.push(Diagnostic::new(Fault::FeedByTime, stmt.span));
                         }
                         state.by_time(&mut stmt, &before, time, target, made);
                     }
                     Err(what) => {
-                        let fault = Fault::CannotSay { what: what.into() };
+                        let fault = Fault::TargetLacks { what: what.into() };
                         diags.push(Diagnostic::new(fault, stmt.span));
                     }
                 }
             }
             Op::Position(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
                 let what = "a feed of linear and rotary axes together that may be a rapid".into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
             Op::ArcFeed(arc) if before.modes.feed_mode == Some(FeedMode::InverseTime) => {
                 if arcs_differ(target)
                     && let Err(what) = arc_by_time(arc, &before, target, made)
                 {
-                    let fault = Fault::CannotSay { what: what.into() };
+                    let fault = Fault::TargetLacks { what: what.into() };
                     diags.push(Diagnostic::new(fault, stmt.span));
                 }
             }

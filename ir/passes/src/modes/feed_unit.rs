@@ -10,7 +10,7 @@
 
 use crate::modes::one_distance::is_measured;
 use crate::pass::{Moment, Pass, Shared, Step};
-use crate::support::known_facts::Known;
+use crate::support::mode_analysis::Known;
 use crate::support::walk::Walk;
 use crate::support::write::{exact, rebuild, rounded};
 use crate::{Target, each_body};
@@ -46,16 +46,24 @@ pub(crate) const AGAIN: Pass = Pass {
         run: |l, p| {
             let entries = l.entries.clone();
             let known = entries.as_deref();
-            again(p.stmts, &mut l.walk.clone(), l.states.of::<FeedUnitState>(), &l.target, known, p.diags);
+            again(
+                p.stmts,
+                &mut l.walk.clone(),
+                l.states.state_mut::<FeedUnitState>(),
+                &l.target,
+                known,
+                p.diags,
+            );
         },
         otherwise: |l, p| {
             if follows(l) {
-                let own = l.states.of::<FeedUnitState>();
+                let own = l.states.state_mut::<FeedUnitState>();
                 p.stmts.iter().for_each(|stmt| own.note(&stmt.op));
             }
         },
         first: None,
     }),
+    program: &[],
     parametric: None,
 };
 
@@ -67,8 +75,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| is_measured(l, p) && !l.target.caps.modes.feed_apart,
-        |l, p| over(p.stmts, &mut p.start.clone(), &l.target),
+        |l, p| convert_feed_unit(p.stmts, &mut p.start.clone(), &l.target),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -76,9 +85,9 @@ pub(crate) const PASS: Pass = Pass {
 /// something else of them than the source.
 pub(crate) fn says_again(target: &Target) -> bool {
     let fact = Behaviour::FeedAtUnits;
-    let (own, there) = (target.source, target.caps.behaviours);
-    let open = own.is_open(fact) || there.is_open(fact);
-    target.caps.modes.feed_again || target.other_control && open || own.get(fact) != there.get(fact)
+    let (own, other) = (target.source, target.caps.behaviours);
+    let open = own.is_open(fact) || other.is_open(fact);
+    target.caps.modes.feed_again || target.other_control && open || own.get(fact) != other.get(fact)
 }
 
 /// Feed in force, and whether the units have changed since it was said, or a code has ended it.
@@ -180,7 +189,7 @@ pub(crate) fn before_control(
         return None;
     }
     let (Some(feed), Some(units)) = (state.feed, at.modes.units) else {
-        return Some(Err(Diagnostic::new(Fault::CannotSay { what: ENDED.into() }, control.span)));
+        return Some(Err(Diagnostic::new(Fault::TargetLacks { what: ENDED.into() }, control.span)));
     };
     let feed = in_unit(feed, units, target).unwrap_or(feed);
     Some(Ok(Stmt::new(control.span, Op::SetFeedRate(feed.into()))))
@@ -228,14 +237,14 @@ pub(crate) fn again(
         };
         let again = state.stale || state.ended;
         if cuts && state.ended && (state.feed.is_none() || walk.at.modes.units.is_none()) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: ENDED.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: ENDED.into() }, stmt.span));
             state.ended = false;
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
         let by_feed = cuts && !matches!(stmt.op.unwrapped(), Op::SynchronisedFeed(_));
         if (by_feed || may_cut) && std::mem::take(&mut state.lost) || may_cut && state.stale {
             let what = "a feed that is not known here and holds after a change of units";
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         if let (true, true, Some(feed), Some(units)) = (cuts, again, state.feed, walk.at.modes.units) {
             if state.stale {
@@ -279,13 +288,13 @@ pub(crate) fn again(
 /// Writes them in the unit in force.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
-        over(body, &mut walk.clone(), target);
+        convert_feed_unit(body, &mut walk.clone(), target);
         again(body, walk, &mut FeedUnitState::default(), target, None, diags);
     });
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], walk: &mut Walk, target: &Target) {
+pub(crate) fn convert_feed_unit(body: &mut [Stmt], walk: &mut Walk, target: &Target) {
     for stmt in body {
         walk.enter(stmt.skip);
         let units = walk.at.modes.units;

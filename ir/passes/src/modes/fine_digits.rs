@@ -19,7 +19,7 @@ pub(crate) struct FineDigitsState {
     increments: Option<Increments>,
     distance: Option<Distance>,
     inch: bool,
-    told: bool,
+    reported: bool,
 }
 
 impl FineDigitsState {
@@ -46,7 +46,7 @@ impl FineDigitsState {
     }
 
     /// Cuts the digits off in further statements.
-    pub(crate) fn over(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn cut_digits(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
         let Some(increments) = self.increments else { return };
         for stmt in stmts {
             match &stmt.op {
@@ -70,7 +70,7 @@ impl FineDigitsState {
                         continue;
                     }
                     *n = Num { mantissa: cut, scale: digits, ..*n }.trimmed();
-                    if !std::mem::replace(&mut self.told, true) {
+                    if !std::mem::replace(&mut self.reported, true) {
                         let behaviour = Behaviour::FineDigits;
                         diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, span));
                     }

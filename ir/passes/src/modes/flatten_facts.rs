@@ -24,18 +24,19 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(EVERY),
-        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+        |_, p| state_facts(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
 /// Names every axis.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, diags));
+    each_body(program, entry, |body, walk| state_facts(body, walk, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn state_facts(body: &mut Vec<Stmt>, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     let mut superfluous = false;
     for stmt in body.iter_mut() {
         flatten(stmt, walk, diags);
@@ -104,7 +105,7 @@ fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
             }
             // Its length would be taken up by the word.
             Some(_) if axis == Axis::Z && word.is_none() && walk.waiting => {}
-            Some(nanos) => *word = Some(absolute(whole(nanos, unit_of(axis, walk.unit())))),
+            Some(nanos) => *word = Some(absolute(rounded_literal(nanos, unit_of(axis, walk.unit())))),
             None if word.is_some() => {
                 return Err(Fault::PositionUnknown { axis: axis.letter() as char });
             }
@@ -116,7 +117,7 @@ fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
 
 /// The literal of a position that is rounded once, by the target: in millimetres where no digits say it in
 /// inches, because what is rounded to finer digits first may come out another.
-fn whole(nanos: Nanos, unit: Unit) -> Num {
+fn rounded_literal(nanos: Nanos, unit: Unit) -> Num {
     let n = exact(nanos, unit);
     if unit != Unit::Inch || n.nanos(true) == Some(nanos) { n } else { exact(nanos, Unit::Mm) }
 }
@@ -141,7 +142,7 @@ fn centre_from_zero(arc: &mut Arc, walk: &Walk) -> Result<(), Fault> {
     };
     let mut words: [Option<Expr>; 3] = [None, None, None];
     for (axis, nanos) in [first, second].into_iter().zip(centre) {
-        words[axis as usize] = Some(whole(nanos, unit_of(axis, walk.unit())).into());
+        words[axis as usize] = Some(rounded_literal(nanos, unit_of(axis, walk.unit())).into());
     }
     arc.centre = Centre::Point { words, from: CentreFrom::Zero };
     Ok(())

@@ -7,7 +7,6 @@
 //!
 //! Not here: frames and lengths of tools, which say where a position is (`frames`, `tools`).
 
-pub(crate) mod at_once;
 pub mod convert_distance;
 pub mod convert_units;
 pub mod drop_redundant;
@@ -15,8 +14,9 @@ pub mod feed_time;
 pub mod feed_unit;
 pub(crate) mod fine_digits;
 pub mod flatten_facts;
+pub(crate) mod immediate_effects;
 pub mod one_distance;
 pub mod one_move;
-pub mod own_distance;
 pub(crate) mod path_control;
 pub mod side_effects;
+pub mod word_distance;

@@ -21,8 +21,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| is_measured(l, p) && !l.target.caps.modes.word_distance,
-        |_, p| over(p.stmts, &mut p.start.clone(), p.diags),
+        |_, p| unify_distance(p.stmts, &mut p.start.clone(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -35,11 +36,11 @@ pub(crate) fn is_measured(l: &Shared, p: &Piece) -> bool {
 
 /// Measures them from program zero.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, diags));
+    each_body(program, entry, |body, walk| unify_distance(body, walk, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn unify_distance(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     for stmt in body {
         walk.enter(stmt.skip);
         let in_force = walk.at.modes.distance;

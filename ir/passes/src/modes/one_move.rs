@@ -26,8 +26,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(MOVE),
-        |l, p| over(p.stmts, l.states.of::<OneMoveState>()),
+        |l, p| split_moves(p.stmts, l.states.state_mut::<OneMoveState>()),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -90,13 +91,13 @@ pub(crate) fn run(program: &mut Program, _: &Target, entry: &Tracker, _: &mut Ve
     each_body(program, entry, |body, walk: &mut Walk| {
         let by_time = walk.at.modes.feed_mode == Some(FeedMode::InverseTime);
         let mut state = OneMoveState { by_time, ..OneMoveState::default() };
-        over(body, &mut state);
+        split_moves(body, &mut state);
         state.flush(body);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(body: &mut Vec<Stmt>, state: &mut OneMoveState) {
+pub(crate) fn split_moves(body: &mut Vec<Stmt>, state: &mut OneMoveState) {
     let input = std::mem::take(body);
     let mut made = Rebuild::new(input.len());
     for stmt in input {

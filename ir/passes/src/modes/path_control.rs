@@ -26,8 +26,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(PATH),
-        |l, p| over(p.stmts, l.states.of::<PathControlState>(), &l.target, p.diags),
+        |l, p| convert_path_control(p.stmts, l.states.state_mut::<PathControlState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -40,7 +41,7 @@ pub(crate) struct PathControlState {
     /// has been made.
     again: Option<(PathControl, bool)>,
     /// What was told, a bit each: kinds of advice, then modes.
-    told: u64,
+    reported: u64,
 }
 
 impl PathControlState {
@@ -55,8 +56,8 @@ impl PathControlState {
     }
 
     fn first_time(&mut self, bit: u32) -> bool {
-        let fresh = self.told >> bit & 1 == 0;
-        self.told |= 1 << bit;
+        let fresh = self.reported >> bit & 1 == 0;
+        self.reported |= 1 << bit;
         fresh
     }
 }
@@ -66,12 +67,12 @@ pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags
     let mut state = PathControlState::default();
     each_body(program, entry, |body, _| {
         state.start_over();
-        over(body, &mut state, target, diags);
+        convert_path_control(body, &mut state, target, diags);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_path_control(
     body: &mut Vec<Stmt>,
     state: &mut PathControlState,
     target: &Target,
@@ -117,7 +118,7 @@ pub(crate) fn over(
                     }
                     _ => {
                         let what = "an exact stop of one move, where the mode before it is not known".into();
-                        diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                        diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                         made.leave_out(stmt);
                     }
                 }

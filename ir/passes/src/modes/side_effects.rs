@@ -28,7 +28,8 @@ mod length;
 mod way_up;
 
 use crate::modes::fine_digits;
-use crate::support::known_facts::Known;
+use crate::pass::Pass;
+use crate::support::mode_analysis::Known;
 use crate::tools::tool_words::ToolWords;
 use ncc_exec::Increments;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
@@ -51,6 +52,13 @@ use kinds::{at_end, commands_z, cuts, is_code, is_zero, starts_spindle, switches
 use way_up::WayUp;
 
 pub use way_up::REFUSED as NEEDS_Z;
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named(
+    "side-effects",
+    "says in words what codes of the source's control do besides their names",
+    None,
+);
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -198,13 +206,13 @@ impl SideEffects {
     }
 
     /// Rewrites further statements of the main procedure.
-    pub fn over(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+    pub fn write_effects(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.way_up.check(stmts, &[], diags);
         self.rewrite(stmts, diags);
     }
 
     fn rewrite(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        self.fine.over(stmts, diags);
+        self.fine.cut_digits(stmts, diags);
         if !self.touches(stmts) {
             return stmts.iter().for_each(|stmt| self.note(stmt));
         }
@@ -409,7 +417,7 @@ impl SideEffects {
         if self.beside && (!off.is_empty() || again && stands_alone(made, stmt)) {
             // With the block that switches, two still blocks stand in a row: the corner is each control's own.
             self.again = [None, None];
-            let fault = Fault::CannotSay { what: STOP_BESIDE.into() };
+            let fault = Fault::TargetLacks { what: STOP_BESIDE.into() };
             return diags.push(Diagnostic::new(fault, stmt.span));
         }
         self.stopped_in_words |=
@@ -436,8 +444,8 @@ impl SideEffects {
             if !self.source.does(behaviour) || self.target.surely(behaviour) {
                 continue;
             }
-            let told = |d: &Diagnostic| d.fault == Fault::SideEffectWritten { behaviour };
-            if !diags.iter().any(|d| d.span == stmt.span && told(d)) {
+            let reported = |d: &Diagnostic| d.fault == Fault::SideEffectWritten { behaviour };
+            if !diags.iter().any(|d| d.span == stmt.span && reported(d)) {
                 diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
             }
             new.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::ClearFrame(slot)) });

@@ -8,8 +8,9 @@
 //!
 //! Not here: anything that changes a program by itself.
 
-pub mod known_facts;
+pub mod mode_analysis;
 pub(crate) mod needs;
+pub(crate) mod settle;
 pub(crate) mod shared_map;
 pub(crate) mod states;
 pub(crate) mod walk;

@@ -26,7 +26,7 @@ impl Clone for States {
 
 impl States {
     /// What a pass remembers, to be changed.
-    pub(crate) fn of<S: Any + Debug + Clone + Default>(&mut self) -> &mut S {
+    pub(crate) fn state_mut<S: Any + Debug + Clone + Default>(&mut self) -> &mut S {
         let at = self.0.iter().position(|state| is::<S>(&**state)).unwrap_or_else(|| {
             self.0.push(Box::new(S::default()));
             self.0.len() - 1
@@ -45,7 +45,7 @@ impl States {
 
     /// Puts in what a pass is to remember.
     pub(crate) fn put<S: Any + Debug + Clone + Default>(&mut self, state: S) {
-        *self.of() = state;
+        *self.state_mut() = state;
     }
 
     /// Has a pass forget everything.
@@ -73,10 +73,10 @@ mod tests {
     fn each_pass_has_a_state_of_its_own() {
         let mut states = States::default();
         assert_eq!(states.ask(|holes: &Holes| holes.0), 0);
-        states.of::<Holes>().0 = 3;
+        states.state_mut::<Holes>().0 = 3;
         states.put(Threads(5));
         let copy = states.clone();
-        states.of::<Holes>().0 += 1;
+        states.state_mut::<Holes>().0 += 1;
         assert_eq!((states.ask(|h: &Holes| h.0), states.ask(|t: &Threads| t.0)), (4, 5));
         assert_eq!(copy.ask(|h: &Holes| h.0), 3);
         states.forget::<Holes>();

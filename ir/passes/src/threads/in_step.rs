@@ -39,6 +39,7 @@ pub(crate) const AS_CYCLES: Pass = Pass {
             p.needs |= l.lacks & CYCLE;
         },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -50,8 +51,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ThreadsState>(), &l.target, p.diags),
+        |l, p| {
+            convert_threads(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ThreadsState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -125,13 +135,13 @@ impl ThreadsState {
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = ThreadsState::default();
-        over(body, walk, &mut state, target, diags);
+        convert_threads(body, walk, &mut state, target, diags);
         state.finish(body, diags);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_threads(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ThreadsState,
@@ -149,7 +159,7 @@ pub(crate) fn over(
             if !remark {
                 if state.way_out.take().is_some() {
                     let what = "a rigid thread with something else before its way back";
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
                 }
                 if let Err(fault) = give_back(state, &mut stmt, made) {
                     diags.push(Diagnostic::new(fault, span));
@@ -313,14 +323,14 @@ impl ThreadsState {
         if self.way_out.take().is_some() {
             let what = "a rigid thread without its way back".into();
             let span = body.last().map(|stmt| stmt.span).unwrap_or_default();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
         }
         (self.owed, self.lost) = (None, false);
     }
 }
 
 fn cannot<T>(what: &str) -> Result<T, Fault> {
-    Err(Fault::CannotSay { what: what.into() })
+    Err(Fault::TargetLacks { what: what.into() })
 }
 
 /// One move in the target's words.
@@ -339,7 +349,7 @@ fn said(
     };
     if m.chuck {
         return match (&m.pitch, m.turn, threads.chuck) {
-            (Pitch::Feed, None, true) if !m.back => Ok(vec![whole(m)]),
+            (Pitch::Feed, None, true) if !m.back => Ok(vec![thread_op(m)]),
             (_, _, false) => cannot("a thread with a compensating chuck"),
             _ => cannot("a thread with a compensating chuck in this form"),
         };
@@ -348,9 +358,9 @@ fn said(
         m.pitch = Pitch::Stated(taps::pitch_of(speed.feed, speed.speed, walk)?.into());
     }
     match (m.turn, m.back) {
-        (None, false) if threads.plain => Ok(vec![whole(m)]),
-        (None, true) if threads.back => Ok(vec![whole(m)]),
-        (Some(_), false) if threads.turned && state.held => Ok(vec![whole(m)]),
+        (None, false) if threads.plain => Ok(vec![thread_op(m)]),
+        (None, true) if threads.back => Ok(vec![thread_op(m)]),
+        (Some(_), false) if threads.turned && state.held => Ok(vec![thread_op(m)]),
         (Some(_), false) if threads.turned => {
             cannot("a rigid thread whose spindle has not been stopped at an angle before it")
         }
@@ -386,6 +396,6 @@ fn said(
     }
 }
 
-fn whole(m: &Synchronised) -> Op {
+fn thread_op(m: &Synchronised) -> Op {
     Op::SynchronisedFeed(Box::new(m.clone()))
 }

@@ -29,10 +29,11 @@ pub(crate) const PASS: Pass = Pass {
         Moment::Wording,
         |l, p| p.needs(THREAD) && p.stmts.iter().any(|stmt| is_half(stmt, &l.target)),
         |l, p| {
-            over(p.stmts, &mut p.start.clone(), &l.target);
+            fold_tapped_holes(p.stmts, &mut p.start.clone(), &l.target);
             p.needs |= l.lacks & CYCLE;
         },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -68,7 +69,7 @@ fn form(chuck: bool, target: &Target) -> Option<CycleForm> {
 }
 
 /// Writes them as cycles.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) {
+pub(crate) fn fold_tapped_holes(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) {
     let old = std::mem::take(body);
     let mut rest = &old[..];
     while let Some(stmt) = rest.first() {

@@ -34,8 +34,11 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(CYCLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<TapsState>(), &l.target, p.diags),
+        |l, p| {
+            convert_taps(p.stmts, &mut p.start.clone(), l.states.state_mut::<TapsState>(), &l.target, p.diags)
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -165,11 +168,13 @@ impl Said {
 
 /// Says them as the target does.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut TapsState::default(), target, diags));
+    each_body(program, entry, |body, walk| {
+        convert_taps(body, walk, &mut TapsState::default(), target, diags)
+    });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_taps(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut TapsState,
@@ -195,13 +200,13 @@ pub(crate) fn over(
             || state.by_minute && matches!(stmt.op, Op::SetFeedMode(_) | Op::UseLengthUnits(_));
         if ends && state.changed && stmt.skip.is_some() || relies {
             let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         if let Some(what) = turned(&stmt, state) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
         if state.goes_lost(&stmt) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: LOST.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: LOST.into() }, stmt.span));
         }
         state.clockwise &= !ends;
         let mut after = Vec::new();
@@ -242,7 +247,7 @@ pub(crate) fn over(
             match fit(cycle, walk, state, target) {
                 Ok(Some(feed)) if stmt.skip.is_some() => {
                     let what = "a tapping cycle in a block that can be skipped".into();
-                    diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                     let _ = feed;
                 }
                 Ok(feed) => before = feed.flatten(),
@@ -406,7 +411,7 @@ fn start(tap: &Tap) -> Op {
 }
 
 fn unknown(what: &str) -> Fault {
-    Fault::CannotSay { what: format!("a tapping cycle of which {what} is not known").into() }
+    Fault::TargetLacks { what: format!("a tapping cycle of which {what} is not known").into() }
 }
 
 fn in_unit(num: Num, walk: &Walk) -> Result<(Nanos, Unit), Fault> {

@@ -23,8 +23,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Arrival,
         |l, _| l.states.ask(LengthAxisState::is_used),
-        |l, p| l.states.of::<LengthAxisState>().check(p.stmts, &l.walk, p.diags),
+        |l, p| l.states.state_mut::<LengthAxisState>().check(p.stmts, &l.walk, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -59,7 +60,7 @@ impl LengthAxisState {
     /// Refuses what is not the same on both, and writes the moves that a length makes.
     pub(crate) fn check(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
         if self.moves.is_used() {
-            self.moves.over(stmts, start, diags);
+            self.moves.rewrite_moves(stmts, start, diags);
         }
         let mut walk = start.clone();
         for stmt in stmts.iter() {
@@ -74,7 +75,7 @@ impl LengthAxisState {
             walk.step(stmt);
             if found && !(self.at_call && walk.at.modes.length_offset == Some(0)) {
                 let what = "a tool's length in another plane than XY".into();
-                return diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                return diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
         }
     }

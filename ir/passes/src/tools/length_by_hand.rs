@@ -26,8 +26,11 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |l, p| p.needs(TABLE) && l.target.caps.tools.change_by_hand,
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<LengthByHandState>(), p.diags),
+        |l, p| {
+            drop_lengths(p.stmts, &mut p.start.clone(), l.states.state_mut::<LengthByHandState>(), p.diags)
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -39,7 +42,7 @@ pub(crate) struct LengthByHandState {
     /// Whether a length that the program states itself may be in force.
     stated: bool,
     /// Tools of which the operator's work has been told.
-    told: Vec<u32>,
+    reported: Vec<u32>,
     /// A refusal stands, so that no further one follows from it.
     refused: bool,
 }
@@ -52,7 +55,7 @@ impl LengthByHandState {
 }
 
 /// Leaves lengths out of a piece of a body.
-pub(crate) fn over(
+pub(crate) fn drop_lengths(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut LengthByHandState,
@@ -69,7 +72,7 @@ pub(crate) fn over(
                 false
             }
             Op::UseToolLengthOffset(entry) => {
-                let entry = entry.literal().and_then(|n| n.whole());
+                let entry = entry.literal().and_then(|n| n.whole_number());
                 let ends_stated = entry == Some(0) && state.stated;
                 state.stated = false;
                 state.calls(entry, &stmt, walk, diags);
@@ -93,8 +96,8 @@ impl LengthByHandState {
             (Some(0), _) => {}
             (Some(entry), Some(tool)) if entry == tool => {
                 let tool = tool as u32;
-                if !self.told.contains(&tool) {
-                    self.told.push(tool);
+                if !self.reported.contains(&tool) {
+                    self.reported.push(tool);
                     diags.push(Diagnostic::new(Fault::LengthByHand { tool }, stmt.span));
                 }
             }
@@ -124,7 +127,7 @@ impl LengthByHandState {
 
     fn refuse(&mut self, what: String, stmt: &Stmt, diags: &mut Vec<Diagnostic>) {
         if !std::mem::replace(&mut self.refused, true) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
     }
 }

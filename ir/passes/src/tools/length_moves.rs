@@ -51,7 +51,7 @@ impl LengthMovesState {
     }
 
     /// Rewrites further statements, which are whole blocks.
-    pub(crate) fn over(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn rewrite_moves(&mut self, stmts: &mut Vec<Stmt>, start: &Walk, diags: &mut Vec<Diagnostic>) {
         let mut walk = start.clone();
         let mut made: Vec<Stmt> = Vec::with_capacity(stmts.len() + 2);
         let mut rest = std::mem::take(stmts).into_iter().peekable();
@@ -67,7 +67,7 @@ impl LengthMovesState {
                 let fault = match self.write(&mut block, called, &walk) {
                     Ok(true) => Some(Fault::SideEffectWritten { behaviour: Behaviour::LengthWithoutAxis }),
                     Ok(false) => None,
-                    Err(what) => Some(Fault::CannotSay { what: what.into() }),
+                    Err(what) => Some(Fault::TargetLacks { what: what.into() }),
                 };
                 diags.extend(fault.map(|fault| Diagnostic::new(fault, at)));
             }

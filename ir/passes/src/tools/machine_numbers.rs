@@ -3,9 +3,9 @@
 //!
 //! It goes by [`Maps`] and knows no machine. What the program uses and a map in force does not have
 //! is refused where it stands, and so is a number that is computed; nothing is passed on by chance.
-//! It is not among [`PASSES`](crate::PASSES): a program is renumbered once, when it goes from one
-//! machine to another, and by nobody's wish.
+//! It cannot be asked for by name: a program is renumbered once, when it goes from one machine to another.
 
+use crate::pass::Pass;
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_exec::maps::Maps;
@@ -16,6 +16,20 @@ use ncc_ir::program::kinds::{conduct, drilling, miscellaneous, modes, moves, pol
 use ncc_ir::program::numbered::Numbered;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, ProgramName, Stmt, Text, ToolLength};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const TOOL_NAMES: Pass = Pass::named(
+    "tool-names",
+    "puts the target machine's numbers in for names of tools, in a program that computes",
+    None,
+);
+
+/// This pass.
+pub(crate) const PASS: Pass = Pass::named(
+    "machine-numbers",
+    "puts the target machine's numbers of tools, lengths and offsets in",
+    None,
+);
 
 /// What bears no number of tools, lengths, work offsets or programs.
 macro_rules! unnumbered {
@@ -61,7 +75,7 @@ pub struct Renumbering {
     /// What was put in: kind, the source's number or name, the target's.
     used: BTreeSet<(Numbered, Text, Text)>,
     /// What was refused.
-    told: BTreeSet<(Numbered, u32)>,
+    reported: BTreeSet<(Numbered, u32)>,
 }
 
 impl Renumbering {
@@ -124,7 +138,7 @@ impl Renumbering {
     }
 
     /// Puts the target's numbers in further statements of a body.
-    pub fn over(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
+    pub fn renumber(&mut self, stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
         if self.maps.is_empty() {
             return;
         }
@@ -198,7 +212,7 @@ impl Renumbering {
                 }
                 Op::Control(control) => {
                     for body in control.bodies_mut() {
-                        self.over(body, diags);
+                        self.renumber(body, diags);
                     }
                 }
                 Op::SelectTool(_) | Op::UseToolLengthOffset(_) | unnumbered!() => {}
@@ -262,7 +276,7 @@ impl Renumbering {
                     }
                 }
             }
-            self.over(&mut procedure.body, diags);
+            self.renumber(&mut procedure.body, diags);
         }
     }
 
@@ -304,7 +318,7 @@ impl Renumbering {
 
     /// Puts a number in the place of a literal one.
     fn put_in(&mut self, value: &mut Expr, what: Numbered, at: Span, diags: &mut Vec<Diagnostic>) {
-        let number = value.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let number = value.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let Some(number) = number else {
             let what = match what {
                 Numbered::Tool => "a computed tool, where tools go by name",
@@ -312,7 +326,7 @@ impl Renumbering {
                 Numbered::WorkOffset => "a computed work offset, where work offsets go by name",
                 Numbered::Program => "a computed call, where programs go by name",
             };
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, at));
             return;
         };
         if let Some(new) = self.put(what, number, at, diags).filter(|new| *new != number) {
@@ -344,8 +358,8 @@ impl Renumbering {
     /// Refuses a number, once.
     fn refuse(&mut self, what: Numbered, number: u32, at: Span, diags: &mut Vec<Diagnostic>) {
         // The tool with the number of an entry has been refused: so is its length.
-        let with_tool = what == Numbered::LengthEntry && self.told.contains(&(Numbered::Tool, number));
-        if self.told.insert((what, number)) && !with_tool {
+        let with_tool = what == Numbered::LengthEntry && self.reported.contains(&(Numbered::Tool, number));
+        if self.reported.insert((what, number)) && !with_tool {
             let name = self.maps.unmatched.get(&(what, number)).cloned();
             diags.push(Diagnostic::new(Fault::NotInMap { what, number, name }, at));
         }

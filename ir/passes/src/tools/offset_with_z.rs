@@ -25,8 +25,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(LENGTH),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<OffsetWithZState>(), p.diags),
+        |l, p| delay_offset(p.stmts, &mut p.start.clone(), l.states.state_mut::<OffsetWithZState>(), p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -48,7 +49,7 @@ struct Waiting {
     /// Number of its block.
     block: u64,
     /// It has been reported.
-    told: bool,
+    reported: bool,
     /// Whether it is in force already: where no move along Z comes, nothing is lost without it.
     in_force: bool,
 }
@@ -57,7 +58,7 @@ struct Waiting {
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = OffsetWithZState::default();
-        over(body, walk, &mut state, diags);
+        delay_offset(body, walk, &mut state, diags);
         state.flush(body, diags);
     });
 }
@@ -99,7 +100,7 @@ impl Waiting {
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn delay_offset(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut OffsetWithZState,
@@ -139,7 +140,7 @@ pub(crate) fn over(
                     span: stmt.span,
                     skip: stmt.skip,
                     block: state.block,
-                    told: false,
+                    reported: false,
                     in_force,
                 });
                 made.leave_out(stmt);
@@ -173,7 +174,7 @@ pub(crate) fn over(
 
 /// Whether an entry is surely in force, and its values are those that it was called up with.
 fn is_in_force(walk: &Walk, entry: &Expr) -> bool {
-    let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+    let entry = entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
     !walk.waiting && entry.is_some() && walk.at.modes.length_offset == entry
 }
 
@@ -196,7 +197,7 @@ fn leaves(op: &Op) -> bool {
 
 fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
     let what = "a tool-length offset without a block that commands Z".into();
-    diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+    diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
 }
 
 /// Puts a waiting offset into the block of the statement that takes it up.
@@ -207,9 +208,9 @@ fn take_up(stmt: Stmt, state: &mut OffsetWithZState, made: &mut Rebuild, diags: 
     }
     let mut offset = waiting.clone().into_stmt();
     offset.skip = stmt.skip;
-    if !waiting.told && waiting.block != state.block {
+    if !waiting.reported && waiting.block != state.block {
         diags.push(Diagnostic::new(Fault::AssumedOffsetWithZ, waiting.span));
-        waiting.told = true;
+        waiting.reported = true;
     }
     // A block that may be skipped takes it up only then: the next one has to say it again.
     if stmt.skip == waiting.skip {

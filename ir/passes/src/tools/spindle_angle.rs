@@ -19,8 +19,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, _| true,
-        |l, p| over(p.stmts, l.states.of::<SpindleAngleState>(), &l.target, p.diags),
+        |l, p| stop_at_angle(p.stmts, l.states.state_mut::<SpindleAngleState>(), &l.target, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -35,12 +36,12 @@ pub(crate) struct SpindleAngleState {
 pub(crate) fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = SpindleAngleState::default();
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, &mut state, target, diags);
+        stop_at_angle(&mut procedure.body, &mut state, target, diags);
     }
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn stop_at_angle(
     stmts: &mut [Stmt],
     state: &mut SpindleAngleState,
     target: &Target,
@@ -51,7 +52,7 @@ pub(crate) fn over(
         if angle.is_none() && !target.caps.moves.own_stop {
             let Some(own) = target.orientation else {
                 let what = "a stop of the spindle at the control's own angle".into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
                 continue;
             };
             *angle = Some(Expr::Num(own));

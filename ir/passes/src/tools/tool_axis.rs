@@ -29,8 +29,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(TOOL_AXIS),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolAxisState>(), &l.target, p.diags),
+        |l, p| {
+            convert_axis_lengths(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ToolAxisState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -44,7 +53,7 @@ pub(crate) struct ToolAxisState {
     /// The work offset that was said already, before the word that it stands behind in the source.
     offset: Option<u16>,
     /// Whether each was told.
-    told: [bool; 2],
+    reported: [bool; 2],
 }
 
 /// Whether something is in force.
@@ -133,7 +142,7 @@ impl ToolAxisState {
         if needless && !on {
             self.tip.leave_out();
         }
-        if on && target.other_control && !std::mem::replace(&mut self.told[0], true) {
+        if on && target.other_control && !std::mem::replace(&mut self.reported[0], true) {
             diags.push(Diagnostic::new(Fault::AssumedTip, stmt.span));
         }
         self.tip.set(if on { Now::On } else { Now::Off }, stmt.skip.is_some());
@@ -173,7 +182,7 @@ impl ToolAxisState {
             }
         };
         self.tilt.set(Now::On, stmt.skip.is_some());
-        if target.other_control && !std::mem::replace(&mut self.told[1], true) {
+        if target.other_control && !std::mem::replace(&mut self.reported[1], true) {
             diags.push(Diagnostic::new(Fault::AssumedTilt, stmt.span));
         }
         let set = Op::SetSlot(Box::new(Slot::Tilt(Box::new(said))));
@@ -207,12 +216,12 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
         if !std::mem::replace(&mut first, false) {
             state.start_over();
         }
-        over(body, walk, &mut state, target, diags);
+        convert_axis_lengths(body, walk, &mut state, target, diags);
     });
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_axis_lengths(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ToolAxisState,
@@ -231,14 +240,14 @@ pub(crate) fn over(
         let before = walk.at.modes;
         walk.step(&stmt);
         let mut refuse = |what: &str| {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
         };
         let skipped = stmt.skip.is_some();
         match &stmt.op {
             Op::UseToolCentrePoint(_) => {
                 let behind = said_behind.get(place).copied().unwrap_or_default();
                 if let Err(what) = state.switch_tip(stmt, behind, &before, target, made, diags) {
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
                 }
             }
             Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
@@ -265,7 +274,7 @@ pub(crate) fn over(
             Op::SetSlot(_) => {
                 let oriented = oriented.get(place).copied().flatten();
                 if let Err(what) = state.set_tilt(stmt, oriented, target, made, diags) {
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
                 }
             }
             Op::ClearFrame(FrameSlot::Tilt) => {
@@ -369,7 +378,7 @@ fn with_length(
 }
 
 fn number(entry: &Expr) -> Option<u32> {
-    entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok())
+    entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
 }
 
 /// What is said behind a word that switches control of the tip, before anything moves.

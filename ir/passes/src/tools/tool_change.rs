@@ -20,9 +20,10 @@ pub(crate) const PASS: Pass = Pass {
         |l, _| l.target.caps.tools.change_stops_spindle,
         |l, p| {
             let up = l.target.caps.behaviours.surely(Behaviour::ZAtChange);
-            l.states.of::<ToolChangeState>().over(p.stmts, up, p.diags);
+            l.states.state_mut::<ToolChangeState>().check_changes(p.stmts, up, p.diags);
         },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -51,7 +52,7 @@ impl ToolChangeState {
     }
 
     /// Looks at further statements; `up`: Z goes to machine zero for the change, where only a cut needs the spindle.
-    pub(crate) fn over(&mut self, stmts: &[Stmt], up: bool, diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn check_changes(&mut self, stmts: &[Stmt], up: bool, diags: &mut Vec<Diagnostic>) {
         for stmt in stmts {
             if self.open.is_some() && needs_spindle(&stmt.op) && !(up && only_moves(&stmt.op)) {
                 let at = self.open.take().map_or(stmt.span, |(at, _)| at);
@@ -63,7 +64,7 @@ impl ToolChangeState {
                 Op::EndCycle | moves!() => self.cycle &= !sure,
                 Op::ChangeTool if up && self.cycle => {
                     let what = "a tool change while a canned cycle is active";
-                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
                 }
                 _ => {}
             }
@@ -95,7 +96,7 @@ impl ToolChangeState {
 
 fn goes_on(at: Span) -> Diagnostic {
     let what = "a spindle that goes on turning when the tool is changed";
-    Diagnostic::new(Fault::CannotSay { what: what.into() }, at)
+    Diagnostic::new(Fault::TargetLacks { what: what.into() }, at)
 }
 
 /// Whether a statement cuts nothing, and goes nowhere but rapidly.

@@ -28,8 +28,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Wording,
         |_, p| p.needs(EDGE | TABLE),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ToolEdgeState>(), &l.target, p.diags),
+        |l, p| {
+            convert_edges(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ToolEdgeState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -37,7 +46,7 @@ pub(crate) const PASS: Pass = Pass {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ToolEdgeState {
     /// Tools of which the assumption has been told.
-    told: Vec<u32>,
+    reported: Vec<u32>,
     /// A tool change, or the edge that comes with it, after which Z has not been commanded.
     waiting: Option<Waiting>,
 }
@@ -62,7 +71,7 @@ const REFUSED: Expr = Expr::int(1);
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         let mut state = ToolEdgeState::default();
-        over(body, walk, &mut state, target, diags);
+        convert_edges(body, walk, &mut state, target, diags);
         state.finish(diags);
     });
 }
@@ -86,15 +95,15 @@ impl ToolEdgeState {
     }
 
     fn tell(&mut self, tool: u32, span: Span, diags: &mut Vec<Diagnostic>) {
-        if !self.told.contains(&tool) {
-            self.told.push(tool);
+        if !self.reported.contains(&tool) {
+            self.reported.push(tool);
             diags.push(Diagnostic::new(Fault::AssumedEdge { tool }, span));
         }
     }
 }
 
 /// The same for one piece of a body.
-pub(crate) fn over(
+pub(crate) fn convert_edges(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ToolEdgeState,
@@ -125,8 +134,8 @@ fn may_command_z(walk: &Walk, op: &Op) -> bool {
     elsewhere || unknown || walk.commands_z(op)
 }
 
-fn whole(value: &Expr) -> Option<u32> {
-    value.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok())
+fn whole_number(value: &Expr) -> Option<u32> {
+    value.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
 }
 
 /// The tool in the spindle, if it is known to be one.
@@ -135,7 +144,7 @@ fn tool(walk: &Walk) -> Option<u32> {
 }
 
 fn cannot(what: String) -> Fault {
-    Fault::CannotSay { what: what.into() }
+    Fault::TargetLacks { what: what.into() }
 }
 
 /// One statement for a control with a table.
@@ -159,7 +168,7 @@ fn to_entries(
     let (edge, said) = (edge.clone(), *said);
     let (span, skip) = (stmt.span, stmt.skip);
     let further = |edge, tool| target.further_edges.get(&(tool, edge)).copied();
-    let found = match (whole(&edge), tool(walk)) {
+    let found = match (whole_number(&edge), tool(walk)) {
         (Some(0), _) => Ok(Some(0)),
         // No tool has no length, whatever edge is active.
         (Some(_), _) if walk.at.tool == Some(0) => Ok(Some(0)),
@@ -175,7 +184,7 @@ fn to_entries(
         (None, _) => Err(cannot("a computed edge of a tool".into())),
     };
     // Of a tool that the program has not called, it is needed only where Z moves by it.
-    let unknown = whole(&edge) == Some(1) && tool(walk).is_none() && walk.at.tool != Some(0);
+    let unknown = whole_number(&edge) == Some(1) && tool(walk).is_none() && walk.at.tool != Some(0);
     walk.step(&stmt);
     if let Some(before) = state.waiting.take() {
         // Nothing has taken up the edge that came with the tool.
@@ -263,7 +272,7 @@ fn to_edges(
             made.push(stmt);
         }
         Op::UseToolLengthOffset(entry) => {
-            let found = edge_of(whole(entry), tool(walk));
+            let found = edge_of(whole_number(entry), tool(walk));
             let may_be_skipped =
                 stmt.skip.is_some() && state.waiting.as_ref().is_some_and(|w| w.skip != stmt.skip);
             if may_be_skipped {

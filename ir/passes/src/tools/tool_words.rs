@@ -142,7 +142,7 @@ impl ToolWords {
             }
             (true, _) => {
                 let what = "a tool change of a tool that an earlier block selects, which is not known here";
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
             }
             (false, _) if source.is_open(WITH_CHANGE) => {}
             (false, _) if target.does(WITH_CHANGE) || target.is_open(WITH_CHANGE) => {

@@ -31,8 +31,9 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Arrival,
         |l, p| l.states.ask(|own: &ZAfterChangeState| own.concerns(p.stmts)),
-        |l, p| l.states.of::<ZAfterChangeState>().over(p.stmts, &l.walk, p.diags),
+        |l, p| l.states.state_mut::<ZAfterChangeState>().make_absolute(p.stmts, &l.walk, p.diags),
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -64,7 +65,7 @@ impl ZAfterChangeState {
     }
 
     /// Makes the word absolute, where it is known where it leads. Refuses arcs around a centre that Z counts in.
-    pub(crate) fn over(&mut self, stmts: &mut [Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+    pub(crate) fn make_absolute(&mut self, stmts: &mut [Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
         let mut walk = start.clone();
         for stmt in stmts {
             walk.enter(stmt.skip);

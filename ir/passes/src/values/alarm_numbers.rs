@@ -3,13 +3,21 @@
 //!
 //! The numbers of alarms that are computed stay. Not here: alarms that the target gives by itself.
 
+use crate::pass::Pass;
 use ncc_ir::alarms::Alarms;
-use ncc_ir::computed::call_of::NO_SUCH_PROGRAM;
-use ncc_ir::computed::code_of::NO_SUCH_CODE;
+use ncc_ir::computed::computed_call::NO_SUCH_PROGRAM;
+use ncc_ir::computed::computed_code::NO_SUCH_CODE;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Alarm, NO_SUCH_BLOCK, Op, Program, Stmt};
 use ncc_ir::source::Span;
+
+/// This pass.
+pub(crate) const TEXTS: Pass =
+    Pass::named("alarm-texts", "says texts of alarms in the target's characters", None);
+
+/// This pass.
+pub(crate) const NUMBERS: Pass = Pass::named("alarm-numbers", "numbers alarms as the target does", None);
 
 /// Most alarms that are told.
 const MOST_TOLD: usize = 20;
@@ -21,12 +29,12 @@ pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<
         true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
         false => &[NO_SUCH_CODE],
     };
-    let mut told: Vec<(String, Span)> = Vec::new();
+    let mut reported: Vec<(String, Span)> = Vec::new();
     for procedure in &mut program.procedures {
-        body(&mut procedure.body, alarms, own, &mut told);
+        body(&mut procedure.body, alarms, own, &mut reported);
     }
-    if let Some((_, at)) = told.first() {
-        let all: Vec<&str> = told.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
+    if let Some((_, at)) = reported.first() {
+        let all: Vec<&str> = reported.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
         let map = all.join(", ").into();
         diags.push(Diagnostic::new(Fault::AlarmsRenumbered { map }, *at));
     }
@@ -54,13 +62,14 @@ fn characters(stmts: &mut [Stmt], alarms: &Alarms, diags: &mut Vec<Diagnostic>) 
     }
 }
 
-fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], told: &mut Vec<(String, Span)>) {
+fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], reported: &mut Vec<(String, Span)>) {
     for stmt in stmts {
         match &mut stmt.op {
             Op::Alarm(alarm) => {
                 if let Some(other) = other(alarm, alarms, own) {
                     let number = |alarm: &Alarm| {
-                        let number = alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole());
+                        let number =
+                            alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole_number());
                         number.map_or_else(
                             || format!("the one with the text {:?}", &*alarm.text),
                             |n| n.to_string(),
@@ -70,13 +79,13 @@ fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], told: &mut Vec<(Strin
                     if other.number.is_some() && other.text.chars().count() < alarm.text.chars().count() {
                         what.push_str(&format!(" with the text {:?}", &*other.text));
                     }
-                    if !told.iter().any(|(known, _)| *known == what) {
-                        told.push((what, stmt.span));
+                    if !reported.iter().any(|(known, _)| *known == what) {
+                        reported.push((what, stmt.span));
                     }
                     **alarm = other;
                 }
             }
-            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, own, told)),
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, own, reported)),
             _ => {}
         }
     }
@@ -87,7 +96,7 @@ fn other(alarm: &Alarm, alarms: &Alarms, own: &[&str]) -> Option<Alarm> {
     let own = alarm.number.is_none() && own.contains(&&*alarm.text);
     let number = match &alarm.number {
         None => None,
-        Some(number) => Some(number.literal().and_then(|n| n.whole())?),
+        Some(number) => Some(number.literal().and_then(|n| n.whole_number())?),
     };
     let (said, text) = alarms.said(number, &alarm.text).filter(|_| !own)?;
     let same = said == number && text == alarm.text;

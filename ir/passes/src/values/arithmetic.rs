@@ -30,7 +30,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
 /// Says what is computed with what the target has. `own` is the tolerance of the comparisons that the program's own
 /// control makes, if they have one.
 pub fn run(program: &mut Program, computes: &Computes, own: Option<Num>, diags: &mut Vec<Diagnostic>) {
-    let mut decimals = Decimals::of(program);
+    let mut decimals = Decimals::from_program(program);
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);
         let mut taken = Vec::new();
@@ -46,7 +46,7 @@ pub fn run(program: &mut Program, computes: &Computes, own: Option<Num>, diags: 
 /// Tells once what is taken for granted.
 fn tell(what: &str, how: &str, at: Span, diags: &mut Vec<Diagnostic>) {
     let fault = Fault::AssumedParameter { parameter: what.into(), value: how.into() };
-    if !diags.iter().any(|told| told.fault == fault) {
+    if !diags.iter().any(|reported| reported.fault == fault) {
         diags.push(Diagnostic::new(fault, at));
     }
 }
@@ -55,7 +55,7 @@ fn node(node: Node) -> Expr {
     Expr::Node(Box::new(node))
 }
 
-fn of(operator: Binary, a: Expr, b: Expr) -> Expr {
+fn binary_node(operator: Binary, a: Expr, b: Expr) -> Expr {
     node(Node::Binary(operator, a, b))
 }
 
@@ -70,12 +70,14 @@ fn is_vacant(e: &Expr) -> bool {
 /// A comparison that finds equal what is less than so far apart.
 fn within(operator: Binary, a: Expr, b: Expr, tolerance: Num) -> Expr {
     let below = Num { mantissa: -tolerance.mantissa, ..tolerance };
-    let apart = of(Binary::Subtract, a, b);
+    let apart = binary_node(Binary::Subtract, a, b);
     match operator {
-        Binary::Equal => of(Binary::Less, call(Function::Abs, apart), Expr::Num(tolerance)),
-        Binary::NotEqual => of(Binary::GreaterOrEqual, call(Function::Abs, apart), Expr::Num(tolerance)),
-        Binary::LessOrEqual => of(Binary::Less, apart, Expr::Num(tolerance)),
-        _ => of(Binary::Greater, apart, Expr::Num(below)),
+        Binary::Equal => binary_node(Binary::Less, call(Function::Abs, apart), Expr::Num(tolerance)),
+        Binary::NotEqual => {
+            binary_node(Binary::GreaterOrEqual, call(Function::Abs, apart), Expr::Num(tolerance))
+        }
+        Binary::LessOrEqual => binary_node(Binary::Less, apart, Expr::Num(tolerance)),
+        _ => binary_node(Binary::Greater, apart, Expr::Num(below)),
     }
 }
 
@@ -137,7 +139,7 @@ impl Over<'_> {
                     return None;
                 }
                 let (found, a, b) = compared(operator, a, limit)?;
-                whole(a, b).then(|| of(found, a.clone(), b.clone()))
+                whole(a, b).then(|| binary_node(found, a.clone(), b.clone()))
             }
             (Binary::And | Binary::Or, Some(_)) => self.joined(operator, a, b),
             (Binary::Modulo, _) if !self.computes.operators.contains(&operator) => {
@@ -148,19 +150,19 @@ impl Over<'_> {
                 Some(match self.decimals.may_be_negative(a) {
                     false => remainder(a.clone()),
                     true => {
-                        let twice = of(Binary::Multiply, Expr::int(2), below_zero(a));
-                        let sign = of(Binary::Subtract, Expr::int(1), twice);
-                        of(Binary::Multiply, remainder(call(Function::Abs, a.clone())), sign)
+                        let twice = binary_node(Binary::Multiply, Expr::int(2), below_zero(a));
+                        let sign = binary_node(Binary::Subtract, Expr::int(1), twice);
+                        binary_node(Binary::Multiply, remainder(call(Function::Abs, a.clone())), sign)
                     }
                 })
             }
             (Binary::Power, _) if !self.computes.operators.contains(&operator) => {
-                let times = b.literal()?.whole().filter(|n| (2..=4).contains(n))?;
+                let times = b.literal()?.whole_number().filter(|n| (2..=4).contains(n))?;
                 let simple = |node: &Node| matches!(node, Node::Var(_));
                 if matches!(a, Expr::Node(node) if !simple(node)) {
                     return None;
                 }
-                Some((1..times).fold(a.clone(), |all, _| of(Binary::Multiply, all, a.clone())))
+                Some((1..times).fold(a.clone(), |all, _| binary_node(Binary::Multiply, all, a.clone())))
             }
             _ => None,
         }
@@ -172,22 +174,22 @@ impl Over<'_> {
         }
         match (function, arguments) {
             (Function::RoundTo, [a, Expr::Num(to)]) if !self.computes.rounds => {
-                let to = u8::try_from(to.whole()?).ok()?;
+                let to = u8::try_from(to.whole_number()?).ok()?;
                 self.decimals.digits(a).filter(|digits| *digits <= to)?;
                 Some(a.clone())
             }
             (Function::Near, [a, b, tolerance]) => {
-                let apart = of(Binary::Subtract, a.clone(), b.clone());
+                let apart = binary_node(Binary::Subtract, a.clone(), b.clone());
                 let limit = tolerance.literal().filter(|n| n.mantissa > 0)?;
                 let one = 10_i64.checked_pow(limit.scale.into())?;
                 if self.decimals.is_whole(a) && self.decimals.is_whole(b) && limit.mantissa < one {
-                    let equal = of(Binary::Equal, a.clone(), b.clone());
+                    let equal = binary_node(Binary::Equal, a.clone(), b.clone());
                     return Some(match self.computes.equal_within {
                         Some(tolerance) => within(Binary::Equal, a.clone(), b.clone(), tolerance),
                         None => equal,
                     });
                 }
-                Some(of(Binary::LessOrEqual, call(Function::Abs, apart), tolerance.clone()))
+                Some(binary_node(Binary::LessOrEqual, call(Function::Abs, apart), tolerance.clone()))
             }
             (Function::NearRatio, [a, b, _]) if !self.computes.near => {
                 let tolerance = self.computes.equal_within?;
@@ -205,22 +207,22 @@ impl Over<'_> {
                 if !self.decimals.may_be_negative(a) {
                     return Some(usual.clone());
                 }
-                let apart = of(Binary::Subtract, up.clone(), down.clone());
-                let below = of(Binary::Multiply, below_zero(a), apart);
+                let apart = binary_node(Binary::Subtract, up.clone(), down.clone());
+                let below = binary_node(Binary::Multiply, below_zero(a), apart);
                 let operator = if toward_zero { Binary::Add } else { Binary::Subtract };
-                Some(of(operator, usual.clone(), below))
+                Some(binary_node(operator, usual.clone(), below))
             }
             // One of them times 1 and the other times 0, to the least bit; how often a loop turns stays as it is.
             (Function::Min | Function::Max, [a, b])
                 if self.computes.worth && !is_count(function, arguments) =>
             {
                 let second = match function {
-                    Function::Max => of(Binary::Less, a.clone(), b.clone()),
-                    _ => of(Binary::Less, b.clone(), a.clone()),
+                    Function::Max => binary_node(Binary::Less, a.clone(), b.clone()),
+                    _ => binary_node(Binary::Less, b.clone(), a.clone()),
                 };
                 let first = node(Node::Unary(Unary::Not, second.clone()));
-                let one = of(Binary::Multiply, second, b.clone());
-                Some(of(Binary::Add, one, of(Binary::Multiply, first, a.clone())))
+                let one = binary_node(Binary::Multiply, second, b.clone());
+                Some(binary_node(Binary::Add, one, binary_node(Binary::Multiply, first, a.clone())))
             }
             (Function::Floor, [a]) if self.has(Function::Truncate) => {
                 self.never_negative(a, "what is rounded down");
@@ -232,7 +234,7 @@ impl Over<'_> {
             }
             (Function::Remainder, [a, b]) => {
                 self.never_negative(a, "what is divided for a remainder");
-                Some(of(Binary::Modulo, a.clone(), b.clone()))
+                Some(binary_node(Binary::Modulo, a.clone(), b.clone()))
             }
             _ => None,
         }
@@ -290,5 +292,5 @@ fn call_of(function: Function, arguments: &[Expr]) -> Expr {
 
 /// 1 where something is less than zero, else 0.
 fn below_zero(a: &Expr) -> Expr {
-    of(Binary::Less, a.clone(), Expr::int(0))
+    binary_node(Binary::Less, a.clone(), Expr::int(0))
 }

@@ -25,17 +25,17 @@ pub fn run(program: &mut Program, computes: &Computes, diags: &mut Vec<Diagnosti
     if computes.near || computes.equal_within.is_some() {
         return;
     }
-    let mut told = None;
+    let mut reported = None;
     for procedure in &mut program.procedures {
         expressions(&mut procedure.body, &mut |stmt, value| {
             let mut found = false;
-            over(value, &mut found);
+            compare_exactly(value, &mut found);
             if found {
-                told.get_or_insert(stmt.span);
+                reported.get_or_insert(stmt.span);
             }
         });
     }
-    if let Some(at) = told {
+    if let Some(at) = reported {
         let parameter = "numbers that are compared".into();
         let value = "the same, or further apart than the control's tolerance".into();
         diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
@@ -85,10 +85,10 @@ fn exact(e: &Expr) -> Option<Expr> {
     (same == Some((a, b))).then(|| equal(*operator, (a, b)))
 }
 
-fn over(e: &mut Expr, found: &mut bool) {
+fn compare_exactly(e: &mut Expr, found: &mut bool) {
     if let Some(plain) = exact(e) {
         *e = plain;
         *found = true;
     }
-    e.parts_mut().for_each(|part| over(part, found));
+    e.parts_mut().for_each(|part| compare_exactly(part, found));
 }

@@ -21,10 +21,10 @@ pub(crate) const PASS: Pass = Pass::parametric(
 );
 
 /// Says them so.
-pub fn run(program: &mut Program, there: &Computes) {
+pub fn run(program: &mut Program, target: &Computes) {
     let Some(unit) = only(program) else { return };
     for procedure in &mut program.procedures {
-        expressions(&mut procedure.body, &mut |_, value| said(value, unit, there));
+        expressions(&mut procedure.body, &mut |_, value| said(value, unit, target));
     }
 }
 
@@ -54,7 +54,7 @@ fn asks(stmt: &Stmt) -> bool {
     found
 }
 
-fn said(value: &mut Expr, in_force: Units, there: &Computes) {
+fn said(value: &mut Expr, in_force: Units, target: &Computes) {
     if let Expr::Node(node) = value
         && let Node::Var(Var::System(system)) = &mut **node
     {
@@ -70,10 +70,10 @@ fn said(value: &mut Expr, in_force: Units, there: &Computes) {
                 Some(own) if own == in_force => None,
                 Some(own) => Some(own),
             };
-            if stated || !there.system.contains(system) && there.system.contains(&other) {
+            if stated || !target.system.contains(system) && target.system.contains(&other) {
                 *system = other;
             }
         }
     }
-    value.parts_mut().for_each(|part| said(part, in_force, there));
+    value.parts_mut().for_each(|part| said(part, in_force, target));
 }

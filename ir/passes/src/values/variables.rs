@@ -9,13 +9,13 @@
 //! has no room.
 
 mod defaults;
-mod look;
+mod empty_variables;
+mod inventory;
 mod names;
-mod put;
 mod references;
 mod remainders;
+mod rename;
 pub mod renamed;
-mod vacancy;
 mod words;
 
 use ncc_ir::canon::{Distance, Units};
@@ -26,10 +26,10 @@ use ncc_ir::expr::{Expr, Function, Node, Target};
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::{Control, Op, Program, Stmt};
 
+use self::empty_variables::Vacant;
 use self::renamed::{Digits, Renamed};
-use self::vacancy::Vacant;
 use crate::pass::Pass;
-pub use vacancy::{Question, questions};
+pub use empty_variables::{Question, questions};
 pub use words::Fineness;
 pub(crate) use words::{as_rounded, round, rounded};
 
@@ -56,10 +56,10 @@ pub fn run(
     if !own || computes.handed != Handed::Names {
         references::copied(program);
     }
-    let vacant = Vacant { there: computes.vacant, here: from.vacant };
+    let vacant = Vacant { target: computes.vacant, source: from.vacant };
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
-        && let Err(refused) = vacancy::resolve(program, vacant, diags)
+        && let Err(refused) = empty_variables::resolve(program, vacant, diags)
     {
         diags.push(refused);
         return Renamed::default();
@@ -70,10 +70,10 @@ pub fn run(
     remainders::run(program, from, computes, diags);
     if !own {
         program.procedures.iter_mut().for_each(|procedure| {
-            expressions(&mut procedure.body, &mut |_, value| words::whole(value));
+            expressions(&mut procedure.body, &mut |_, value| words::round_literal(value));
         });
     }
-    let pairs = if own { Vec::new() } else { names::put(program, from, computes, diags) };
+    let pairs = if own { Vec::new() } else { rename::rename_variables(program, from, computes, diags) };
     if computes.rounds && !from.rounds {
         words::rounds(program, increments, diags);
     }

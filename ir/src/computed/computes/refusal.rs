@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::{Computes, Handed, Said, counted};
-use crate::computed::call_of::call_of;
-use crate::computed::code_of::code_of;
+use super::{ComputeFeature, Computes, Handed, counted};
+use crate::computed::computed_call::computed_call;
+use crate::computed::computed_code::computed_code;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use crate::program::arguments;
@@ -117,25 +117,25 @@ impl Look<'_> {
         match &stmt.op {
             Op::Declare(declare) => {
                 match declare.sizes.is_empty() {
-                    true => self.has(Said::Declare, "a variable that is made known", at)?,
-                    false => self.has(Said::Array, "an array", at)?,
+                    true => self.has(ComputeFeature::Declare, "a variable that is made known", at)?,
+                    false => self.has(ComputeFeature::Array, "an array", at)?,
                 }
                 self.variable(&declare.var, at)?;
                 declare.initial.iter().flatten().try_for_each(|value| self.expr(value, at))
             }
-            Op::Leave => self.has(Said::Leave, "a loop that is left", at),
-            Op::NextTurn => self.has(Said::NextTurn, "a turn of a loop that is left", at),
-            Op::Goto(_) => self.has(Said::Jump, "a jump", at),
+            Op::Leave => self.has(ComputeFeature::Leave, "a loop that is left", at),
+            Op::NextTurn => self.has(ComputeFeature::NextTurn, "a turn of a loop that is left", at),
+            Op::Goto(_) => self.has(ComputeFeature::Jump, "a jump", at),
             Op::MessageOf(pieces) => {
-                self.has(Said::Values, "a message with values in it", at)?;
+                self.has(ComputeFeature::Values, "a message with values in it", at)?;
                 self.pieces(pieces, at)
             }
             Op::Output(output) => {
-                self.has(Said::Output, "output to a device", at)?;
+                self.has(ComputeFeature::Output, "output to a device", at)?;
                 if let Output::Line(pieces) = &**output { self.pieces(pieces, at) } else { Ok(()) }
             }
             Op::Alarm(alarm) => {
-                self.has(Said::Alarm, "an alarm", at)?;
+                self.has(ComputeFeature::Alarm, "an alarm", at)?;
                 alarm.number.iter().try_for_each(|number| self.expr(number, at))
             }
             Op::Assign(to, value) => {
@@ -173,13 +173,13 @@ impl Look<'_> {
             true => Ok(loops + 1),
             false => Err(refuse("a loop within so many others", at)),
         };
-        if self.computes.has(Said::CallOf)
-            && let Some(call) = call_of(control)
+        if self.computes.has(ComputeFeature::CallOf)
+            && let Some(call) = computed_call(control)
         {
             return call.number.into_iter().chain(call.times).try_for_each(|value| self.expr(value, at));
         }
         if self.computes.says_number(control)
-            && let Some(code) = code_of(control)
+            && let Some(code) = computed_code(control)
         {
             self.expr(code.number, at)?;
             // What each of them says is of one form.
@@ -193,11 +193,11 @@ impl Look<'_> {
             }
             Control::Loop { body } if !ends(body) => Err(refuse("a loop that has no end", at)),
             Control::Loop { body } => {
-                self.has(Said::Endless, "a loop without a condition", at)?;
+                self.has(ComputeFeature::Endless, "a loop without a condition", at)?;
                 self.body(body, deeper()?)
             }
             Control::Until { condition, body } => {
-                self.has(Said::Until, "a loop that is tested behind each turn", at)?;
+                self.has(ComputeFeature::Until, "a loop that is tested behind each turn", at)?;
                 self.body(body, deeper()?)?;
                 self.expr(condition, at)
             }
@@ -216,12 +216,12 @@ impl Look<'_> {
             }
             Control::Repeat { times, body } if times.literal().is_some() => self.body(body, loops),
             Control::Repeat { times, body } => {
-                self.has(Said::Times, "a loop that is repeated a computed number of times", at)?;
+                self.has(ComputeFeature::Times, "a loop that is repeated a computed number of times", at)?;
                 self.expr(counted(times), at)?;
                 self.body(body, deeper()?)
             }
             Control::For { variable, from, to, step, body } => {
-                self.has(Said::Count, "a loop that counts", at)?;
+                self.has(ComputeFeature::Count, "a loop that counts", at)?;
                 self.variable(variable, at)?;
                 [from, to, step].into_iter().try_for_each(|value| self.expr(value, at))?;
                 self.body(body, deeper()?)
@@ -229,18 +229,18 @@ impl Look<'_> {
         }
     }
 
-    fn has(&self, statement: Said, what: &str, at: Span) -> Result<(), Diagnostic> {
+    fn has(&self, statement: ComputeFeature, what: &str, at: Span) -> Result<(), Diagnostic> {
         if self.computes.has(statement) { Ok(()) } else { Err(refuse(what, at)) }
     }
 
     fn element(&self, element: &Element, at: Span) -> Result<(), Diagnostic> {
         match &element.of {
             Many::Array { var, .. } => {
-                self.has(Said::Array, "an array", at)?;
+                self.has(ComputeFeature::Array, "an array", at)?;
                 self.variable(var, at)?;
             }
             Many::Numbered(numbers) => {
-                self.has(Said::Numbered, "a variable whose number is computed", at)?;
+                self.has(ComputeFeature::Numbered, "a variable whose number is computed", at)?;
                 if !numbers.iter().all(|range| self.computes.says_all(range)) {
                     return Err(refuse("a variable whose number is computed, of other variables", at));
                 }

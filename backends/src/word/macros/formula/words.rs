@@ -11,7 +11,7 @@ use super::{LOOSEST, Spelling, rounding};
 use crate::common::Sink;
 use crate::common::codes::Letter;
 use crate::common::fault::cannot_compute;
-use crate::common::number::Worth;
+use crate::common::number::WordValue;
 use crate::word::Writer;
 
 impl Writer {
@@ -109,8 +109,8 @@ impl Writer {
         value: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Worth, Fault> {
-        let value = if letter.format.counts { self.spelling(None)?.whole(value) } else { value };
+    ) -> Result<WordValue, Fault> {
+        let value = if letter.format.counts { self.spelling(None)?.without_rounding(value) } else { value };
         let (said, inner) = rounding(value);
         let rounds = letter.format.rounds.filter(|_| self.dialect.formula.rounds);
         let digits = match (said, rounds) {

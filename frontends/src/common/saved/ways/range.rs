@@ -33,7 +33,7 @@ impl Range {
 /// The range of an expression, of which each value is whole then.
 pub(crate) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Option<Range> {
     let node = match expr {
-        Expr::Num(number) => return number.whole().and_then(Range::only),
+        Expr::Num(number) => return number.whole_number().and_then(Range::only),
         Expr::Node(node) => node,
     };
     match &**node {

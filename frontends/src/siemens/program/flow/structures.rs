@@ -1,6 +1,6 @@
 //! Structures of the control: how they begin, branch and end.
 
-use ncc_ir::computed::code_of::code_of;
+use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr, Node, Target as Into, Var};
 use ncc_ir::program::{Control, Op, Stmt};
@@ -290,7 +290,7 @@ fn may_change(body: &[Stmt], expr: &Expr) -> bool {
 fn only_sets(body: &[Stmt]) -> bool {
     body.iter().all(|stmt| match &stmt.op {
         Op::Assign(..) | Op::SetData(_) | Op::Comment(_) | Op::Blank => true,
-        Op::Control(control) => code_of(control).is_some_and(|code| {
+        Op::Control(control) => computed_code(control).is_some_and(|code| {
             code.codes.iter().all(|(_, op)| matches!(op, Op::SetData(_) | Op::Assign(..)))
         }),
         _ => false,

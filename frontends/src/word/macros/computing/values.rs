@@ -152,7 +152,7 @@ impl Lower {
             Node::Var(_) | Node::Vacant | Node::Unary(..) | Node::Binary(..) => {
                 if let Node::Binary(Binary::Modulo, a, b) = &**node
                     && self.settings.dialect.formula.remainders == RemainderRule::MadeWhole
-                    && [a, b].iter().any(|e| e.literal().is_some_and(|n| n.whole().is_none()))
+                    && [a, b].iter().any(|e| e.literal().is_some_and(|n| n.whole_number().is_none()))
                 {
                     let code = self.settings.dialect.formula.operators[&Operator::Modulo].as_str().into();
                     let name = "the remainder of a number that is not whole".into();

@@ -1,7 +1,7 @@
 //! Bodies of decisions and loops: how they are opened, closed and left.
 
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Expr, fails};
+use ncc_ir::expr::{Expr, partial_expr};
 use ncc_ir::program::{Control, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -142,7 +142,7 @@ impl Lower {
         if let Kind::If { before, now } = &mut open.kind {
             before.extend(now.take().map(|condition| (condition, body)));
             *now = next;
-            if now.as_ref().is_some_and(fails::may_fail) {
+            if now.as_ref().is_some_and(partial_expr::may_fail) {
                 // The control works it out and stops, whatever held before.
                 let parameter = "elseif can be worked out where it is passed over".into();
                 out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);

@@ -1,13 +1,12 @@
 //! A contour beside which the tool goes: what its statements may say, and the way of the tool's centre along it.
 
-use super::written::Written;
-use super::{cannot, straight};
+use super::written::{Written, cannot, straight};
 use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
 use ncc_ir::canon::{Axis, Motion, Plane, Side, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::geometry::arc_feed::{ArcFeed, centre_speed, is_inner};
-use ncc_ir::geometry::beside::{Beside, Corner, Leg, Rules, Spot, Unreachable};
+use ncc_ir::geometry::offset_path::{Corner, Leg, OffsetPath, Rules, Spot, Unreachable};
 use ncc_ir::program::{Op, Point, Stmt};
 use ncc_ir::source::Span;
 
@@ -17,7 +16,7 @@ pub(super) struct Contour {
     /// mm; 0 is along the contour itself.
     pub(super) radius: f64,
     pub(super) left: bool,
-    pub(super) path: Option<Beside>,
+    pub(super) path: Option<OffsetPath>,
     /// Index of the held move among the statements made.
     pub(super) held: usize,
     pub(super) start: Span,
@@ -81,7 +80,7 @@ impl Contour {
         made: &mut Rebuild,
     ) -> Result<Option<Op>, Unreachable> {
         let Some(path) = &mut self.path else {
-            self.path = Some(Beside::enter(self.radius, self.left, rules, from, to)?);
+            self.path = Some(OffsetPath::enter(self.radius, self.left, rules, from, to)?);
             return Ok(None);
         };
         let Corner { end, round } = path.go_on(leg, to)?;

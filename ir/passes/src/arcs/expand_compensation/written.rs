@@ -1,16 +1,16 @@
 //! How points of a contour's plane are written: as words of a move or an arc, from program zero.
 
-use super::{mm, nanos};
 use crate::support::walk::Walk;
 use crate::support::write::{at, exact, rounded, unit_of};
-use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
-use ncc_ir::diag::Fault;
+use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion, Plane, Turn};
+use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::Nanos;
+use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry;
-use ncc_ir::geometry::beside::Spot;
+use ncc_ir::geometry::offset_path::Spot;
 use ncc_ir::program::cycle::absolute;
-use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Op, Point, Stmt};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Stmt};
+use ncc_ir::source::Span;
 
 /// How points of a plane are written.
 pub(super) struct Written<'w> {
@@ -77,7 +77,7 @@ impl Written<'_> {
     }
 
     /// All words from program zero, and those of both axes of the plane among them.
-    pub(super) fn whole(&self, words: &Point) -> Result<Point, Fault> {
+    pub(super) fn absolute_point(&self, words: &Point) -> Result<Point, Fault> {
         let (first, second, _) = self.plane.axes();
         self.absolute_words(words, |axis| axis == first || axis == second || words.get(axis).is_some())
     }
@@ -123,5 +123,26 @@ impl Written<'_> {
             _ => return,
         };
         *to = self.spot(end, std::mem::take(to));
+    }
+}
+
+pub(super) fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
+    let what = format!("{what} under cutter radius compensation that is worked out");
+    Err(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span))
+}
+
+pub(super) fn mm(nanos: Nanos) -> f64 {
+    nanos as f64 / ONE as f64
+}
+
+pub(super) fn nanos(mm: f64) -> Nanos {
+    (mm * ONE as f64).round() as Nanos
+}
+
+pub(super) fn straight(motion: Motion, to: Point) -> Op {
+    let to = Move { to, said: true };
+    match motion {
+        Motion::Traverse => Op::StraightTraverse(to),
+        Motion::Feed | Motion::Arc(_) | Motion::Cycle => Op::StraightFeed(to),
     }
 }

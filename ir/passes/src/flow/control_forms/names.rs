@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::values::variables::expressions;
-use ncc_ir::computed::open::open_variables;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::expr::{Element, Expr, Many, Node, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Procedure, Program, Stmt, Text};
 
@@ -21,13 +21,13 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub(super) fn of(program: &Program) -> Names {
+    pub(super) fn from_program(program: &Program) -> Names {
         let mut names = Names::default();
         for procedure in &program.procedures {
             procedure.parameters.iter().for_each(|var| names.variable(var));
             names.look(&procedure.body);
         }
-        open_variables(program).iter().for_each(|(var, _)| names.variable(var));
+        free_variables(program).iter().for_each(|(var, _)| names.variable(var));
         names
     }
 
@@ -132,7 +132,7 @@ impl Names {
             }
         }
         let mut renaming = Renaming { labels: &labels, names: &names, at: 0, next: 0 };
-        renaming.over(&mut procedure.body, &mut Vec::new());
+        renaming.rename_labels(&mut procedure.body, &mut Vec::new());
     }
 }
 
@@ -184,7 +184,7 @@ struct Renaming<'l> {
 }
 
 impl Renaming<'_> {
-    fn over(&mut self, body: &mut [Stmt], within: &mut Vec<usize>) {
+    fn rename_labels(&mut self, body: &mut [Stmt], within: &mut Vec<usize>) {
         within.push(self.next);
         self.next += 1;
         for stmt in body {
@@ -201,7 +201,9 @@ impl Renaming<'_> {
                         *name = own.clone();
                     }
                 }
-                Op::Control(control) => control.bodies_mut().for_each(|body| self.over(body, within)),
+                Op::Control(control) => {
+                    control.bodies_mut().for_each(|body| self.rename_labels(body, within))
+                }
                 _ => {}
             }
         }

@@ -21,7 +21,7 @@ use ncc_ir::source::Span;
 const MOST_STEPS: u32 = 20_000;
 
 /// Makes the jumps of a procedure, of which the labels have one name each, into structures.
-pub(super) fn over(procedure: &mut Procedure, names: &mut Names, word: bool) {
+pub(super) fn structure_jumps(procedure: &mut Procedure, names: &mut Names, word: bool) {
     if targets(&procedure.body).is_empty() {
         return;
     }

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use crate::flow::control_forms::conditions::is_condition;
 use crate::flow::control_forms::names::Names;
 use crate::values::variables::each_value;
-use ncc_ir::computed::call_of::call_of;
+use ncc_ir::computed::computed_call::computed_call;
 use ncc_ir::computed::computes::{Computes, counted};
 use ncc_ir::expr::decimals::Decimals;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
@@ -26,9 +26,9 @@ use ncc_ir::source::Span;
 type Kind = (Option<u8>, bool);
 
 /// Works out what the target has no word for.
-pub(super) fn over(program: &mut Program, computes: &Computes, taken: &mut Names) {
+pub(super) fn compute_missing_words(program: &mut Program, computes: &Computes, taken: &mut Names) {
     taken.read(program);
-    let mut decimals = Decimals::of(program);
+    let mut decimals = Decimals::from_program(program);
     let mut own = BTreeMap::new();
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);
@@ -127,7 +127,7 @@ impl WorkedOut<'_> {
             if !stmt.joined {
                 block = out.len();
             }
-            let called = matches!(&stmt.op, Op::Control(control) if call_of(control).is_some());
+            let called = matches!(&stmt.op, Op::Control(control) if computed_call(control).is_some());
             if let Op::Control(control) = &mut stmt.op
                 && !called
             {
@@ -345,7 +345,7 @@ impl WorkedOut<'_> {
 
     /// An angle from 0 to a turn, of one on both sides of zero that is worked out.
     fn round(&mut self, e: &mut Expr, span: Span, before: &mut Before) -> bool {
-        let turn = |e: &Expr| e.literal().is_some_and(|n| n.whole() == Some(360));
+        let turn = |e: &Expr| e.literal().is_some_and(|n| n.whole_number() == Some(360));
         let Expr::Node(node) = &mut *e else { return false };
         let Node::Binary(Binary::Modulo, sum, of) = &mut **node else { return false };
         let Expr::Node(inner) = &mut *sum else { return false };
@@ -394,13 +394,13 @@ impl WorkedOut<'_> {
             Node::Unary(Unary::Not, a) => self.expr(a, true, span, before),
             // A condition that is compared with what holds, or does not, is one.
             Node::Binary(Binary::Equal | Binary::NotEqual, a, Expr::Num(n))
-                if is_condition(a) && (n.is_zero() || n.whole() == Some(1)) =>
+                if is_condition(a) && (n.is_zero() || n.whole_number() == Some(1)) =>
             {
                 self.expr(a, true, span, before);
             }
             Node::Binary(Binary::Power, base, exponent) => {
                 self.expr(base, false, span, before);
-                let times = exponent.literal().and_then(|n| n.whole());
+                let times = exponent.literal().and_then(|n| n.whole_number());
                 if self.computes.operators.contains(&Binary::Power) {
                     return self.expr(exponent, false, span, before);
                 }

@@ -10,11 +10,11 @@ use ncc_ir::program::{Op, Stmt};
 
 /// What a statement leaves in force; `None` is not known.
 pub(crate) fn after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
-    let now = of(&stmt.op, before);
+    let now = feed_after(&stmt.op, before);
     if stmt.skip.is_some() && now != before { None } else { now }
 }
 
-fn of(op: &Op, before: Option<Num>) -> Option<Num> {
+fn feed_after(op: &Op, before: Option<Num>) -> Option<Num> {
     match op {
         Op::SetFeedRate(feed) => feed.literal(),
         Op::StartCycle(cycle) => match &cycle.kind {

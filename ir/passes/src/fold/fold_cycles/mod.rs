@@ -21,6 +21,7 @@ pub(crate) mod feed;
 mod hole;
 
 use crate::holes::sayable::sayable;
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, cut, only, traverse};
 use crate::{Target, each_body};
@@ -38,16 +39,25 @@ use ncc_ir::program::{Move, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("fold-cycles", "turns holes written long-hand into canned cycles", Some(run));
+
 /// Fewest plain holes that are worth a cycle.
 const FEWEST_HOLES: usize = 2;
 
 /// Folds what the target can say.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| fold_holes(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn fold_holes(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     if target.caps.holes.cycles.is_empty() || target.caps.flat {
         return;
     }
@@ -110,13 +120,13 @@ impl Run {
             return Err(0);
         }
         let acts = Acts::new(rest, walk.at.clone(), feed, plane);
-        let long = Run::of(acts.clone(), plane, Reading::LONG);
+        let long = Run::first_run(acts.clone(), plane, Reading::LONG);
         // A rapid after a hole that is bored may be the way to what comes next.
         let bored = |run: &Run| matches!(run.holes[0].0.kind, CycleKind::Bore { .. });
         if long.as_ref().is_ok_and(|run| !bored(run)) {
             return long;
         }
-        let short = Run::of(acts, plane, Reading::SHORT);
+        let short = Run::first_run(acts, plane, Reading::SHORT);
         match (long, short) {
             (Ok(long), Ok(short)) if short.holes.len() > long.holes.len() => Ok(short),
             (Ok(long), _) => Ok(long),
@@ -125,7 +135,7 @@ impl Run {
     }
 
     /// The run whose first hole is read in that way.
-    fn of(mut acts: Acts<'_>, plane: Plane, reading: Reading) -> Result<Run, usize> {
+    fn first_run(mut acts: Acts<'_>, plane: Plane, reading: Reading) -> Result<Run, usize> {
         let mut run = Run { plane, holes: Vec::new(), feeds: Vec::new() };
         loop {
             let mut next = acts.clone();

@@ -210,7 +210,7 @@ impl<'t> Stretch<'t> {
                 angle: line.step.degrees().literal(Unit::Degree).into(),
                 offset: line.offset.literal(self.unit).into(),
                 pitch: line.step.pitch.positive().literal(self.unit).into(),
-                count: whole(line.count),
+                count: count_u32(line.count),
             },
             Shape::Line(line) => {
                 let step = line.step;
@@ -240,7 +240,7 @@ impl<'t> Stretch<'t> {
                         },
                     },
                     step: circle.step.literal(Unit::Degree).into(),
-                    count: whole(circle.count),
+                    count: count_u32(circle.count),
                 }
             }
         }
@@ -252,7 +252,7 @@ impl<'t> Stretch<'t> {
             Ok(_) => Along::Axis(second),
             Err(angle) => Along::Angle(angle.literal(Unit::Degree).into()),
         };
-        Row { along, pitch: step.pitch.literal(self.unit).into(), count: whole(count) }
+        Row { along, pitch: step.pitch.literal(self.unit).into(), count: count_u32(count) }
     }
 
     /// Whether the target has words for a pattern, and it makes every hole where it is.
@@ -281,7 +281,7 @@ impl<'t> Stretch<'t> {
     }
 }
 
-fn whole(n: usize) -> u32 {
+fn count_u32(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 

@@ -23,6 +23,7 @@ mod circle;
 mod decimal;
 mod rows;
 
+use crate::pass::Pass;
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, at, is_absolute, traverse};
 use crate::{Target, each_body};
@@ -34,6 +35,10 @@ use ncc_ir::program::cycle::Pattern;
 use ncc_ir::program::{Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
 
+/// This pass.
+pub(crate) const PASS: Pass =
+    Pass::named("fold-patterns", "turns positions of holes into circles, grids, lines and lists", Some(run));
+
 /// Positions are taken to be written to at least so many digits after the point in mm, and one more in
 /// inches: a program leaves zeros at the end out.
 pub const LEAST_DIGITS: u8 = 3;
@@ -44,11 +49,16 @@ const MOST_HOLES: usize = 4096;
 
 /// Folds what the target can say.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| fold_positions(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(crate) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+pub(crate) fn fold_positions(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     let caps = &target.caps;
     let none =
         !caps.holes.circles && caps.holes.grid_upto == 0 && !caps.holes.lines && caps.holes.list_upto == 0;

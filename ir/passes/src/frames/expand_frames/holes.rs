@@ -11,7 +11,7 @@ use ncc_ir::canon::{Axis, Fact, Plane};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, POW10, Unit};
-use ncc_ir::geometry::places::Places;
+use ncc_ir::geometry::hole_positions::HolePositions;
 use ncc_ir::program::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point};
 
@@ -44,7 +44,7 @@ impl Frames<'_> {
             return Ok(vec![Op::Pattern(Box::new(self.shifted_pattern(pattern, axes)?))]);
         }
         let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
-        let places = at.places(pattern).filter(|p| p.count() <= pattern_forms::MOST_HOLES);
+        let places = at.hole_positions(pattern).filter(|p| p.count() <= pattern_forms::MOST_HOLES);
         let places = places.ok_or_else(|| {
             unknown(axes.into_iter().find(|a| at.position[*a as usize].is_none()).unwrap_or(first))
         })?;
@@ -101,7 +101,7 @@ impl Frames<'_> {
     fn turned(
         &self,
         pattern: &Pattern,
-        places: &Places,
+        places: &HolePositions,
         by: Nanos,
         axes: [Axis; 2],
         outside: &dyn Fn([Nanos; 2]) -> Result<[Nanos; 2], Fault>,
@@ -123,7 +123,10 @@ impl Frames<'_> {
             Num::from_nanos(angle, 9, Unit::Degree).into()
         };
         Ok(match (pattern, places) {
-            (Pattern::Circle { centre, first, step, count }, Places::Circle { centre: c, first: f, .. }) => {
+            (
+                Pattern::Circle { centre, first, step, count },
+                HolePositions::Circle { centre: c, first: f, .. },
+            ) => {
                 let first = match first {
                     // Two roundings would add up on the way round.
                     First::At(_) if !self.is_exact() => return Ok(None),
@@ -137,7 +140,7 @@ impl Frames<'_> {
             }
             (
                 Pattern::Line { start: s, offset, pitch, count, .. },
-                Places::Line { start: place, angle, .. },
+                HolePositions::Line { start: place, angle, .. },
             ) => {
                 let start = start(s, *place)?;
                 let (offset, pitch) = (offset.clone(), pitch.clone());
@@ -145,7 +148,7 @@ impl Frames<'_> {
             }
             (
                 Pattern::Grid { start: s, columns, rows, serpentine },
-                Places::Grid { start: place, columns: c, rows: r, .. },
+                HolePositions::Grid { start: place, columns: c, rows: r, .. },
             ) => {
                 let start = start(s, *place)?;
                 let row = |row: &Row, along: Result<usize, Nanos>| Row {

@@ -19,7 +19,7 @@ mod words;
 pub(crate) use self::concerns::{concerns, has_frames, shifts_origin_in_calls};
 
 use self::concerns::tilts;
-use self::now::Now;
+use self::now::{Now, cannot};
 use crate::arcs::arc_form;
 use crate::frames::frame_forms::{self, shifted};
 use crate::pass::{Moment, Pass, Step};
@@ -46,8 +46,17 @@ pub(crate) const PASS: Pass = Pass {
     step: Step::at(
         Moment::Placing,
         |_, p| p.needs(FRAME),
-        |l, p| over(p.stmts, &mut p.start.clone(), l.states.of::<ExpandFramesState>(), &l.target, p.diags),
+        |l, p| {
+            expand_frames(
+                p.stmts,
+                &mut p.start.clone(),
+                l.states.state_mut::<ExpandFramesState>(),
+                &l.target,
+                p.diags,
+            )
+        },
     ),
+    program: &[],
     parametric: None,
 };
 
@@ -65,7 +74,7 @@ pub(crate) struct ExpandFramesState {
 
 /// Works the frames in.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut Default::default(), target, diags));
+    each_body(program, entry, |body, walk| expand_frames(body, walk, &mut Default::default(), target, diags));
 }
 
 impl ExpandFramesState {
@@ -104,7 +113,7 @@ impl ExpandFramesState {
 }
 
 /// The same for one piece of a body. The walk stands before what is made of it.
-pub(crate) fn over(
+pub(crate) fn expand_frames(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
     state: &mut ExpandFramesState,
@@ -206,8 +215,8 @@ impl Frames<'_> {
         };
         if is_change {
             match self.change(&stmt, &said) {
-                Ok((told, mut ops)) => {
-                    if told {
+                Ok((reported, mut ops)) => {
+                    if reported {
                         diags.push(Diagnostic::new(Fault::FramesExpanded, stmt.span));
                     }
                     // What an earlier program left is another's business.
@@ -369,13 +378,13 @@ impl Frames<'_> {
                 return Err(cannot("a frame that moves the drilling axis of the cycle in force"));
             }
         }
-        let told = sets && fresh && worked_in != Chain::NONE;
+        let reported = sets && fresh && worked_in != Chain::NONE;
         self.set.chain = worked_in;
         self.set.whole = new;
         self.set.slots = slots;
         self.arcs.step(stmt, &mut self.inner);
         self.inner.at.position = self.set.whole.unplace_known(&here);
-        Ok((told, ops))
+        Ok((reported, ops))
     }
 
     /// The statements that say the frames in the target's own form; `None` if it has none for them.
@@ -579,8 +588,4 @@ fn leaves_alone(chain: &Chain, axis: usize) -> bool {
         let mut mixed = others.flat_map(|j| [m[axis][j], m[j][axis]]);
         mixed.all(|v| v.abs() < NOTHING) && (m[axis][axis] - 1.0).abs() < NOTHING
     })
-}
-
-fn cannot(what: &str) -> Fault {
-    Fault::CannotSay { what: what.into() }
 }

@@ -1,6 +1,5 @@
 //! What is known where a frame changes: the plane, the point, and the values of words.
 
-use super::cannot;
 use ncc_exec::Present;
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
 use ncc_ir::diag::{Fault, ModeName};
@@ -49,4 +48,9 @@ pub(super) fn value_of(at: &Tracker, value: &Expr) -> Result<Nanos, Fault> {
         Some(n) if n.unit == Unit::Entry => Fault::EntryFactNeeded { fact: ModeName::Units },
         Some(_) | None => cannot("a computed word in a frame"),
     })
+}
+
+/// The target lacks this.
+pub(super) fn cannot(what: &str) -> Fault {
+    Fault::TargetLacks { what: what.into() }
 }

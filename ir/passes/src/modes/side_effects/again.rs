@@ -18,7 +18,7 @@ impl SideEffects {
     ) {
         // A label alone cuts nothing.
         if let Some(at) = self.lost_stop.take_if(|_| !label) {
-            diags.push(Diagnostic::new(Fault::CannotSay { what: OPTIONAL_STOP.into() }, at));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what: OPTIONAL_STOP.into() }, at));
         }
         if self.again.iter().all(Option::is_none) {
             return;

@@ -23,7 +23,7 @@ impl SideEffects {
         let fact = Behaviour::FeedOnArcs;
         let differ = self.source.get(fact) != self.target.get(fact);
         let open = self.target.is_open(fact) && !self.source.is_open(fact);
-        self.arc_feed = (differ || open).then(|| ArcFeed::of(&self.source));
+        self.arc_feed = (differ || open).then(|| ArcFeed::from_behaviours(&self.source));
         self
     }
 

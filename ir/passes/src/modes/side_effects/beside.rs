@@ -7,7 +7,7 @@
 
 use crate::modes::side_effects::SideEffects;
 use crate::modes::side_effects::kinds::{commands_z, cuts};
-use crate::support::known_facts::{self, Known};
+use crate::support::mode_analysis::{self, Known};
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -32,7 +32,7 @@ impl SideEffects {
             return None;
         }
         let program = Program { procedures: procedures.to_vec(), ..Program::default() };
-        known_facts::starts(&program, &Tracker { compensated: self.beside, ..Tracker::unknown() }, None)
+        mode_analysis::starts(&program, &Tracker { compensated: self.beside, ..Tracker::unknown() }, None)
     }
 }
 

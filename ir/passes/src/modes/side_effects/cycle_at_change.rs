@@ -76,7 +76,7 @@ impl SideEffects {
         let needs = matches!(op, Op::Hole(_) | Op::Pattern(_) | Op::Position(_) | Op::Control(_) | flow!());
         if let Some(at) = self.cycle.cancelled.take_if(|_| needs) {
             let what = "a canned cycle that stays active over a tool change".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, at));
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, at));
         }
     }
 }

@@ -68,7 +68,7 @@ impl SideEffects {
             }
             Some(LengthNext::Lost(at)) => {
                 let what = "a move of Z by a length that is not called up again after a place of the machine";
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, at));
             }
         }
     }

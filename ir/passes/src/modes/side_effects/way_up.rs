@@ -161,7 +161,7 @@ impl WayUp {
     /// Refuses a statement that needs Z, once for each change.
     fn refuse(&mut self, stmt: &Stmt, found: &mut Vec<Diagnostic>) {
         if std::mem::take(&mut self.up) && self.refused.insert(stmt.span) {
-            found.push(Diagnostic::new(Fault::CannotSay { what: REFUSED.into() }, stmt.span));
+            found.push(Diagnostic::new(Fault::TargetLacks { what: REFUSED.into() }, stmt.span));
         }
     }
 }

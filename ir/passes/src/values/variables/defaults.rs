@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::values::variables::vacancy::{Known, May, calls, is_nothing, may};
+use crate::values::variables::empty_variables::may::{Known, May, calls, is_nothing, may};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Node, Target, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
@@ -14,7 +14,7 @@ use ncc_ir::program::{Control, Op, Program, Stmt, Text};
 /// Lets calls give these values.
 pub(super) fn hand_over(program: &mut Program) {
     // Which arguments every call tells of.
-    let mut told: HashMap<Text, Vec<bool>> = HashMap::new();
+    let mut reported: HashMap<Text, Vec<bool>> = HashMap::new();
     let mut shared: HashSet<Text> = HashSet::new();
     for procedure in &mut program.procedures {
         calls(&mut procedure.body, &mut |call| {
@@ -23,20 +23,20 @@ pub(super) fn hand_over(program: &mut Program) {
             }
             let tells = |value: &Expr| is_nothing(value) || may(value, &Known::default()) == May::Number;
             let own: Vec<bool> = call.arguments.iter().map(tells).collect();
-            let all = told.entry(call.name.clone()).or_insert_with(|| own.clone());
+            let all = reported.entry(call.name.clone()).or_insert_with(|| own.clone());
             all.truncate(own.len());
             all.iter_mut().zip(&own).for_each(|(all, own)| *all &= own);
         });
     }
     let mut given: HashMap<Text, Vec<(usize, Num)>> = HashMap::new();
     for procedure in program.procedures.iter_mut().skip(1).filter(|p| !shared.contains(&p.name)) {
-        let told = told.get(&procedure.name).map(Vec::as_slice).unwrap_or_default();
+        let reported = reported.get(&procedure.name).map(Vec::as_slice).unwrap_or_default();
         let mut own: Vec<(usize, Num)> = Vec::new();
         let mut begin = 0;
         while let Some(found) = Default::at(&procedure.body, begin) {
             let place =
                 procedure.parameters.iter().position(|p| matches!(p, Var::Local(own) if *own == found.name));
-            let place = place.filter(|at| told.get(*at).is_some_and(|told| *told));
+            let place = place.filter(|at| reported.get(*at).is_some_and(|reported| *reported));
             let Some(place) = place.filter(|place| own.iter().all(|(known, _)| known != place)) else {
                 begin = found.from + found.count;
                 continue;

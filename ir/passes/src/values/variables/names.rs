@@ -19,63 +19,20 @@
 //! Refused: a variable for which there is no room; variables of a caller that is itself called with its own; variables
 //! by computed numbers of which not all stay, or move by 100.
 
-mod told;
+mod reported;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use crate::values::variables::look::{Look, Seen, leave_out_results};
-use crate::values::variables::put::{Put, plain_calls};
-use ncc_ir::computed::computes::{Computes, Handed, LETTERS, Said};
+use crate::values::variables::inventory::{Inventory, Seen, number_of};
+use ncc_ir::computed::computes::{ComputeFeature, Computes, Handed, LETTERS};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Numbers, Scope, Var};
 use ncc_ir::program::valid::returns_alone;
-use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Text, Type};
+use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Type};
 use ncc_ir::source::Span;
 
 /// By how much a number moves that the target does not have.
 const FURTHER: u32 = 100;
-
-/// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
-/// source's and the target's.
-pub(super) fn put(
-    program: &mut Program,
-    from: &Computes,
-    computes: &Computes,
-    diags: &mut Vec<Diagnostic>,
-) -> Vec<(Var, Var)> {
-    leave_out_results(program, from, computes);
-    let mut plan = Plan::new(program, from, computes);
-    if let Err(refused) = plan.make(program) {
-        diags.push(refused);
-        return Vec::new();
-    }
-    let own: Vec<bool> = (0..program.procedures.len()).map(|at| plan.has_own(at)).collect();
-    let names: Vec<Text> = program.procedures.iter().map(|p| p.name.clone()).collect();
-    for (at, procedure) in program.procedures.iter_mut().enumerate() {
-        let told = procedure.parameters.iter().map(|p| p.name().as_ref().into()).collect();
-        let mut put = Put { plan: &plan, locals: plan.locals_of(at), told, refused: None };
-        put.body(&mut procedure.body);
-        if let Some(refused) = put.refused {
-            diags.push(refused);
-            return Vec::new();
-        }
-        if computes.shares && !from.shares {
-            plain_calls(&mut procedure.body, &names, &own);
-        }
-        plan.head(at, procedure);
-    }
-    plan.tell(program, diags);
-    let mut all: Vec<(Var, Var)> = Vec::new();
-    if computes.handed == Handed::Places {
-        // A call gives them one after the other, and the head puts them where they are.
-        let places = (1..).map(|place: u32| Var::Local(place.to_string().into()));
-        all.extend(plan.parameters[0].iter().cloned().zip(places));
-    }
-    let others = plan.common.iter().chain(plan.locals_of(0));
-    let given = |old: &Var| computes.handed == Handed::Places && plan.parameters[0].contains(old);
-    all.extend(others.filter(|(old, _)| !given(old)).map(|(old, new)| (old.clone(), new.clone())));
-    all
-}
 
 /// Variables, and what they are in the target.
 pub(super) type Map = HashMap<Var, Var>;
@@ -95,9 +52,9 @@ enum Home {
 pub(super) struct Plan<'c> {
     pub(super) from: &'c Computes,
     pub(super) computes: &'c Computes,
-    looks: Vec<Look>,
+    inventories: Vec<Inventory>,
     /// Parameters of each procedure.
-    parameters: Vec<Vec<Var>>,
+    pub(super) parameters: Vec<Vec<Var>>,
     homes: Vec<Home>,
     /// By which procedure the variables of one are known, where several have the same.
     roots: Vec<usize>,
@@ -109,13 +66,6 @@ pub(super) struct Plan<'c> {
     pub(super) further: u32,
     /// Numbers that are in use, of those that all programs see.
     taken: BTreeSet<u32>,
-}
-
-/// The number of a variable by the names of its control.
-pub(super) fn number_of(var: &Var, computes: &Computes) -> Option<u32> {
-    let name = var.name();
-    let digits = name.strip_prefix(&*computes.prefix)?;
-    digits.parse().ok().filter(|n: &u32| n.to_string() == digits)
 }
 
 fn among(ranges: &[[u32; 2]], n: u32) -> bool {
@@ -130,16 +80,16 @@ fn no_room(name: &str, at: Span) -> Diagnostic {
 }
 
 impl<'c> Plan<'c> {
-    fn new(program: &Program, from: &'c Computes, computes: &'c Computes) -> Plan<'c> {
-        let looks = program.procedures.iter().map(|procedure| {
-            let mut look = Look::default();
-            look.body(&procedure.body);
-            look
+    pub(super) fn new(program: &Program, from: &'c Computes, computes: &'c Computes) -> Plan<'c> {
+        let inventories = program.procedures.iter().map(|procedure| {
+            let mut inventory = Inventory::default();
+            inventory.body(&procedure.body);
+            inventory
         });
         Plan {
             from,
             computes,
-            looks: looks.collect(),
+            inventories: inventories.collect(),
             parameters: program.procedures.iter().map(|p| p.parameters.clone()).collect(),
             homes: Vec::new(),
             roots: Vec::new(),
@@ -151,24 +101,24 @@ impl<'c> Plan<'c> {
     }
 
     /// Whether a procedure has variables of its own.
-    fn has_own(&self, at: usize) -> bool {
+    pub(super) fn has_own(&self, at: usize) -> bool {
         let local = |seen: &Seen| matches!(seen.var, Var::Local(_));
         let by_number = |(row, _): &(Numbers, Span)| row.scope == Scope::Local;
         !self.parameters[at].is_empty()
-            || self.looks[at].seen.iter().any(local)
-            || self.looks[at].numbered.iter().any(by_number)
+            || self.inventories[at].seen.iter().any(local)
+            || self.inventories[at].numbered.iter().any(by_number)
     }
 
-    fn locals_of(&self, at: usize) -> &Map {
+    pub(super) fn locals_of(&self, at: usize) -> &Map {
         &self.locals[self.roots[at]]
     }
 
-    fn make(&mut self, program: &Program) -> Result<(), Diagnostic> {
+    pub(super) fn make(&mut self, program: &Program) -> Result<(), Diagnostic> {
         self.find_homes(program);
         let own_numbers = !self.computes.local.is_empty();
-        for at in 0..self.looks.len() {
+        for at in 0..self.inventories.len() {
             if self.homes[at] == Home::None
-                && let Some(seen) = self.looks[at].seen.iter().find(|s| matches!(s.var, Var::Local(_)))
+                && let Some(seen) = self.inventories[at].seen.iter().find(|s| matches!(s.var, Var::Local(_)))
             {
                 let what = format!("the variable {} of what calls this, which has its own", seen.var.name());
                 return Err(Diagnostic::new(Fault::Computes { what: what.into() }, seen.at));
@@ -178,8 +128,8 @@ impl<'c> Plan<'c> {
         // What all procedures see, in the order of the text.
         let mut all: Vec<Seen> = Vec::new();
         let mut places: HashMap<Var, usize> = HashMap::new();
-        for (at, look) in self.looks.iter().enumerate() {
-            for seen in &look.seen {
+        for (at, inventory) in self.inventories.iter().enumerate() {
+            for seen in &inventory.seen {
                 let common = match &seen.var {
                     Var::Common(_) | Var::Retentive(_) => true,
                     Var::Local(_) => match self.homes[at] {
@@ -202,7 +152,7 @@ impl<'c> Plan<'c> {
             }
         }
         self.place_common(&all)?;
-        for at in 0..self.looks.len() {
+        for at in 0..self.inventories.len() {
             if self.homes[at] == Home::Own && self.roots[at] == at {
                 self.place_own(at)?;
             }
@@ -282,24 +232,25 @@ impl<'c> Plan<'c> {
 
     /// How far variables by computed numbers move, so that all of them do alike.
     fn go_further(&mut self) -> Result<(), Diagnostic> {
-        let rows: Vec<&(Numbers, Span)> = self.looks.iter().flat_map(|look| &look.numbered).collect();
+        let rows: Vec<&(Numbers, Span)> =
+            self.inventories.iter().flat_map(|inventory| &inventory.numbered).collect();
         let Some((_, at)) = rows.first().copied().cloned() else { return Ok(()) };
         let refused = || {
             let what = "a variable whose number is computed, among those that have other numbers".into();
             Diagnostic::new(Fault::Computes { what }, at)
         };
         let keeps_own = !self.computes.local.is_empty();
-        for (at, look) in self.looks.iter().enumerate() {
-            let own = look.numbered.iter().any(|(row, _)| row.scope == Scope::Local);
+        for (at, inventory) in self.inventories.iter().enumerate() {
+            let own = inventory.numbered.iter().any(|(row, _)| row.scope == Scope::Local);
             // A call's own have names.
             if own && !keeps_own && at > 0 && self.homes[at] == Home::Own {
                 return Err(refused());
             }
         }
         let used: Vec<u32> = self
-            .looks
+            .inventories
             .iter()
-            .flat_map(|look| &look.seen)
+            .flat_map(|inventory| &inventory.seen)
             .filter(|seen| !matches!(seen.var, Var::System(_)))
             .filter_map(|seen| number_of(&seen.var, self.from))
             .collect();
@@ -333,7 +284,7 @@ impl<'c> Plan<'c> {
     }
 
     fn place_common(&mut self, all: &[Seen]) -> Result<(), Diagnostic> {
-        let by_number = self.looks.iter().any(|look| !look.numbered.is_empty());
+        let by_number = self.inventories.iter().any(|inventory| !inventory.numbered.is_empty());
         let take = |plan: &mut Plan, seen: &Seen, to: Var| {
             plan.taken.extend(number_of(&to, plan.computes));
             plan.common.insert(seen.var.clone(), to);
@@ -342,7 +293,7 @@ impl<'c> Plan<'c> {
         for seen in all {
             // Arrays that the target does not have come last.
             let stays = match seen.elements {
-                Some(_) => self.computes.has(Said::Array) && self.computes.says(&seen.var),
+                Some(_) => self.computes.has(ComputeFeature::Array) && self.computes.says(&seen.var),
                 None => self.computes.says(&seen.var) && !matches!(seen.var, Var::Local(_)),
             };
             if stays && (!by_number || self.further == 0 || number_of(&seen.var, self.from).is_none()) {
@@ -404,13 +355,13 @@ impl<'c> Plan<'c> {
         // With those of all that has the same ones.
         let mut all: Vec<Seen> = Vec::new();
         let parameters = &self.parameters[at];
-        let first = self.looks[at].seen.first().map_or(Span::default(), |seen| seen.at);
+        let first = self.inventories[at].seen.first().map_or(Span::default(), |seen| seen.at);
         all.extend(parameters.iter().map(|var| Seen { var: var.clone(), elements: None, at: first }));
         let mut places: HashMap<Var, usize> =
             all.iter().enumerate().rev().map(|(place, seen)| (seen.var.clone(), place)).collect();
         let same = |other: &usize| self.roots[*other] == at && self.homes[*other] == Home::Own;
-        for (other, look) in self.looks.iter().enumerate().filter(|(other, _)| same(other)) {
-            let local = look.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
+        for (other, inventory) in self.inventories.iter().enumerate().filter(|(other, _)| same(other)) {
+            let local = inventory.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
             for seen in local.filter(|seen| other > 0 || !self.common.contains_key(&seen.var)) {
                 match places.get(&seen.var) {
                     Some(at) => all[*at].elements = all[*at].elements.or(seen.elements),
@@ -424,14 +375,14 @@ impl<'c> Plan<'c> {
         let mut map = Map::new();
         let mut numbers = BTreeSet::new();
         for seen in &all {
-            let array = seen.elements.is_some() && !self.computes.has(Said::Array);
+            let array = seen.elements.is_some() && !self.computes.has(ComputeFeature::Array);
             if self.computes.says(&seen.var) && !array {
                 numbers.extend(number_of(&seen.var, self.computes));
                 map.insert(seen.var.clone(), seen.var.clone());
             }
         }
         let letters = self.computes.handed == Handed::Letters;
-        let by_number = self.looks[at].numbered.iter().any(|(row, _)| row.scope == Scope::Local);
+        let by_number = self.inventories[at].numbered.iter().any(|(row, _)| row.scope == Scope::Local);
         if by_number {
             numbers.extend(self.computes.local.iter().flat_map(|[from, to]| *from..=*to));
         }
@@ -451,7 +402,7 @@ impl<'c> Plan<'c> {
             }
             let name = seen.var.name();
             let number = number_of(&seen.var, self.from);
-            let array = seen.elements.is_some() && !self.computes.has(Said::Array);
+            let array = seen.elements.is_some() && !self.computes.has(ComputeFeature::Array);
             if let Some(named) = self.computes.named.as_ref().filter(|_| !array) {
                 let is_parameter = self.parameters[at].contains(&seen.var);
                 let wanted = match number {
@@ -481,7 +432,7 @@ impl<'c> Plan<'c> {
     }
 
     /// What stands at the head of a procedure: its parameters, and variables that have to be made known.
-    fn head(&self, at: usize, procedure: &mut Procedure) {
+    pub(super) fn head(&self, at: usize, procedure: &mut Procedure) {
         let span = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
         let locals = self.locals_of(at);
         for parameter in &mut procedure.parameters {
@@ -509,9 +460,9 @@ impl<'c> Plan<'c> {
                 }
             }
         }
-        if self.computes.has(Said::Declare) && self.roots.get(at) == Some(&at) {
-            let declared = &self.looks[at].declared;
-            for seen in &self.looks[at].seen {
+        if self.computes.has(ComputeFeature::Declare) && self.roots.get(at) == Some(&at) {
+            let declared = &self.inventories[at].declared;
+            for seen in &self.inventories[at].seen {
                 let Some(new) = locals.get(&seen.var) else { continue };
                 let known = declared.contains(&*seen.var.name()) || procedure.parameters.contains(new);
                 if !known && number_of(new, self.computes).is_none() {

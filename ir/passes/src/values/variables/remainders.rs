@@ -21,7 +21,7 @@ pub(super) fn run(program: &mut Program, from: &Computes, to: &Computes, diags: 
     if has && (as_they_are || from == to && to.remainders != Remainders::Typed) {
         return;
     }
-    let mut decimals = Decimals::of(program);
+    let mut decimals = Decimals::from_program(program);
     let mut made_whole = None;
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);
@@ -35,7 +35,7 @@ pub(super) fn run(program: &mut Program, from: &Computes, to: &Computes, diags: 
             Remainders::MadeWhole => made || whole(a, b) || to.turn && is_angle(a, b),
         };
         expressions(&mut procedure.body, &mut |stmt, value| {
-            over(value, &mut |a, b| {
+            expand_remainders(value, &mut |a, b| {
                 if made && made_whole.is_none() && !whole(a, b) && !is_angle(a, b) {
                     made_whole = Some(stmt.span);
                 }
@@ -64,7 +64,7 @@ fn is_angle(a: &Expr, b: &Expr) -> bool {
 }
 
 /// Each remainder that does not stay becomes what it is.
-fn over(expr: &mut Expr, stays: &mut dyn FnMut(&Expr, &Expr) -> bool) {
+fn expand_remainders(expr: &mut Expr, stays: &mut dyn FnMut(&Expr, &Expr) -> bool) {
     let kept = match expr {
         Expr::Node(node) => match &**node {
             Node::Binary(Binary::Modulo, a, b) => stays(a, b),
@@ -72,7 +72,7 @@ fn over(expr: &mut Expr, stays: &mut dyn FnMut(&Expr, &Expr) -> bool) {
         },
         Expr::Num(_) => return,
     };
-    expr.parts_mut().for_each(|part| over(part, stays));
+    expr.parts_mut().for_each(|part| expand_remainders(part, stays));
     if !kept
         && let Expr::Node(node) = expr
         && let Node::Binary(Binary::Modulo, a, b) = &**node

@@ -15,8 +15,8 @@ use ncc_ir::program::{Centre, Coord, Op, Point, Program, Stmt, Type};
 use ncc_ir::source::Span;
 
 /// A literal that is rounded, as the whole number that it comes to.
-pub(super) fn whole(expr: &mut Expr) {
-    expr.parts_mut().for_each(whole);
+pub(super) fn round_literal(expr: &mut Expr) {
+    expr.parts_mut().for_each(round_literal);
     if let Expr::Node(node) = expr
         && let Node::Call(Function::Round, arguments) = &**node
         && let [Expr::Num(n)] = &arguments[..]
@@ -28,19 +28,19 @@ pub(super) fn whole(expr: &mut Expr) {
 /// Rounding away from zero becomes rounding up, which is the same of what is not negative: execution tells whether
 /// it is.
 pub(super) fn up(program: &mut Program, diags: &mut Vec<Diagnostic>) {
-    fn over(expr: &mut Expr, found: &mut bool) {
+    fn round_up(expr: &mut Expr, found: &mut bool) {
         if let Expr::Node(node) = expr
             && let Node::Call(function @ Function::RoundUp, _) = &mut **node
         {
             *function = Function::Ceiling;
             *found = true;
         }
-        expr.parts_mut().for_each(|part| over(part, found));
+        expr.parts_mut().for_each(|part| round_up(part, found));
     }
     let mut at = None;
     let every = &mut |stmt: &Stmt, expr: &mut Expr| {
         let mut found = false;
-        over(expr, &mut found);
+        round_up(expr, &mut found);
         if found && at.is_none() {
             at = Some(stmt.span);
         }
@@ -100,7 +100,7 @@ pub(crate) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
     let Expr::Node(node) = value else { return None };
     match &**node {
         Node::Call(Function::RoundTo, arguments) => match &arguments[..] {
-            [inner, to] => Some((inner.clone(), u8::try_from(to.literal()?.whole()?).ok()?)),
+            [inner, to] => Some((inner.clone(), u8::try_from(to.literal()?.whole_number()?).ok()?)),
             _ => None,
         },
         _ => None,
@@ -114,7 +114,7 @@ pub(crate) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
 /// for tables only those are, which have no more digits: what they move is rounded once more. Speeds and what counts must be whole anyway. Lengths stay as they
 /// are where a program goes from one unit to the other.
 pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec<Diagnostic>) {
-    let mut decimals = Decimals::of(program);
+    let mut decimals = Decimals::from_program(program);
     let whole = whole_arguments(program);
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);

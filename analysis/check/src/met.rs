@@ -1,0 +1,51 @@
+//! What rules have met so far, each in a form of its own.
+
+use std::collections::VecDeque;
+
+use ncc_ir::canon::AXES;
+use ncc_ir::expr::num::Num;
+use ncc_ir::source::Span;
+
+use crate::limits::Unchecked;
+
+/// Findings by axis and side, and what was noted as not checked.
+#[derive(Debug, Default)]
+pub(crate) struct TravelMet {
+    pub(crate) at: [[Option<usize>; 2]; AXES],
+    /// The last reason of each axis.
+    pub(crate) noted: [Option<Unchecked>; AXES],
+}
+
+/// Findings by axis.
+#[derive(Debug, Default)]
+pub(crate) struct FeedMet {
+    pub(crate) axes: [Option<usize>; AXES],
+}
+
+/// Whether it has been told.
+#[derive(Debug, Default)]
+pub(crate) struct SpindleMet {
+    pub(crate) told: bool,
+    /// Where it has been told that it stands.
+    pub(crate) stands: Option<Span>,
+    /// Whether the tool in it probes.
+    pub(crate) probes: bool,
+}
+
+impl SpindleMet {
+    /// The program has stopped it at an angle.
+    pub(crate) fn held() -> SpindleMet {
+        SpindleMet { told: true, ..SpindleMet::default() }
+    }
+}
+
+/// Numbers that were met.
+#[derive(Debug, Default)]
+pub(crate) struct PointsMet {
+    pub(crate) bare: Vec<(Span, Num, Num)>,
+    /// How many more there are.
+    pub(crate) more: usize,
+    pub(crate) last: VecDeque<Span>,
+    /// Whether any length has a point.
+    pub(crate) pointed: bool,
+}

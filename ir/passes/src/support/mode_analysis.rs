@@ -1,0 +1,142 @@
+//! Facts that hold on every way to a statement are put into it: through loops, decisions, jumps and calls.
+//!
+//! What is in force at the head of a loop is what is so before it and behind each turn; at a label, where every jump
+//! to it comes from; in a subprogram, at every call. Found by going through the program until nothing changes. What
+//! positions do that only a caller knows stays as it is. What holds where a stretch of blocks begins is kept for those
+//! who go on from there. A hole in a loop or behind a label at which one cycle is in force, as it was called up,
+//! calls it up by itself: where control goes, a target may leave none in force. A call that has served only such
+//! holes is left out.
+//!
+//! Not here: values of variables.
+
+use std::collections::HashMap;
+
+use self::called::Called;
+use self::called_up::call_up_all;
+use self::flow::{Flow, MOST_ROUNDS};
+use self::held::Held;
+use ncc_ir::canon::Modes;
+use ncc_ir::computed::computes::Computes;
+use ncc_ir::program::kinds::flow;
+use ncc_ir::program::{Attribute, Op, PathControl, Program, Stmt};
+use ncc_ir::track::Tracker;
+
+mod active_cycles;
+mod called;
+mod called_up;
+mod flow;
+mod held;
+
+pub use self::active_cycles::ActiveCycles;
+pub use self::called_up::has_bare_holes;
+pub(crate) use self::flow::At;
+
+/// What holds where stretches of blocks without control begin, by their places in the source.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    starts: HashMap<u32, Tracker>,
+    /// How corners are taken there, if that is known.
+    paths: HashMap<u32, Option<Box<PathControl>>>,
+    /// Cycles in force at holes, by their places, that are as they were called up on every way there.
+    cycles: HashMap<u32, Option<Called>>,
+}
+
+impl Known {
+    /// What holds where a stretch begins with a statement.
+    pub(crate) fn before(&self, stmt: &Stmt) -> Option<&Tracker> {
+        self.starts.get(&stmt.span.start)
+    }
+
+    /// Puts units, feed and motion into a walk that comes to a statement from elsewhere.
+    pub(crate) fn feeds(&self, stmt: &Stmt, walk: &mut Tracker) {
+        let Some(at) = self.before(stmt) else { return };
+        (walk.modes.units, walk.modes.feed_mode) = (at.modes.units, at.modes.feed_mode);
+        (walk.fed, walk.feed, walk.modes.motion) = (at.fed, at.feed, at.modes.motion);
+    }
+
+    /// How corners are taken where a stretch begins with a statement, if it is known.
+    pub(crate) fn path_before(&self, stmt: &Stmt) -> Option<&PathControl> {
+        self.paths.get(&stmt.span.start)?.as_deref()
+    }
+
+    /// The modes in force where stretches begin, by the places of their first statements.
+    pub fn modes(&self) -> HashMap<u32, Modes> {
+        self.starts.iter().map(|(at, known)| (*at, known.modes)).collect()
+    }
+}
+
+/// Has holes that the text itself puts under a cycle of another stretch call it up. What is `known` is of a copy of
+/// the program with its facts put in.
+pub(crate) fn holes(program: &mut Program, known: &Known) {
+    call_up_all(program, &known.cycles, false);
+}
+
+/// Leaves such holes to what is in force, for a target that keeps it in loops as the source does. Tells whether there
+/// are any.
+pub(crate) fn positions(body: &mut [Stmt]) -> bool {
+    let (mut called, mut any) = (false, false);
+    for stmt in body {
+        called &= !matches!(stmt.op, flow!());
+        match &mut stmt.op {
+            Op::StartCycle(_) => called = true,
+            Op::Hole(to) if !called => {
+                any = true;
+                stmt.op = Op::Position(std::mem::take(to));
+            }
+            Op::Control(control) => {
+                any = control.bodies_mut().map(|body| positions(body)).fold(any, std::ops::BitOr::bitor);
+            }
+            _ => {}
+        }
+    }
+    any
+}
+
+/// Puts known facts in. `entry` is what holds where the program begins. With `holes`, those that the text itself
+/// puts under a cycle are made to call it up too.
+pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
+    let mut flow = Flow::new(program, Held { at: entry.clone(), ..Held::default() });
+    flow.holes = holes;
+    for _ in 0..MOST_ROUNDS {
+        flow.changed = false;
+        flow.visit_program(program);
+        if !flow.changed {
+            flow.settles = true;
+            flow.visit_program(program);
+            call_up_all(program, &flow.cycles, true);
+            return Known { starts: flow.starts, paths: flow.paths, cycles: flow.cycles };
+        }
+    }
+    Known::default()
+}
+
+/// Puts modes back that are known where their codes were saved, and answers what a target of these capabilities cannot be
+/// asked for and is known; nothing else. `entry` is what holds where the program begins.
+pub fn put_back(program: &mut Program, entry: &Tracker, target: &Computes) {
+    let mut flow = Flow::new(program, Held { at: entry.clone(), ..Held::default() });
+    flow.target = Some(target);
+    flow.until_settled(program);
+}
+
+/// What holds where stretches begin; the program stays as it is. `entry` is what holds where the program begins, and
+/// `path` how corners are taken there.
+pub(crate) fn starts(program: &Program, entry: &Tracker, path: Option<&PathControl>) -> Option<Known> {
+    let mut program = program.clone();
+    let path = path.cloned().map(Box::new);
+    let mut flow = Flow::new(&program, Held { at: entry.clone(), path, ..Held::default() });
+    flow.until_settled(&mut program).then_some(Known {
+        starts: flow.starts,
+        paths: flow.paths,
+        cycles: flow.cycles,
+    })
+}
+
+/// What holds at each call that a way leads to, by its place, where subprograms give back what they say they do;
+/// `None` if that is not found. `entry` is what holds where the program begins.
+pub(crate) fn at_calls(program: &Program, entry: &Tracker) -> Option<HashMap<u32, At>> {
+    let mut program = program.clone();
+    let gives = program.procedures.iter().map(|p| p.attributes.contains(&Attribute::GivesBack)).collect();
+    let mut flow = Flow::new(&program, Held { at: entry.clone(), ..Held::default() });
+    flow.gives = gives;
+    flow.until_settled(&mut program).then_some(flow.calls)
+}

@@ -1,0 +1,217 @@
+//! Files of a crate form no circle: where one file names another, that one names it neither directly nor through others.
+//!
+//! A file names another by a path from `crate`, `super` or `self`, in a `use` or in an expression. A file that names what
+//! its child has, while the child names what the file has, is a circle too: what both need belongs into a file below them.
+//! Tests within a file and comments do not count.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ncc_tests::corpus::root;
+use ncc_tests::expect::Failures;
+
+use crate::tidy::{code, files, text};
+
+/// Crates, by their folders.
+const ROOMS: &[&str] = &[
+    "analysis/check",
+    "analysis/diff",
+    "analysis/plot",
+    "analysis/time",
+    "backends",
+    "cli",
+    "driver",
+    "engine",
+    "frontends",
+    "ir",
+    "ir/dialects",
+    "ir/exec",
+    "ir/passes",
+    "machines",
+];
+
+/// Rooms that still have circles: a room without any is taken out of here.
+const CIRCULAR: &[&str] = &["cli", "driver", "frontends"];
+
+/// The path of a module from its crate's root; that of the root is empty.
+type Module = Vec<String>;
+
+/// Which modules a module names, each with the path by which it does.
+type Graph = BTreeMap<Module, BTreeMap<Module, String>>;
+
+/// The module that a source file is, by its path under `src`.
+fn module(path: &str) -> Module {
+    let mut parts: Module = path.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
+    let last = parts.last().map(String::as_str).unwrap_or_default();
+    if last == "mod" || parts.len() == 1 && ["lib", "main"].contains(&last) {
+        parts.pop();
+    }
+    parts
+}
+
+/// Code without its tests, and without the paths of `pub(in …)`, which name no item.
+fn product(source: &str) -> String {
+    let source = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let mut parts = source.split("pub(in ");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    parts.for_each(|part| out.push_str(part.split_once(')').map_or(part, |(_, rest)| rest)));
+    code(&out, false)
+}
+
+/// The paths at the leaves of a `use` tree, or the single path of an expression.
+fn leaves(tree: &str, before: &[String], found: &mut Vec<Module>) {
+    let is_path = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == ':';
+    let end = tree.find(|c| !is_path(c)).unwrap_or(tree.len());
+    let mut path = before.to_vec();
+    for part in tree[..end].split("::").filter(|part| !part.is_empty() && *part != "self") {
+        if part == "super" {
+            path.pop();
+        } else {
+            path.push(part.to_owned());
+        }
+    }
+    let Some(inner) = tree[end..].strip_prefix('{').filter(|_| tree[..end].ends_with("::")) else {
+        return found.push(path);
+    };
+    let (mut open, mut from) = (0, 0);
+    for (at, c) in inner.char_indices() {
+        match c {
+            '{' => open += 1,
+            ',' | '}' if open == 0 => {
+                let leaf = inner[from..at].trim();
+                if !leaf.is_empty() {
+                    leaves(leaf, &path, found);
+                }
+                from = at + 1;
+                if c == '}' {
+                    return;
+                }
+            }
+            '}' => open -= 1,
+            _ => {}
+        }
+    }
+}
+
+/// The paths from the root that the code of a module names.
+fn named(own: &Module, code: &str) -> Vec<Module> {
+    let parent: Module = own.iter().take(own.len().saturating_sub(1)).cloned().collect();
+    let mut found = Vec::new();
+    for (word, start) in [("crate::", &Module::new()), ("super::", &parent), ("self::", own)] {
+        for (at, _) in code.match_indices(word) {
+            let before = code[..at].chars().next_back().unwrap_or(' ');
+            // `$crate` is another crate's, and within a path it has been looked at with what is before it.
+            if !before.is_ascii_alphanumeric() && !['_', '$', ':'].contains(&before) {
+                leaves(&code[at + word.len() - 2..], start, &mut found);
+            }
+        }
+    }
+    found
+}
+
+/// Which file names which, from sources by their paths under `src`.
+fn graph(sources: &[(String, String)]) -> Graph {
+    let modules: BTreeSet<Module> = sources.iter().map(|(path, _)| module(path)).collect();
+    let mut graph = Graph::new();
+    for (path, source) in sources {
+        let own = module(path);
+        let mut names = BTreeMap::new();
+        for path in named(&own, &product(source)) {
+            // The longest beginning of it that is a file.
+            let known = (1..=path.len()).rev().map(|long| path[..long].to_vec());
+            if let Some(other) = known.into_iter().find(|part| modules.contains(part))
+                && other != own
+            {
+                names.entry(other).or_insert_with(|| path.join("::"));
+            }
+        }
+        graph.insert(own, names);
+    }
+    graph
+}
+
+/// The modules that a module leads to.
+fn reach<'g>(graph: &'g Graph, from: &'g Module) -> BTreeSet<&'g Module> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![from];
+    while let Some(next) = open.pop() {
+        let fresh = graph.get(next).into_iter().flat_map(BTreeMap::keys).filter(|other| found.insert(*other));
+        open.extend(fresh.collect::<Vec<_>>());
+    }
+    found
+}
+
+/// The circles of a graph: each a set of modules that all lead to one another.
+fn circles(graph: &Graph) -> BTreeSet<BTreeSet<&Module>> {
+    let reached: BTreeMap<&Module, BTreeSet<&Module>> =
+        graph.keys().map(|module| (module, reach(graph, module))).collect();
+    let circle = |module: &Module| -> BTreeSet<&Module> {
+        let others = reached.get(module).into_iter().flatten();
+        others.copied().filter(|other| reached.get(other).is_some_and(|back| back.contains(module))).collect()
+    };
+    graph.keys().map(circle).filter(|circle| !circle.is_empty()).collect()
+}
+
+/// A circle in words: each file with those of the circle that it names.
+fn described(circle: &BTreeSet<&Module>, graph: &Graph) -> String {
+    let mut out = format!("a circle of {} files", circle.len());
+    for module in circle {
+        for (other, path) in graph.get(*module).into_iter().flatten().filter(|(m, _)| circle.contains(m)) {
+            out.push_str(&format!("\n    {} names {path} of {}", module.join("/"), other.join("/")));
+        }
+    }
+    out
+}
+
+#[test]
+fn files_form_no_circles() {
+    let mut failures = Failures::default();
+    for room in ROOMS {
+        let src = root().join(room).join("src");
+        let all = files(&format!("{room}/src"), &[".rs"]);
+        assert!(!all.is_empty(), "{room} has no files");
+        let all = all.iter().filter(|path| !path.ends_with("tests.rs"));
+        let sources: Vec<(String, String)> = all
+            .map(|path| {
+                let name = path.strip_prefix(&src).expect("a file of the crate").to_string_lossy();
+                (name.replace('\\', "/"), text(path))
+            })
+            .collect();
+        let graph = graph(&sources);
+        let found = circles(&graph);
+        if CIRCULAR.contains(room) {
+            if found.is_empty() {
+                failures.add(room, "has no circles any more: take it out of CIRCULAR");
+            }
+            continue;
+        }
+        found.iter().for_each(|circle| failures.add(room, described(circle, &graph)));
+    }
+    failures.finish();
+}
+
+#[test]
+fn circles_are_found() {
+    let sources = |all: &[(&str, &str)]| -> Vec<(String, String)> {
+        all.iter().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())).collect()
+    };
+    let count = |all: &[(&str, &str)]| -> Vec<usize> {
+        let graph = graph(&sources(all));
+        circles(&graph).iter().map(BTreeSet::len).collect()
+    };
+    // A parent and its child; by way of a third file; in an expression.
+    assert_eq!(count(&[("a.rs", "use self::b::B;"), ("a/b.rs", "use super::A;")]), [2]);
+    assert_eq!(
+        count(&[
+            ("a.rs", "use crate::{c, d::{self, b2::X}};"),
+            ("c.rs", "use crate::d::D;"),
+            ("d/mod.rs", "fn f() -> u8 { crate::a::g() }"),
+            ("d/b2.rs", "use super::super::c::C;"),
+        ]),
+        [4]
+    );
+    // One direction alone; a test, a comment, a visibility; the root, which all may name.
+    let tests = "use crate::b::B;\n#[cfg(test)]\nmod tests {\n    use crate::c::C;\n}\n";
+    assert!(count(&[("a.rs", tests), ("b.rs", "// crate::a::A"), ("c.rs", "use crate::a::A;")]).is_empty());
+    assert!(count(&[("a.rs", "use self::b::B;"), ("a/b.rs", "pub(in crate::a) struct B;")]).is_empty());
+    assert!(count(&[("lib.rs", "use crate::a::A;"), ("a.rs", "use crate::Target;")]).is_empty());
+}
