@@ -9,10 +9,10 @@
 //!
 //! Not here: file access, formatting, printing, anything of back-ends.
 
-mod begins;
 pub mod canon;
 mod common;
 mod corners;
+mod initial_modes;
 pub mod ir;
 pub mod pieces;
 pub mod recognise;

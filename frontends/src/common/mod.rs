@@ -10,6 +10,7 @@
 
 pub(crate) mod fast;
 pub(crate) mod known;
+pub(crate) mod modal_state;
 pub(crate) mod number;
 pub(crate) mod plain;
 pub(crate) mod quoted;

@@ -20,23 +20,22 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::facts::{InForce, Motion, Only, Stand, State};
 use super::program::again::Again;
 use super::program::flow::{Closes, Flow};
 use super::program::parameters::Handed;
+use super::siemens_state::{ModalCall, Motion, Only, SiemensState, Stand};
 use super::sort::Words;
 use super::speed::Surfaces;
 use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::text::unit::Kind;
 use super::values::computing::Variables;
-use super::values::formula::Typed;
-use crate::begins::Inherited;
+use super::values::typed::Typed;
 use crate::common::Source;
 use crate::common::fast::Fast;
-use crate::common::known::Know;
 use crate::common::saved::Saved;
 use crate::common::switched::Met;
 use crate::common::text::decode;
+use crate::initial_modes::Inherited;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -53,7 +52,7 @@ pub(super) struct Lower {
     pub(super) watch: bool,
     /// Whether what is taken for granted of the control is told: its modes are by `assume` alone.
     pub(super) reports: bool,
-    pub(super) state: State,
+    pub(super) state: SiemensState,
     pub(super) only_units: Only<Units>,
     pub(super) only_scaled: Only<bool>,
     pub(super) only_plane: Only<Plane>,
@@ -84,7 +83,7 @@ pub(super) struct Lower {
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
     /// What `MCALL` had put in force where the subprogram was called.
-    pub(super) entry: InForce,
+    pub(super) entry: ModalCall,
     /// What the text that begins is, where something says so: its header, its heading, or its file's name.
     pub(super) unit: Option<Kind>,
     /// Where the text first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
@@ -118,10 +117,10 @@ pub(super) struct Lower {
 struct Stretch {
     level: u8,
     /// What was in force before the first of them.
-    before: State,
+    before: SiemensState,
     moved: Option<Motion>,
     /// What is in force if they are not skipped.
-    inside: State,
+    inside: SiemensState,
     moved_inside: Option<Motion>,
 }
 
@@ -175,7 +174,7 @@ impl Lower {
             inherited: Inherited::default(),
             watch: false,
             reports: assume,
-            state: State::default(),
+            state: SiemensState::default(),
             only_units: Only::default(),
             only_scaled: Only::default(),
             only_plane: Only::default(),
@@ -190,7 +189,7 @@ impl Lower {
             rapid_taken: None,
             reported: HashSet::new(),
             sub: None,
-            entry: InForce::None,
+            entry: ModalCall::None,
             unit: None,
             callers_feed: None,
             ended: false,
@@ -218,15 +217,15 @@ impl Lower {
         let before = self.enter_stretch(&head, out);
         self.begin(&head, src, out);
         self.statement(&block.statement, &head, src, out);
-        if before.as_ref().is_some_and(|(before, _)| before.motion != self.state.motion) {
+        if before.as_ref().is_some_and(|(before, _)| before.modes.motion != self.state.modes.motion) {
             self.leave_motion(head.span, out);
         }
         self.close(&head, src, out);
         if let (Some((before, moved)), Some((level, _))) = (before, head.skip) {
             let (inside, moved_inside) = (self.state.clone(), self.moved);
             self.state.join(&before);
-            if self.state.motion.value().is_none() {
-                self.motion_goes_on(&[before.motion, inside.motion], out);
+            if self.state.modes.motion.value().is_none() {
+                self.motion_goes_on(&[before.modes.motion, inside.modes.motion], out);
             }
             self.stand.forget();
             if self.moved != moved {
@@ -247,7 +246,7 @@ impl Lower {
 
     /// What was in force before a block that may be skipped, or before the first of several that are
     /// skipped together.
-    fn enter_stretch(&mut self, head: &Head, out: &mut Batch) -> Option<(State, Option<Motion>)> {
+    fn enter_stretch(&mut self, head: &Head, out: &mut Batch) -> Option<(SiemensState, Option<Motion>)> {
         let stretch = self.stretch.take();
         let (level, _) = head.skip?;
         match stretch {
@@ -517,14 +516,7 @@ impl Lower {
 
     /// After a refused block, what it may have said is not asked for again.
     pub(super) fn forgive(&mut self) {
-        for said in [&mut self.state.feed, &mut self.state.tool] {
-            if *said == Know::Unsaid {
-                *said = Know::Lost;
-            }
-        }
-        if self.state.motion == Know::Unsaid {
-            self.state.motion = Know::Lost;
-        }
+        self.state.modes.forgive();
         self.stand.forget();
         self.moved = None;
     }

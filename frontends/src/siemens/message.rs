@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 
 use super::lower::Lower;
 use super::text::tree::{Binary, Called, Expr as Tree, Unary};
-use super::values::formula::Kind;
+use super::values::typed::Kind;
 use crate::Batch;
 use crate::common::Source;
 

@@ -14,10 +14,10 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::facts::InForce;
 use super::lower::Lower;
 use super::parse;
 use super::program::calls::procedure_name;
+use super::siemens_state::ModalCall;
 use super::text::letters::letter_for_zero;
 use super::text::tree::{Block, Statement};
 use super::text::unit;
@@ -304,7 +304,7 @@ impl Reader {
         // What follows is not blamed for having no cycle.
         let text = src.text(line).to_ascii_uppercase();
         if text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == "MCALL") {
-            self.lower.state.cycle = InForce::Refused;
+            self.lower.state.cycle = ModalCall::Refused;
         }
     }
 

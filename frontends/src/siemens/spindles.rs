@@ -60,7 +60,7 @@ impl Lower {
 
     /// A tool by its name.
     pub(super) fn select_by_name(&mut self, text: Span, src: Source, out: &mut Batch) {
-        self.state.tool = Know::Said(());
+        self.state.modes.tool = Know::Said(None);
         let bytes = src.bytes(text);
         let name: Text = decode(bytes.get(1..bytes.len() - 1).unwrap_or_default());
         self.push(text, Op::SelectToolByName(name), out);

@@ -12,9 +12,9 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
 
-use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, Words};
+use super::word_state::CycleState;
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
@@ -42,7 +42,7 @@ impl Lower {
         let Some(offset) = (1..=count).contains(&which).then(|| first + (which - 1) as u16) else {
             return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
         };
-        self.state.work_offset = Know::Said(offset);
+        self.state.modes.work_offset = Know::Said(offset);
         self.push(code.span.to(word.span), Op::SetOriginOffsets(offset), out);
     }
 
@@ -70,7 +70,7 @@ impl Lower {
     fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
         let row_name = || Box::<str>::from(row.name.as_str());
         // Execution looks at what is not known here: where a caller, or a block that may be skipped, has a cycle in force.
-        let in_force = matches!(self.state.cycle, InForce::Active(_));
+        let in_force = matches!(self.state.cycle, CycleState::Active(_));
         if in_force {
             let name = "data input while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
@@ -174,7 +174,7 @@ impl Lower {
     ) -> Option<u32> {
         if number == 0 && row.zero_current {
             self.rely_on_frames(false, code.span, out);
-            let own = self.state.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
+            let own = self.state.modes.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
             let Some(own) = own.filter(|own| (1..=row.count).contains(own)) else {
                 let code = format!("{} {}", row.name, src.text(entry.span)).into();
                 let name = "data input for the offset in force where that is not known".into();
@@ -197,7 +197,7 @@ impl Lower {
     fn known_number(&self, number: &Expr) -> Option<u32> {
         match number {
             Expr::Num(n) => n.whole().and_then(|n| u32::try_from(n).ok()),
-            Expr::Node(node) => match (&**node, self.state.tool) {
+            Expr::Node(node) => match (&**node, self.state.modes.tool) {
                 (Node::Var(Var::System(System::SelectedTool)), Know::Said(tool)) => tool,
                 _ => None,
             },
@@ -208,7 +208,7 @@ impl Lower {
     /// known when it runs.
     fn unknown_entry(&self, number: &Expr) -> &'static str {
         let asked = |node: &Node| match node {
-            Node::Var(Var::System(System::SelectedTool)) => self.state.tool == Know::Unsaid,
+            Node::Var(Var::System(System::SelectedTool)) => self.state.modes.tool == Know::Unsaid,
             Node::Var(Var::System(System::LengthEntry)) => self.state.length_entry == Know::Unsaid,
             _ => false,
         };
@@ -299,8 +299,7 @@ impl Lower {
             self.rely_on_frames(true, code.span, out);
         }
         self.end_tip(code.span, out);
-        self.state.length_offset = Know::Said(());
-        self.state.level_open = true;
+        self.state.length_open(true);
         self.push(code.span, Op::UseToolLength(Box::new(length)), out);
     }
 

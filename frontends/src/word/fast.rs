@@ -6,9 +6,8 @@ use ncc_ir::canon::{Axis, FeedMode, Motion, ReturnLevel};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, Op, Stmt};
 
-use super::facts::InForce;
 use super::lower::Lower;
-use super::moves::polar::Words;
+use super::word_state::{AxisWords, CycleState};
 use crate::Batch;
 use crate::common::fast::{Fast, FeedWord, code_again, counts_units, line};
 use crate::common::known::Know;
@@ -29,33 +28,28 @@ impl Lower {
         if self.unmoved() || self.computes.at_moves.is_some() {
             return None;
         }
-        let feed = match state.motion {
+        let feed = match state.modes.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
             Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
             _ => return None,
         };
-        let open = self.assume
-            && (state.distance.unsaid()
-                || state.units.unsaid()
-                || state.work_offset.unsaid()
-                || state.no_shift == Know::Unsaid
-                || state.length_offset.unsaid());
+        let open = self.assume && (state.modes.is_open_to_moves() || state.modes.no_shift == Know::Unsaid);
         // A time counts for one move, so every block is looked at.
-        if state.feed_mode.value() == Some(FeedMode::InverseTime) {
+        if state.modes.feed_mode.value() == Some(FeedMode::InverseTime) {
             return None;
         }
-        let no_feed = feed && (state.feed == Know::Unsaid || state.cycle_feed.is_some());
+        let no_feed = feed && (state.modes.feed == Know::Unsaid || state.cycle_feed.is_some());
         if !axes
             || open
             || no_feed
             || state.after_cycle
             || state.no_motion
             || state.rigid.is_some()
-            || state.cycle != InForce::None
+            || state.cycle != CycleState::None
             || self.settings.dialect.cycles.level_lost
                 && state.return_level.value() == Some(ReturnLevel::Retract)
             || state.unplaced != 0
-            || state.words != Words::Cartesian
+            || state.words != AxisWords::Cartesian
             || state.follows_polar
             || state.thread.is_some()
             || self.level_open()
@@ -64,10 +58,10 @@ impl Lower {
         {
             return None;
         }
-        let said = matches!(state.motion, Know::Said(_));
+        let said = matches!(state.modes.motion, Know::Said(_));
         Some(Fast {
-            unit: unit_of(state.units.fact()),
-            distance: state.distance.fact(),
+            unit: unit_of(state.modes.units.fact()),
+            distance: state.modes.distance.fact(),
             feed,
             number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
             bare: false,
@@ -80,13 +74,13 @@ impl Lower {
     fn settled_feed(&self) -> Option<FeedWord> {
         let state = &self.state;
         let row = self.letters.get(usize::from(self.roles.feed.wrapping_sub(b'A'))).copied().flatten()?;
-        let open = self.assume && state.feed_mode.unsaid();
-        if !row.sure || open || state.feed != Know::Said(()) || state.cycle_feed.is_some() {
+        let open = self.assume && state.modes.feed_mode.unsaid();
+        if !row.sure || open || state.modes.feed != Know::Said(()) || state.cycle_feed.is_some() {
             return None;
         }
         let rules = &self.rules[Quantity::Feed as usize];
-        let bare = counts_units(rules, state.units.fact());
-        Some(FeedWord { letter: self.roles.feed, unit: unit_of(state.units.fact()), bare })
+        let bare = counts_units(rules, state.modes.units.fact());
+        Some(FeedWord { letter: self.roles.feed, unit: unit_of(state.modes.units.fact()), bare })
     }
 
     /// Lowers the line that begins at `at` of `text`, if it is a plain move of at most `longest`

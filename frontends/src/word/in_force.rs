@@ -54,7 +54,7 @@ impl Lower {
     pub(super) fn tool_in_force(&mut self, word: &Word) {
         let tool = number(word);
         self.tools.at_start.says(TOOL, tool);
-        self.state.tool = Know::Said(tool);
+        self.state.modes.tool = Know::Said(tool);
     }
 
     /// The program says an H code.
@@ -68,7 +68,7 @@ impl Lower {
     /// (reported).
     pub(super) fn stated_at_start(&mut self, asked: &System, at: Span, out: &mut Batch) -> Option<u32> {
         let which = match asked {
-            System::SelectedTool if self.state.tool == Know::Unsaid => TOOL,
+            System::SelectedTool if self.state.modes.tool == Know::Unsaid => TOOL,
             System::LengthEntry if self.state.length_entry == Know::Unsaid => ENTRY,
             _ => return None,
         };

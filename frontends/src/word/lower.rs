@@ -22,7 +22,6 @@ use ncc_ir::source::Span;
 
 use super::cycles::no_cycle::CyclesMet;
 use super::doubts::ToolsNamed;
-use super::facts::{InForce, State};
 use super::macros::computing::Computes;
 use super::moves::compensation::RadiusNamed;
 use super::moves::unmoved::Unmoved;
@@ -30,12 +29,13 @@ use super::number::{CentreSeen, UnitsSeen};
 use super::o_code::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
 use super::text::block::Block;
-use crate::begins::Inherited;
+use super::word_state::{CycleState, WordState};
 use crate::common::Source;
 use crate::common::fast::Fast;
 use crate::common::known::Know;
 use crate::common::switched::Met;
 use crate::common::text::decode;
+use crate::initial_modes::Inherited;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -58,7 +58,7 @@ pub(super) struct Lower {
     /// Rows of the address letters.
     pub(super) letters: [Option<&'static Address>; 26],
     pub(super) roles: Roles,
-    pub(super) state: State,
+    pub(super) state: WordState,
     pub(super) units_seen: UnitsSeen,
     pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
@@ -242,7 +242,7 @@ impl Lower {
             assume,
             inherited: Inherited::default(),
             watch: false,
-            state: State::default(),
+            state: WordState::default(),
             units_seen: UnitsSeen::default(),
             centre_seen: CentreSeen::default(),
             sub: None,
@@ -284,9 +284,9 @@ impl Lower {
             name: block.names.first().map(|&span| (src.text(span), span)),
             ..Now::default()
         };
-        if self.state.feed_mode.value() == Some(FeedMode::InverseTime) {
+        if self.state.modes.feed_mode.value() == Some(FeedMode::InverseTime) {
             // A time counts for the move of its own block.
-            self.state.feed = Know::Unsaid;
+            self.state.modes.feed = Know::Unsaid;
         }
         for (fault, span) in &block.faults {
             out.report(fault.clone(), *span);
@@ -358,7 +358,7 @@ impl Lower {
         self.tool_block_over();
         self.close(block, src, out);
         if let (Some(before), None) = (before, block.tail) {
-            if self.state.motion != before.motion {
+            if self.state.modes.motion != before.modes.motion {
                 self.leave_motion(self.now.skip, out);
             }
             self.state.join(&before);
@@ -529,17 +529,9 @@ impl Lower {
 
     /// After a refused block, what it may have said is not asked for again.
     pub(super) fn forgive(&mut self) {
-        if self.state.feed == Know::Unsaid {
-            self.state.feed = Know::Lost;
-        }
-        if self.state.tool == Know::Unsaid {
-            self.state.tool = Know::Lost;
-        }
-        if self.state.motion == Know::Unsaid {
-            self.state.motion = Know::Lost;
-        }
+        self.state.modes.forgive();
         if self.now.cycle_refused {
-            self.state.cycle = InForce::Lost;
+            self.state.cycle = CycleState::Lost;
         }
     }
 

@@ -4,7 +4,7 @@
 //! A plain move goes from the line straight to its statement (`common::fast`). Any other line goes to the
 //! recogniser of plain blocks (`common::plain`), and to the lexer (`text::token`) and the grammar
 //! (`text/block.lalrpop`) if it is not one. Its words are then lowered to statements (`lower` and its
-//! neighbours) with what the program has said so far (`facts`).
+//! neighbours) with what the program has said so far (`word_state`).
 //!
 //! Reading never fails: a block with a fault gives diagnostics and no statements, and reading goes
 //! on at the next one. What a dictionary does not have is refused, never skipped.
@@ -32,6 +32,7 @@ mod spindle;
 #[path = "../../tests/word/mod.rs"]
 mod tests;
 pub(crate) mod text;
+mod word_state;
 
 use ncc_dialects::{BLOCK_SKIP, Settings};
 use ncc_ir::diag::Fault;

@@ -5,7 +5,7 @@ use ncc_ir::canon::{Axis, Distance, Fact, Units};
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 
-use super::super::facts::{InForce, Motion};
+use super::super::siemens_state::{ModalCall, Motion};
 use super::{Head, Lower};
 use crate::Batch;
 use crate::common::fast::{Fast, FeedWord};
@@ -52,27 +52,24 @@ impl Lower {
             row.is_some_and(|r| r.role == Role::Axis && r.quantity == Quantity::Length && r.sure)
         };
         let state = &self.state;
-        let feed = match state.motion {
+        let feed = match state.modes.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
             Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
             _ => return None,
         };
         let open = self.assume
-            && (state.distance.unsaid()
-                || state.units.unsaid()
-                || state.work_offset.unsaid()
-                || state.no_shift.unsaid()
-                || state.implied_edge.is_some()
-                || state.length.unsaid());
+            && (state.modes.is_open_to_moves()
+                || state.modes.no_shift.unsaid()
+                || state.implied_edge.is_some());
         let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         // The statements of a move say what is in force only after one has been looked at.
         let moved = self.moved == Some(if feed { Motion::Feed } else { Motion::Traverse });
-        let no_feed = feed && state.feed == Know::Unsaid;
+        let no_feed = feed && state.modes.feed == Know::Unsaid;
         if !axes
             || open
             || no_feed
             || !moved
-            || state.cycle != InForce::None
+            || state.cycle != ModalCall::None
             || self.ended
             || !self.again.is_empty()
             || self.rounding.is_some()
@@ -84,10 +81,10 @@ impl Lower {
         {
             return None;
         }
-        let said = matches!(state.motion, Know::Said(_));
+        let said = matches!(state.modes.motion, Know::Said(_));
         Some(Fast {
-            unit: unit_of(state.units.fact()),
-            distance: state.distance.fact(),
+            unit: unit_of(state.modes.units.fact()),
+            distance: state.modes.distance.fact(),
             feed,
             number: b'N',
             bare: true,
@@ -100,15 +97,15 @@ impl Lower {
     fn settled_feed(&self) -> Option<FeedWord> {
         let (dialect, state) = (self.settings.dialect, &self.state);
         let row = dialect.address.iter().find(|row| row.role == Role::Feed)?;
-        let open = self.assume && state.feed_mode.unsaid();
-        if !row.sure || open || state.feed != Know::Said(()) {
+        let open = self.assume && state.modes.feed_mode.unsaid();
+        if !row.sure || open || state.modes.feed != Know::Said(()) {
             return None;
         }
         let basic = if self.settings.get("feed_unit") == "inch" { Units::Inch } else { Units::Mm };
         let unit = match (state.scaled.value(), state.scaled) {
-            (Some(true), _) => unit_of(state.units.fact()),
+            (Some(true), _) => unit_of(state.modes.units.fact()),
             // Where the units in force are other ones, it is told that the feed is not in them.
-            (Some(false), _) | (None, Know::Unsaid) if state.units.value() == Some(basic) => {
+            (Some(false), _) | (None, Know::Unsaid) if state.modes.units.value() == Some(basic) => {
                 unit_of(Fact::Known(basic))
             }
             (Some(false) | None, _) => return None,

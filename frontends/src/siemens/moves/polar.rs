@@ -15,37 +15,10 @@ use ncc_ir::source::Span;
 use crate::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::Pole;
 use crate::siemens::sort::{Code, Given, Words};
 
 const ROLES: [NameRole; 2] = [NameRole::PolarRadius, NameRole::PolarAngle];
-
-/// What is known of the pole in force.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::siemens) enum Pole {
-    /// None was set: it is at zero.
-    #[default]
-    Unsaid,
-    /// One of a plane; the place in it, if words have said it from zero.
-    Said(Plane, Option<[Num; 2]>),
-    /// It is known only when the program runs.
-    Lost,
-}
-
-impl Pole {
-    /// After other frames or another plane, nobody says where it is.
-    pub(in crate::siemens) fn lose(&mut self) {
-        if *self != Pole::Unsaid {
-            *self = Pole::Lost;
-        }
-    }
-
-    /// What is known after a block that may have been skipped.
-    pub(in crate::siemens) fn join(&mut self, before: Pole) {
-        if *self != before {
-            *self = Pole::Lost;
-        }
-    }
-}
 
 /// The polar words of a block.
 #[derive(Debug)]

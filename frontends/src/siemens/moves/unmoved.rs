@@ -9,8 +9,8 @@ use ncc_ir::source::Span;
 
 use crate::Batch;
 use crate::common::known::Know;
-use crate::siemens::facts::{InForce, Motion};
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::{ModalCall, Motion};
 
 impl Lower {
     /// Control leaves here, or may come here from elsewhere: what is in force must have been said.
@@ -35,11 +35,14 @@ impl Lower {
     }
 
     fn untold_motion(&mut self, at: Span, out: &mut Batch) -> Option<Op> {
-        let Know::Said(motion) = self.state.motion else { return None };
+        let Know::Said(motion) = self.state.modes.motion else { return None };
         if self.moved == Some(motion) {
             return None;
         }
-        if matches!(self.state.cycle, InForce::Active(_) | InForce::Inherited { .. } | InForce::Lost { .. }) {
+        if matches!(
+            self.state.cycle,
+            ModalCall::Active(_) | ModalCall::Inherited { .. } | ModalCall::Lost { .. }
+        ) {
             // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be said.
             if motion != Motion::Traverse && std::mem::take(&mut self.unmoved) {
                 let name = "motion that no move has said, under a cycle, before control goes elsewhere";

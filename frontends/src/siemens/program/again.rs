@@ -12,7 +12,7 @@ use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
 use crate::common::known::Know;
-use crate::siemens::facts::{InForce, State};
+use crate::siemens::siemens_state::{ModalCall, SiemensState};
 
 // Facts that a statement keeps as known.
 pub(in crate::siemens) const UNITS: u8 = 1;
@@ -29,9 +29,9 @@ pub(in crate::siemens) struct Label {
     /// Whether it is an end that no label is named for.
     end: bool,
     /// What was in force before its block.
-    before: State,
+    before: SiemensState,
     /// What was in force after its block.
-    after: Option<State>,
+    after: Option<SiemensState>,
     /// Facts that its block or a later one has said.
     said: u8,
     /// Facts that its block or a later one relied on before any had said them.
@@ -90,13 +90,13 @@ pub(in crate::siemens) struct Again {
 }
 
 /// Facts that differ.
-fn differing(a: &State, b: &State) -> u8 {
+fn differing(a: &SiemensState, b: &SiemensState) -> u8 {
     let bit = |differs: bool, bit: u8| if differs { bit } else { 0 };
-    bit(changed(a.units, b.units), UNITS)
+    bit(changed(a.modes.units, b.modes.units), UNITS)
         | bit(changed(a.scaled, b.scaled), SCALED)
-        | bit(changed(a.distance, b.distance), DISTANCE)
-        | bit(changed(a.plane, b.plane), PLANE)
-        | bit(changed(a.motion, b.motion), MOTION)
+        | bit(changed(a.modes.distance, b.modes.distance), DISTANCE)
+        | bit(changed(a.modes.plane, b.modes.plane), PLANE)
+        | bit(changed(a.modes.motion, b.modes.motion), MOTION)
         | bit(a.cycle != b.cycle, CYCLE)
 }
 
@@ -122,7 +122,7 @@ impl Again {
     }
 
     /// A block with a label begins.
-    pub(in crate::siemens) fn label(&mut self, name: Text, before: &State) {
+    pub(in crate::siemens) fn label(&mut self, name: Text, before: &SiemensState) {
         let label = Label { name, end: false, before: before.clone(), after: None, said: 0, used: 0 };
         self.labels.push(label);
     }
@@ -156,7 +156,7 @@ impl Again {
     }
 
     /// The last label's block is over.
-    pub(in crate::siemens) fn label_over(&mut self, after: &State) {
+    pub(in crate::siemens) fn label_over(&mut self, after: &SiemensState) {
         if let Some(label) = self.labels.last_mut() {
             label.after = Some(after.clone());
         }
@@ -194,7 +194,7 @@ impl Again {
         from: &str,
         to: Option<&str>,
         several: bool,
-        now: &mut State,
+        now: &mut SiemensState,
     ) -> Result<(), NotAgain> {
         let place = |name: &str| self.labels.iter().rposition(|l| &*l.name == name);
         let first = place(from).ok_or(NotAgain::Unknown)?;
@@ -253,7 +253,7 @@ impl Again {
 
     /// The text of a subprogram begins; gives what it finds in force, or nothing if it has been met
     /// before.
-    pub(in crate::siemens) fn enter(&mut self, name: &str) -> Option<InForce> {
+    pub(in crate::siemens) fn enter(&mut self, name: &str) -> Option<ModalCall> {
         self.labels.clear();
         let sub =
             self.subs.entry(name.into()).or_insert(Sub { under: Under::Nothing, called: None, met: false });
@@ -261,9 +261,9 @@ impl Again {
             return None;
         }
         Some(match sub.under {
-            Under::Nothing => InForce::None,
-            Under::Cycle { own_feed } => InForce::Inherited { own_feed },
-            Under::Either { own_feed } => InForce::Lost { own_feed },
+            Under::Nothing => ModalCall::None,
+            Under::Cycle { own_feed } => ModalCall::Inherited { own_feed },
+            Under::Either { own_feed } => ModalCall::Lost { own_feed },
         })
     }
 }

@@ -18,16 +18,16 @@ use ncc_ir::source::Span;
 
 use super::again::{NotAgain, Under};
 use crate::Batch;
-use crate::begins::report;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Digits, Value as Number, Word};
+use crate::initial_modes::report;
 use crate::siemens::cycles::drilling::is_cycle;
-use crate::siemens::facts::{AfterMove, InForce, Motion, State};
 use crate::siemens::lower::{Head, Lower};
+use crate::siemens::siemens_state::{AfterMove, ModalCall, Motion, SiemensState};
 use crate::siemens::text::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Written};
 use crate::siemens::text::unit::Kind;
-use crate::siemens::values::formula::{Kind as Formed, Typed};
+use crate::siemens::values::typed::{Kind as Formed, Typed};
 
 /// What a call hands over.
 #[derive(Clone, Copy, Debug)]
@@ -194,13 +194,13 @@ impl Lower {
             (None, Some(row)) => {
                 let refuse = row.refuse.as_deref().unwrap_or("modal call");
                 self.not_supported(&name, refuse, called.span, out);
-                self.state.cycle = InForce::Refused;
+                self.state.cycle = ModalCall::Refused;
             }
             (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
             // A name begins with two letters, or an underline and one (PGsl, subprogram names); `L` alone has a number.
             (None, None) if is_word(&name) => {
                 self.not_supported("MCALL", "another word in its block", called.span, out);
-                self.state.cycle = InForce::Refused;
+                self.state.cycle = ModalCall::Refused;
             }
             (None, None) => self.call_modal_program(&name, called, src, out),
         }
@@ -215,7 +215,7 @@ impl Lower {
                 Some(argument) => match self.formula(argument, src, out) {
                     Some(typed) => Some(typed),
                     None => {
-                        self.state.cycle = InForce::Refused;
+                        self.state.cycle = ModalCall::Refused;
                         return;
                     }
                 },
@@ -225,7 +225,7 @@ impl Lower {
             Some("call after each move with what others may change")
         } else if self.skipped() {
             Some("call after each move that a switch may skip")
-        } else if matches!(self.state.cycle, InForce::Inherited { .. } | InForce::Lost { .. }) {
+        } else if matches!(self.state.cycle, ModalCall::Inherited { .. } | ModalCall::Lost { .. }) {
             Some("call after each move where a cycle of the caller may be in force")
         } else {
             None
@@ -233,16 +233,16 @@ impl Lower {
         self.again.say(super::again::CYCLE);
         if let Some(refuse) = refuse {
             self.not_supported(&src.text(called.span), refuse, called.span, out);
-            self.state.cycle = InForce::Refused;
+            self.state.cycle = ModalCall::Refused;
             return;
         }
         // A cycle that was in force is off; the call itself says nothing.
-        if matches!(self.state.cycle, InForce::Active(_)) {
+        if matches!(self.state.cycle, ModalCall::Active(_)) {
             self.moved = None;
             self.push(called.span, Op::EndCycle, out);
         }
         self.now.heading = true;
-        self.state.cycle = InForce::Subprogram(Box::new(AfterMove { name: name.into(), given }));
+        self.state.cycle = ModalCall::Subprogram(Box::new(AfterMove { name: name.into(), given }));
     }
 
     /// The call behind a block with motion, as a block of its own.
@@ -291,10 +291,10 @@ impl Lower {
         }
         let own_feed = self.state.cycle.own_feed();
         let under = match &self.state.cycle {
-            InForce::None | InForce::Refused => Under::Nothing,
-            InForce::Active(_) | InForce::Inherited { .. } => Under::Cycle { own_feed },
-            InForce::Lost { .. } => Under::Either { own_feed },
-            InForce::Subprogram(_) => {
+            ModalCall::None | ModalCall::Refused => Under::Nothing,
+            ModalCall::Active(_) | ModalCall::Inherited { .. } => Under::Cycle { own_feed },
+            ModalCall::Lost { .. } => Under::Either { own_feed },
+            ModalCall::Subprogram(_) => {
                 let name = "call while a subprogram is called after each move";
                 return self.not_supported(&src.text(at), name, at, out);
             }
@@ -303,9 +303,9 @@ impl Lower {
         self.again.use_fact(super::again::CYCLE);
         if drills {
             self.again.use_fact(super::again::MOTION);
-            match self.state.motion.value() {
+            match self.state.modes.motion.value() {
                 Some(Motion::Traverse) => {}
-                None if matches!(self.state.cycle, InForce::Inherited { .. }) => {}
+                None if matches!(self.state.cycle, ModalCall::Inherited { .. }) => {}
                 None => self.take_rapid(at, out),
                 Some(_) => {
                     let name = "call under a cycle with another motion than G0 in force";
@@ -325,18 +325,18 @@ impl Lower {
         let times = times as u32;
         self.no_stale_offset(at, out);
         let Some(arguments) = self.handed_over(name, given, at, src, out) else { return };
-        self.inherited.call(Some(name.into()), self.state.unsaid());
-        self.motion_goes_on(&[self.state.motion], out);
+        self.inherited.call(Some(name.into()), self.state.modes.unsaid());
+        self.motion_goes_on(&[self.state.modes.motion], out);
         self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments, shared: false })), out);
         // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
         let cycle = std::mem::take(&mut self.state.cycle);
-        let motion = self.state.motion;
-        self.state = self.state.behind_call(cycle);
+        let motion = self.state.modes.motion;
+        self.state = self.state.after_call(cycle);
         if drills {
-            self.state.motion = motion;
+            self.state.modes.motion = motion;
         }
         if own_feed {
-            self.state.feed = Know::Unsaid;
+            self.state.modes.feed = Know::Unsaid;
         }
         self.stand.forget();
         self.moved = None;
@@ -356,7 +356,7 @@ impl Lower {
     /// A subprogram's position finds the motion of the last move: one that was only said is made a
     /// statement.
     fn hand_motion_on(&mut self, at: Span, out: &mut Batch) {
-        let motion = self.state.motion.value();
+        let motion = self.state.modes.motion.value();
         if motion == self.moved {
             return;
         }
@@ -371,13 +371,13 @@ impl Lower {
 
     /// The subprogram that is read goes back to its caller.
     pub(in crate::siemens) fn leave(&mut self, at: Span, out: &mut Batch) {
-        self.motion_goes_on(&[self.state.motion], out);
-        if self.state.cycle != self.entry && self.state.cycle != InForce::Refused {
+        self.motion_goes_on(&[self.state.modes.motion], out);
+        if self.state.cycle != self.entry && self.state.cycle != ModalCall::Refused {
             let name = "cycle that its subprogram leaves in force or ends";
             return self.not_supported("MCALL", name, at, out);
         }
         // A caller's move that misses the feed of another way of counting is refused where it is executed.
-        let unsaid = self.state.feed == Know::Unsaid && !self.state.spent;
+        let unsaid = self.state.modes.feed == Know::Unsaid && !self.state.spent;
         if unsaid && !self.entry.own_feed() && !self.watch {
             self.fault(Fault::NoFeed, at, out);
         }
@@ -482,7 +482,7 @@ impl Lower {
             out.report(Fault::ProgramTwice { name: name.clone() }, at);
         }
         self.entry = entry.unwrap_or_default();
-        self.state = State::called(self.entry.clone());
+        self.state = SiemensState::called(self.entry.clone());
         self.inherited.enter(name.clone());
         self.variables.clear();
         self.executed = false;
@@ -500,7 +500,7 @@ impl Lower {
         let begins = &self.settings.dialect.power_on;
         let relied = [
             match &begins.units {
-                _ if !self.state.units.unsaid() => None,
+                _ if !self.state.modes.units.unsaid() => None,
                 Some(units) if self.assume => self.only_units.see(units.value.into()),
                 _ => {
                     self.only_units.open();
@@ -509,7 +509,7 @@ impl Lower {
             }
             .map(|at| (ModeName::Units, at)),
             match &begins.plane {
-                _ if !self.state.plane.unsaid() => None,
+                _ if !self.state.modes.plane.unsaid() => None,
                 Some(plane) if self.assume => self.only_plane.see(plane.value.into()),
                 _ => {
                     self.only_plane.open();
@@ -525,13 +525,13 @@ impl Lower {
 
     /// Under a cycle, positions are taken for rapid where the motion in force is not known.
     pub(in crate::siemens) fn take_rapid(&mut self, at: Span, out: &mut Batch) {
-        if self.state.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
+        if self.state.modes.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
             return;
         }
-        if self.state.motion != Know::Unsaid {
+        if self.state.modes.motion != Know::Unsaid {
             if self.feed_away {
                 // It is told once.
-                self.state.motion = Know::Taken(Motion::Traverse);
+                self.state.modes.motion = Know::Taken(Motion::Traverse);
                 return self.refuse_rapid(at, out);
             }
             self.rapid_taken.get_or_insert(at);
@@ -539,7 +539,7 @@ impl Lower {
         if self.first_time("rapid under a cycle") {
             report(out, at, ModeName::Motion, Some("rapid"));
         }
-        self.state.motion = Know::Taken(Motion::Traverse);
+        self.state.modes.motion = Know::Taken(Motion::Traverse);
     }
 
     /// Control goes elsewhere with such a motion in force: what is taken for rapid there may be none.

@@ -24,12 +24,12 @@ use super::labels::{InPlace, Label, Pending, marked, resolve};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
-use crate::siemens::facts::{Motion, State};
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::{Motion, SiemensState};
 use crate::siemens::text::tree;
 use crate::siemens::text::tree::{Expr as Tree, Jump, Place, Target};
 use crate::siemens::text::unit;
-use crate::siemens::values::formula::{Kind, Typed};
+use crate::siemens::values::typed::{Kind, Typed};
 
 /// What the text says of jumps, and the structures that are open.
 #[derive(Debug, Default)]
@@ -67,7 +67,7 @@ enum What {
     If {
         condition: Expr,
         then: Option<Vec<Stmt>>,
-        other: Box<(State, Option<Motion>)>,
+        other: Box<(SiemensState, Option<Motion>)>,
     },
     Loop,
     While(Expr),
@@ -208,9 +208,9 @@ impl Lower {
         self.no_stale_offset(at, out);
         self.settle(at, out);
         self.leave_motion_before(at, out);
-        self.motion_goes_on(&[self.state.motion], out);
+        self.motion_goes_on(&[self.state.modes.motion], out);
         let cycle = std::mem::take(&mut self.state.cycle);
-        self.state = State::lost(cycle);
+        self.state = SiemensState::lost(cycle);
         self.stand.forget();
         self.again.use_all();
         self.forget_texts();

@@ -10,13 +10,13 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::siemens::facts::InForce;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::Direction;
 
 /// What must be the same at a jump and where it goes.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::siemens) struct InPlace {
-    pub(in crate::siemens) cycle: InForce,
+    pub(in crate::siemens) cycle: ModalCall,
     pub(in crate::siemens) rounding: Option<Num>,
 }
 

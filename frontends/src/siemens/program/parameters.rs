@@ -26,11 +26,12 @@ use ncc_passes::flow::given_back;
 use super::calls::Handing;
 use crate::Batch;
 use crate::common::Source;
-use crate::siemens::facts::Motion;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::Motion;
 use crate::siemens::text::tree::{Address, Expr as Tree, Parameter, Place, Value};
 use crate::siemens::values::computing::{array, stored};
-use crate::siemens::values::formula::{Kind, Typed, may_be_one, reads, several};
+use crate::siemens::values::formula::{may_be_one, reads, several};
+use crate::siemens::values::typed::{Kind, Typed};
 
 /// What is known of calls with arguments and of parameters.
 #[derive(Debug, Default)]
@@ -266,18 +267,18 @@ impl Lower {
         let framed = state.in_frame.contains(&true);
         self.handed.stood = Tracker {
             modes: Modes {
-                motion: match state.motion.value() {
+                motion: match state.modes.motion.value() {
                     Some(Motion::Traverse) => Some(canon::Motion::Traverse),
                     Some(Motion::Feed) => Some(canon::Motion::Feed),
                     Some(Motion::Arc(_) | Motion::Through | Motion::Tangent | Motion::Thread(_)) | None => {
                         None
                     }
                 },
-                distance: state.distance.value(),
-                units: state.units.value(),
-                plane: state.plane.value(),
-                feed_mode: state.feed_mode.value(),
-                work_offset: state.work_offset.value(),
+                distance: state.modes.distance.value(),
+                units: state.modes.units.value(),
+                plane: state.modes.plane.value(),
+                feed_mode: state.modes.feed_mode.value(),
+                work_offset: state.modes.work_offset.value(),
                 ..Modes::default()
             },
             framed,

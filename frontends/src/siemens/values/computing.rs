@@ -22,14 +22,15 @@ use ncc_ir::program::arguments;
 use ncc_ir::program::{Op, Type as Stored};
 use ncc_ir::source::Span;
 
-use super::formula::{ANY_R, Kind, Typed, is_r, may_be_one, r_parameter, reads};
+use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};
 use super::texts::TextOf;
+use super::typed::{Kind, Typed};
 use crate::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::common::words::Digits;
-use crate::siemens::facts::InForce;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::sort::Given;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};
 
@@ -270,7 +271,7 @@ impl Lower {
         let mut found = false;
         let mut one = |expr: &Expr| reads(expr, &mut |read| found |= may_be_one(read, name));
         let refuse = match &self.state.cycle {
-            InForce::Active(cycle) => {
+            ModalCall::Active(cycle) => {
                 let op = &mut Op::StartCycle(cycle.clone());
                 arguments::each(op, &mut |argument, _| {
                     argument.expr().into_iter().for_each(&mut one);
@@ -279,11 +280,11 @@ impl Lower {
                 .unwrap_or_else(|never| match never {});
                 "assignment to what the arguments of the modal cycle were computed from"
             }
-            InForce::Subprogram(after) => {
+            ModalCall::Subprogram(after) => {
                 after.given.iter().flatten().for_each(|typed| one(&typed.expr));
                 "assignment to what is handed over after each move"
             }
-            InForce::None | InForce::Inherited { .. } | InForce::Lost { .. } | InForce::Refused => {
+            ModalCall::None | ModalCall::Inherited { .. } | ModalCall::Lost { .. } | ModalCall::Refused => {
                 return true;
             }
         };

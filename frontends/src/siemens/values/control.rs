@@ -12,11 +12,11 @@ use ncc_ir::expr::{Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
 
-use super::formula::{Kind, Typed};
+use super::typed::{Kind, Typed};
 use crate::Batch;
 use crate::common::Source;
-use crate::siemens::facts::InForce;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};
 
 impl Lower {
@@ -109,11 +109,11 @@ impl Lower {
         let (Some((row, (Some(entry), axis))), Value::Expr(_)) = (found.next(), value) else {
             return self.not_supported(&name, "variable of the control that is set", span, out);
         };
-        if self.state.cycle != InForce::None {
+        if self.state.cycle != ModalCall::None {
             let name = "value of the control's tables while a cycle is in force";
             return self.not_supported(&src.text(span), name, span, out);
         }
-        if self.state.units.value() == Some(Units::Inch) {
+        if self.state.modes.units.value() == Some(Units::Inch) {
             let name = "value of the control's tables where lengths count in inches";
             return self.not_supported(&src.text(span), name, span, out);
         }
@@ -140,7 +140,8 @@ impl Lower {
         words[axis as usize] = Some(value);
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
         // The one in force counts as it was until it is called up again; by a computed number, it may be that one.
-        self.stale |= self.worth.is_some() || self.state.work_offset.value().is_none_or(|now| now == offset);
+        self.stale |=
+            self.worth.is_some() || self.state.modes.work_offset.value().is_none_or(|now| now == offset);
         self.stand.forget();
         self.push(span, Op::SetData(Box::new(data)), out);
     }

@@ -14,6 +14,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
 use ncc_ir::source::Span;
 
+use super::typed::{Kind, Typed};
 use crate::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
@@ -24,38 +25,6 @@ const DEEPEST: u32 = 64;
 
 /// The circle's number, as `$PI` has it.
 const PI: Num = Num { mantissa: 3_141_592_653_589_793, scale: 15, point: true, unit: Unit::One };
-
-/// The type of a variable or an expression.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::siemens) enum Kind {
-    Real,
-    Int,
-    /// 1 where it holds, else 0.
-    Bool,
-    /// A text, which is never a value of an expression.
-    Text,
-}
-
-/// An expression and its type.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::siemens) struct Typed {
-    pub(in crate::siemens) expr: Expr,
-    pub(in crate::siemens) kind: Kind,
-}
-
-impl Typed {
-    pub(in crate::siemens) fn new(node: Node, kind: Kind) -> Typed {
-        Typed { expr: Expr::Node(Box::new(node)), kind }
-    }
-
-    fn literal(num: Num, kind: Kind) -> Typed {
-        Typed { expr: Expr::Num(num), kind }
-    }
-
-    fn is_zero(&self) -> bool {
-        self.expr.literal().is_some_and(Num::is_zero)
-    }
-}
 
 /// A function of one expression.
 pub(in crate::siemens) fn of(function: Function, a: Expr) -> Expr {

@@ -12,3 +12,4 @@ pub(super) mod control;
 pub(super) mod entry_of;
 pub(super) mod formula;
 pub(super) mod texts;
+pub(super) mod typed;

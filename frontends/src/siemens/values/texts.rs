@@ -13,7 +13,7 @@ use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
 use super::computing::Variable;
-use super::formula::Kind;
+use super::typed::Kind;
 use crate::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;

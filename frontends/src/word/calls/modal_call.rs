@@ -17,9 +17,9 @@ use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::Batch;
-use crate::begins::Jumps;
 use crate::common::Source;
 use crate::common::words::{Value, Word, tenths};
+use crate::initial_modes::Jumps;
 use crate::word::lower::Lower;
 use crate::word::macros::computing::Computes;
 use crate::word::sort::{Code, Words};

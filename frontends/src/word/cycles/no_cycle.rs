@@ -12,8 +12,8 @@ use ncc_ir::source::Span;
 use ncc_passes::support::known_facts::ActiveCycles;
 
 use crate::Batch;
-use crate::word::facts::InForce;
 use crate::word::lower::Lower;
+use crate::word::word_state::CycleState;
 
 /// Blocks in which no cycle may be active.
 #[derive(Debug, Default)]
@@ -30,16 +30,16 @@ impl Lower {
     /// Refuses a code where a cycle is active. Behind a call, a jump or a label the end of the text decides.
     pub(in crate::word) fn without_cycle(&mut self, fault: Fault, span: Span, out: &mut Batch) {
         match self.state.cycle {
-            InForce::None => {}
-            InForce::Lost if out.whole => self.cycles.doubts.push((fault, span)),
-            InForce::Active(_) | InForce::Lost => self.fault(fault, span, out),
+            CycleState::None => {}
+            CycleState::Lost if out.whole => self.cycles.doubts.push((fault, span)),
+            CycleState::Active(_) | CycleState::Lost => self.fault(fault, span, out),
         }
     }
 
     /// Notes whether a cycle is active before a block, as long as the statements may be drained.
     pub(in crate::word) fn cycle_before(&mut self, out: &Batch) {
         if !out.whole {
-            self.cycles.entered = matches!(self.state.cycle, InForce::Active(_) | InForce::Lost);
+            self.cycles.entered = matches!(self.state.cycle, CycleState::Active(_) | CycleState::Lost);
         }
     }
 

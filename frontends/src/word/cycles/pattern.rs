@@ -15,9 +15,9 @@ use ncc_ir::source::Span;
 use crate::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
-use crate::word::facts::InForce;
 use crate::word::lower::Lower;
 use crate::word::sort::{Code, Words};
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// A pattern of holes.
@@ -32,7 +32,7 @@ impl Lower {
         let Some(row) = self.settings.dialect.pattern_row(&code.row.code) else {
             return;
         };
-        if self.state.cycle == InForce::None {
+        if self.state.cycle == CycleState::None {
             self.fault(Fault::NoCycle, code.span, out);
         }
         let distance = self.distance(code.span, out);
@@ -48,7 +48,7 @@ impl Lower {
                 self.grid(code, *pitch, *counts, *serpentine, words, src, out)
             }
         };
-        if self.now.recall && matches!(self.state.cycle, InForce::Active(_)) {
+        if self.now.recall && matches!(self.state.cycle, CycleState::Active(_)) {
             self.call_up(block, out);
         }
         if let Some(pattern) = pattern {

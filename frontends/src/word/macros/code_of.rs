@@ -22,10 +22,10 @@ use crate::common::known::Know;
 use crate::common::saved::{ANY, Told, ways};
 use crate::common::setting::setting;
 use crate::common::words::{Digits, Value, Word};
-use crate::word::facts::InForce;
 use crate::word::lower::Lower;
 use crate::word::sort::{Code, motion_of};
 use crate::word::text::block::Block;
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// A variable gets a value as the text has it.
@@ -200,26 +200,26 @@ impl Lower {
     /// What such a code says is not known any more; `false` where a cycle in force goes by it.
     fn forget_group(&mut self, codes: &[(i64, Op, &str)]) -> bool {
         let Some((_, op, _)) = codes.first() else { return false };
-        let active = matches!(self.state.cycle, InForce::Active(_));
+        let active = matches!(self.state.cycle, CycleState::Active(_));
         match op {
-            Op::SetDistanceMode(_) => self.state.distance = Know::Lost,
-            Op::SetOriginOffsets(_) if self.state.turned == 0 => self.state.work_offset = Know::Lost,
+            Op::SetDistanceMode(_) => self.state.modes.distance = Know::Lost,
+            Op::SetOriginOffsets(_) if self.state.turned == 0 => self.state.modes.work_offset = Know::Lost,
             Op::SetFeedMode(_) if !active => {
-                self.state.feed_mode = Know::Lost;
-                self.state.feed = Know::Lost;
+                self.state.modes.feed_mode = Know::Lost;
+                self.state.modes.feed = Know::Lost;
             }
-            Op::UseLengthUnits(_) if !active => self.state.units = Know::Lost,
-            Op::SelectPlane(_) if !active => self.state.plane = Know::Lost,
+            Op::UseLengthUnits(_) if !active => self.state.modes.units = Know::Lost,
+            Op::SelectPlane(_) if !active => self.state.modes.plane = Know::Lost,
             Op::SetReturnLevel(_) if !active => {
                 self.state.return_level = Know::Lost;
-                self.state.level_changed |= self.state.cycle == InForce::Lost;
+                self.state.level_changed |= self.state.cycle == CycleState::Lost;
             }
             // It ends a cycle.
             Op::StraightTraverse(_) | Op::StraightFeed(_) => {
-                self.state.cycle = InForce::None;
+                self.state.cycle = CycleState::None;
                 self.state.after_cycle = false;
                 self.state.rigid = None;
-                self.state.motion = Know::Lost;
+                self.state.modes.motion = Know::Lost;
                 (self.state.thread, self.state.lead) = (None, None);
                 self.state.no_motion = false;
             }

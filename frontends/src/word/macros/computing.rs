@@ -18,16 +18,16 @@ use super::formula::{Statement, To};
 use super::jump_of::JumpOf;
 use super::named_blocks::{has_jumps, named_blocks};
 use crate::Batch;
-use crate::begins::Unsaid;
 use crate::common::Source;
 use crate::common::saved::Saved;
+use crate::initial_modes::Unsaid;
 use crate::word::calls::local_call::{LocalCall, has_local_calls};
 use crate::word::calls::macro_call::parameters;
 use crate::word::calls::modal_call::{AtMoves, Reach};
 use crate::word::calls::return_to::{ReturnTo, has_returns_to};
-use crate::word::facts::InForce;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
+use crate::word::word_state::CycleState;
 
 /// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
 const MOST_LOOPS: usize = 3;
@@ -175,7 +175,7 @@ impl Lower {
             self.computes.passed.insert(number);
             return;
         }
-        self.join_ways(self.computes.reach.ways.unsaid(number), block.span, out);
+        self.merge_paths(self.computes.reach.ways.unsaid(number), block.span, out);
         let calls = self.calls_in_force();
         self.computes.reach.labels.push((number, calls));
         let skip = self.now.skip.take();
@@ -311,7 +311,7 @@ impl Lower {
         self.push(block, Op::Control(Box::new(control)), out);
         self.now.number = own;
         self.separate(out);
-        self.join_ways(unsaid, span, out);
+        self.merge_paths(unsaid, span, out);
     }
 
     /// The end of a program: a loop that is still open has none.
@@ -402,7 +402,7 @@ impl Lower {
             None => value.literal().is_none(),
         };
         self.entry_changes(reads);
-        if let InForce::Active(active) = &self.state.cycle
+        if let CycleState::Active(active) = &self.state.cycle
             && ([&active.depth, &active.retract].iter().any(|word| reads(&word.value))
                 || active.peck.as_ref().is_some_and(reads))
         {
@@ -411,7 +411,7 @@ impl Lower {
                     "assignment between the call-up of a cycle with variables and its first hole".into();
                 self.fault(Fault::NotSupported { code: "#".into(), name }, span, out);
             }
-            self.state.cycle = InForce::Lost;
+            self.state.cycle = CycleState::Lost;
         }
     }
 }

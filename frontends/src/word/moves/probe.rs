@@ -60,8 +60,8 @@ impl Lower {
             .any(|row| row.means == Some(Meaning::StraightFeed) && row.group == code.row.group);
         // Bare axis words would probe again, or go on as the caller moves, which no statement behind this
         // one can say.
-        if stays || self.state.motion.value().is_none() {
-            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        if stays || self.state.modes.motion.value().is_none() {
+            (self.state.modes.motion, self.state.no_motion) = (Know::Unsaid, true);
         }
     }
 }

@@ -100,11 +100,11 @@ impl Lower {
         if row.is_none_or(|row| row.group != code.row.group) {
             return false;
         }
-        let alone = self.state.tilt == Know::Said(true);
-        if self.tilt.ends(self.state.tilt) {
+        let alone = self.state.modes.tilt == Know::Said(true);
+        if self.tilt.ends(self.state.modes.tilt) {
             self.push(code.span, Op::ClearFrame(FrameSlot::Tilt), out);
         }
-        self.state.tilt = Know::Said(false);
+        self.state.modes.tilt = Know::Said(false);
         // In a tilted plane there is no rotation.
         alone
     }

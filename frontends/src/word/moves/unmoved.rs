@@ -10,8 +10,8 @@ use ncc_ir::source::Span;
 
 use crate::Batch;
 use crate::common::known::Know;
-use crate::word::facts::{InForce, State};
 use crate::word::lower::Lower;
+use crate::word::word_state::{CycleState, WordState};
 
 /// Codes of motion that no move has said.
 #[derive(Debug, Default)]
@@ -67,12 +67,12 @@ impl Lower {
         self.leave_motion(None, out);
         self.carry_dwell(out);
         self.tap_elsewhere(out);
-        self.state = if self.assume { self.state.met() } else { State::lost() };
+        self.state = if self.assume { self.state.at_merge() } else { WordState::lost() };
     }
 
     /// Control goes elsewhere between the code for rigid tapping and its cycle: nobody knows there that it is rigid.
     pub(in crate::word) fn tap_elsewhere(&mut self, out: &mut Batch) {
-        if let Some(code) = self.state.rigid.filter(|_| !matches!(self.state.cycle, InForce::Active(_))) {
+        if let Some(code) = self.state.rigid.filter(|_| !matches!(self.state.cycle, CycleState::Active(_))) {
             let fault = Fault::NotSupported {
                 code: "a call or a jump".into(),
                 name: "between the code for rigid tapping and its cycle".into(),

@@ -20,10 +20,10 @@ use crate::Batch;
 use crate::common::Source;
 use crate::word::Reader;
 use crate::word::calls::call_of::COMPUTED;
-use crate::word::facts::State;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
 use crate::word::text::token::FlowWord;
+use crate::word::word_state::WordState;
 
 /// How many structures can stand in one another.
 const DEEPEST: usize = 100;
@@ -31,7 +31,7 @@ const DEEPEST: usize = 100;
 /// What is put aside while a subprogram is read.
 #[derive(Debug)]
 pub(in crate::word) struct Outer {
-    state: State,
+    state: WordState,
     /// A code of motion that no move has said yet.
     unmoved: Option<(Span, Motion)>,
     ended: bool,
@@ -146,7 +146,7 @@ impl Reader {
         lower.centre_said_elsewhere(out);
         let outer = Outer {
             unmoved: lower.unmoved.aside(),
-            state: std::mem::replace(&mut lower.state, State::called()),
+            state: std::mem::replace(&mut lower.state, WordState::called()),
             ended: std::mem::replace(&mut lower.ended, false),
             labels: std::mem::take(&mut lower.o.labels),
             numbered_program: std::mem::replace(&mut lower.o.numbered_program, false),

@@ -8,7 +8,7 @@ use ncc_ir::source::Span;
 
 use super::o_words::{Kind, Open};
 use crate::Batch;
-use crate::begins::Unsaid;
+use crate::initial_modes::Unsaid;
 use crate::word::lower::Lower;
 
 /// What holds where a structure begins, and on the ways that have left its bodies.
@@ -55,7 +55,7 @@ impl Lower {
 
     /// A body of a structure begins.
     pub(super) fn body_begins(&mut self, ways: Ways, at: Span, out: &mut Batch) {
-        self.join_ways(ways.head, at, out);
+        self.merge_paths(ways.head, at, out);
         self.state.centre_before = ways.centre;
     }
 
@@ -66,7 +66,7 @@ impl Lower {
 
     /// The structure is over.
     pub(super) fn ways_join(&mut self, ways: Ways, at: Span, out: &mut Batch) {
-        self.join_ways(ways.ends, at, out);
+        self.merge_paths(ways.ends, at, out);
         self.state.centre_before = ways.centre;
     }
 

@@ -16,8 +16,8 @@ use crate::common::known::Know;
 use crate::common::text::decode;
 use crate::common::words::{Value, Word};
 use crate::word::Reader;
-use crate::word::facts::State;
 use crate::word::o_code::o_subs::is_title;
+use crate::word::word_state::WordState;
 
 /// Characters that no text has, before reading is given up.
 const MOST_CONTROL_SIGNS: u32 = 16;
@@ -382,7 +382,7 @@ impl Reader {
         self.lower.inherited.enter(name.clone());
         self.lower.sub = Some(Procedure { name, title, ..Procedure::default() });
         self.lower.ended = false;
-        self.lower.state = State::called();
+        self.lower.state = WordState::called();
         self.lower.refresh();
         out.whole = true;
     }

@@ -204,10 +204,10 @@ impl Lower {
         let control = match what {
             What::If { condition, then, other } => {
                 let (state, moved) = *other;
-                let one = self.state.motion;
+                let one = self.state.modes.motion;
                 self.state.join(&state);
-                if self.state.motion.value().is_none() {
-                    self.motion_goes_on(&[one, state.motion], out);
+                if self.state.modes.motion.value().is_none() {
+                    self.motion_goes_on(&[one, state.modes.motion], out);
                 }
                 if self.moved != moved {
                     self.moved = None;

@@ -5,8 +5,8 @@ use ncc_ir::expr::Var;
 use ncc_ir::program::{Declare, Op};
 use ncc_ir::source::Span;
 
-use super::super::formula::Kind;
 use super::super::texts::TextOf;
+use super::super::typed::Kind;
 use super::{Variable, several_values, stored};
 use crate::Batch;
 use crate::common::Source;

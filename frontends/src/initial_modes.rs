@@ -4,12 +4,12 @@
 //! A subprogram begins as its caller leaves things. What it relies on is known when the whole text has been read:
 //! where no text on the way from the program's start to it has said a mode, it is how the program begins.
 //!
-//! Not here: what axis words do where no motion was said.
+//! Not here: the modes themselves (`common::modal_state`).
 
 use std::collections::HashMap;
 
-use ncc_dialects::{Dialect, PowerOn, PowerOnFact};
-use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Units};
+use ncc_dialects::{Dialect, PowerOnFact};
+use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
@@ -38,9 +38,36 @@ pub(crate) fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&s
     }
 }
 
+/// A block that relies on modes.
+pub(crate) struct Asker<'b> {
+    pub(crate) inherited: &'b mut Inherited,
+    pub(crate) dialect: &'static Dialect,
+    /// Whether a mode that the text has not said is taken from power-on and reported.
+    pub(crate) assume: bool,
+    pub(crate) at: Span,
+    pub(crate) out: &'b mut Batch,
+}
+
+impl Asker<'_> {
+    /// The block relies on a mode; `true` if its power-on value was looked up just now, by `take`.
+    pub(crate) fn relies<T: Copy + PartialEq>(
+        &mut self,
+        know: &mut Know<T>,
+        mode: ModeName,
+        take: fn(&mut Know<T>, &Dialect, Span, &mut Batch),
+    ) -> bool {
+        self.inherited.rely(know, mode, self.at);
+        let open = self.assume && know.unsaid();
+        if open {
+            take(know, self.dialect, self.at, self.out);
+        }
+        open
+    }
+}
+
 /// Whether lengths are absolute.
-pub(crate) fn distance(know: &mut Know<Distance>, begins: &PowerOn, at: Span, out: &mut Batch) {
-    let value = take(know, &mut out.assumed.distance, &begins.distance).map(|d| match d {
+pub(crate) fn distance(know: &mut Know<Distance>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.distance, &dialect.power_on.distance).map(|d| match d {
         Distance::Absolute => "absolute",
         Distance::Incremental => "incremental",
     });
@@ -48,8 +75,8 @@ pub(crate) fn distance(know: &mut Know<Distance>, begins: &PowerOn, at: Span, ou
 }
 
 /// The units of lengths.
-pub(crate) fn units(know: &mut Know<Units>, begins: &PowerOn, at: Span, out: &mut Batch) {
-    let value = take(know, &mut out.assumed.units, &begins.units).map(|u| match u {
+pub(crate) fn units(know: &mut Know<Units>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.units, &dialect.power_on.units).map(|u| match u {
         Units::Mm => "mm",
         Units::Inch => "inch",
     });
@@ -57,8 +84,8 @@ pub(crate) fn units(know: &mut Know<Units>, begins: &PowerOn, at: Span, out: &mu
 }
 
 /// The plane of arcs and cycles.
-pub(crate) fn plane(know: &mut Know<Plane>, begins: &PowerOn, at: Span, out: &mut Batch) {
-    let value = take(know, &mut out.assumed.plane, &begins.plane).map(|p| match p {
+pub(crate) fn plane(know: &mut Know<Plane>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.plane, &dialect.power_on.plane).map(|p| match p {
         Plane::Xy => "XY",
         Plane::Zx => "ZX",
         Plane::Yz => "YZ",
@@ -67,8 +94,8 @@ pub(crate) fn plane(know: &mut Know<Plane>, begins: &PowerOn, at: Span, out: &mu
 }
 
 /// What a feed counts.
-pub(crate) fn feed_mode(know: &mut Know<FeedMode>, begins: &PowerOn, at: Span, out: &mut Batch) {
-    let value = take(know, &mut out.assumed.feed_mode, &begins.feed_mode).map(|f| match f {
+pub(crate) fn feed_mode(know: &mut Know<FeedMode>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.feed_mode, &dialect.power_on.feed_mode).map(|f| match f {
         FeedMode::PerMinute => "per minute",
         FeedMode::PerRevolution => "per revolution",
         FeedMode::InverseTime => "inverse time",
@@ -77,8 +104,8 @@ pub(crate) fn feed_mode(know: &mut Know<FeedMode>, begins: &PowerOn, at: Span, o
 }
 
 /// Where cycles leave the tool.
-pub(crate) fn return_level(know: &mut Know<ReturnLevel>, begins: &PowerOn, at: Span, out: &mut Batch) {
-    let value = take(know, &mut out.assumed.return_level, &begins.return_level).map(|r| match r {
+pub(crate) fn return_level(know: &mut Know<ReturnLevel>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.return_level, &dialect.power_on.return_level).map(|r| match r {
         ReturnLevel::Initial => "initial level",
         ReturnLevel::Retract => "retract plane",
     });
@@ -98,19 +125,29 @@ pub(crate) fn work_offset(know: &mut Know<u16>, dialect: &Dialect, at: Span, out
 }
 
 /// Whether the origin is not shifted.
-pub(crate) fn no_shift(know: &mut Know<bool>, begins: &PowerOn, at: Span, out: &mut Batch) {
-    let value = take(know, &mut out.assumed.no_origin_shift, &begins.no_origin_shift);
+pub(crate) fn no_shift(know: &mut Know<bool>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.no_origin_shift, &dialect.power_on.no_origin_shift);
     report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
 }
 
-/// The length offset in force; tells whether the dictionary has one.
-pub(crate) fn length_offset(begins: &PowerOn, at: Span, out: &mut Batch) -> Option<u32> {
-    let row = begins.length_offset.as_ref()?;
+/// The entry of the active tool length offset; 0 is none.
+pub(crate) fn length_offset(know: &mut Know<bool>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let Some(row) = &dialect.power_on.length_offset else { return };
+    know.take(row.value != 0);
     out.assumed.length_offset = Some(row.value);
     if !row.always {
         report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
     }
-    Some(row.value)
+}
+
+/// What axis words do that no motion code precedes.
+pub(crate) fn motion_name(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Traverse => "rapid",
+        Motion::Feed => "line at feed",
+        Motion::Arc(_) => "arc",
+        Motion::Cycle => "cycle",
+    }
 }
 
 /// What a subprogram may rely on.
@@ -249,7 +286,6 @@ impl Inherited {
 
     /// The text is over: takes for granted what subprograms find as the program began.
     pub(crate) fn settle(&self, dialect: &Dialect, out: &mut Batch) {
-        let begins = &dialect.power_on;
         let mut places: HashMap<&Text, Vec<usize>> = HashMap::new();
         for (at, (name, _)) in self.subs.iter().enumerate() {
             places.entry(name).or_default().push(at);
@@ -290,21 +326,21 @@ impl Inherited {
                     work_offset(&mut Know::Unsaid, dialect, *at, out);
                 }
                 ModeName::OriginShift if out.assumed.no_origin_shift.is_none() => {
-                    no_shift(&mut Know::Unsaid, begins, *at, out);
+                    no_shift(&mut Know::Unsaid, dialect, *at, out);
                 }
                 ModeName::LengthOffset if out.assumed.length_offset.is_none() => {
-                    length_offset(begins, *at, out);
+                    length_offset(&mut Know::Unsaid, dialect, *at, out);
                 }
                 ModeName::Distance if out.assumed.distance.is_none() => {
-                    distance(&mut Know::Unsaid, begins, *at, out);
+                    distance(&mut Know::Unsaid, dialect, *at, out);
                 }
-                ModeName::Units if out.assumed.units.is_none() => units(&mut Know::Unsaid, begins, *at, out),
-                ModeName::Plane if out.assumed.plane.is_none() => plane(&mut Know::Unsaid, begins, *at, out),
+                ModeName::Units if out.assumed.units.is_none() => units(&mut Know::Unsaid, dialect, *at, out),
+                ModeName::Plane if out.assumed.plane.is_none() => plane(&mut Know::Unsaid, dialect, *at, out),
                 ModeName::FeedMode if out.assumed.feed_mode.is_none() => {
-                    feed_mode(&mut Know::Unsaid, begins, *at, out);
+                    feed_mode(&mut Know::Unsaid, dialect, *at, out);
                 }
                 ModeName::ReturnLevel if out.assumed.return_level.is_none() => {
-                    return_level(&mut Know::Unsaid, begins, *at, out);
+                    return_level(&mut Know::Unsaid, dialect, *at, out);
                 }
                 _ => {}
             }
