@@ -14,7 +14,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
 
 /// Takes a fact for granted. Gives what is to be reported: the value, if not every such control

@@ -46,7 +46,7 @@ use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
 use self::lexer::{Argument, LexFault, Token};
-use crate::Batch;
+use crate::batch::Batch;
 
 lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused, private_interfaces)]

@@ -69,3 +69,13 @@ pub(crate) fn tenths(digits: Digits) -> Option<u32> {
     }
     .and_then(|tenths| u32::try_from(tenths).ok())
 }
+
+impl Word {
+    /// The whole number of a word that has one, written without a point.
+    pub(crate) fn whole(&self) -> Option<u32> {
+        match self.value {
+            Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
+            Value::Number(_) | Value::Computed(_) | Value::None => None,
+        }
+    }
+}

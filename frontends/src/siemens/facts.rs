@@ -10,7 +10,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::siemens_state::Motion;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
 use crate::common::modal_state::ModalState;
 use crate::common::number::unit_of;

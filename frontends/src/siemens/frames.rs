@@ -11,7 +11,7 @@ use ncc_ir::program::{Frame, FrameSlot, FrameStep, Op};
 
 use super::lower::Lower;
 use super::sort::{Code, Given, Words};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 
 impl Lower {

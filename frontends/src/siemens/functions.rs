@@ -15,7 +15,7 @@ use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::siemens_state::{ModalCall, Motion};
 use super::sort::{Code, Words};
 use super::text::unit::Kind;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::unit_of;

@@ -30,13 +30,13 @@ use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::text::unit::Kind;
 use super::values::computing::Variables;
 use super::values::typed::Typed;
+use crate::batch::{Batch, refused};
 use crate::common::Source;
 use crate::common::fast::Fast;
 use crate::common::saved::Saved;
 use crate::common::switched::Met;
 use crate::common::text::decode;
 use crate::initial_modes::Inherited;
-use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]

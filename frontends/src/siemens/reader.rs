@@ -22,9 +22,9 @@ use super::text::letters::letter_for_zero;
 use super::text::tree::{Block, Statement};
 use super::text::unit;
 use super::text::unit::{Header, Kind, Line};
+use crate::batch::{Batch, refused};
 use crate::common::words::{Value, Word};
 use crate::common::{Source, plain};
-use crate::{Batch, refused};
 
 /// Longest block of a dictionary that sets no limit, in bytes.
 const LONGEST: usize = 60_000;

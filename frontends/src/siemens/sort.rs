@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::text::letters::letter_for_zero;
 use super::text::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::common::sort::{RANK_MOTION, rank};

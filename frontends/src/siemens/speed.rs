@@ -9,7 +9,7 @@ use ncc_ir::program::Op;
 
 use super::lower::Lower;
 use super::sort::{Code, Words};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 

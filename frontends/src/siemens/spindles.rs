@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::sort::Words;
 use super::text::tree::{Address, Called, Expr, Place, Value};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::unit_of;

@@ -12,10 +12,10 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
 
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
 use super::word_state::CycleState;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};

@@ -7,7 +7,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
 use crate::common::modal_state::ModalState;
 use crate::initial_modes::{Asker, Unsaid, motion_name, report, return_level};

@@ -8,7 +8,7 @@ use ncc_ir::program::{Coord, Op, Stmt};
 
 use super::lower::Lower;
 use super::word_state::{AxisWords, CycleState};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::fast::{Fast, FeedWord, code_again, counts_units, line};
 use crate::common::known::Know;
 use crate::common::number::unit_of;

@@ -12,10 +12,10 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, FrameSlot, Op, Point, Slot};
 use ncc_ir::source::Span;
 
+use super::block_words::{Code, Words, motion_of};
 use super::lower::Lower;
-use super::sort::{Code, Words, motion_of};
 use super::word_state::{CycleState, KeptShift};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Value;
 

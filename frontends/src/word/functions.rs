@@ -10,12 +10,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
 
+use super::block_words::{Code, Words, motion_of};
 use super::frames::is_frame;
 use super::lower::Lower;
-use super::sort::{Code, Words, motion_of};
 use super::text::block::Block;
 use super::word_state::{CycleState, KeptShift};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::setting::setting;
@@ -461,7 +461,7 @@ impl Lower {
             Meaning::OptionalProgramStop => Op::OptionalProgramStop,
             Meaning::ProgramEnd => {
                 self.ended |= self.now.skip.is_none();
-                self.alone.ends |= self.sub.is_none();
+                self.main_ending.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
             Meaning::BeginAgain => return self.begin_again(code, out),

@@ -14,52 +14,27 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::system::System;
 use ncc_ir::source::Span;
 
-use super::doubts::number;
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
-use crate::Batch;
+use super::text_facts::AtStart;
+use crate::batch::Batch;
 use crate::common::known::Know;
 use crate::common::words::Word;
-
-/// What the text takes of the codes in force at its start, and what it says of them itself.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct AtStart {
-    /// The T and the H code that were stated and used.
-    used: [Option<u32>; 2],
-    /// Whether the text has said a T or an H code that may be another one.
-    said: [Option<u32>; 2],
-    /// Whether that is not one number.
-    several: [bool; 2],
-    /// Where the main program begins again.
-    again: Option<Span>,
-}
 
 const TOOL: usize = 0;
 const ENTRY: usize = 1;
 
-impl AtStart {
-    fn says(&mut self, which: usize, number: Option<u32>) {
-        self.several[which] |= number.is_none() || self.said[which].is_some_and(|said| Some(said) != number);
-        self.said[which] = number;
-    }
-
-    /// The main program begins again here.
-    pub(super) fn begins_again(&mut self, at: Span) {
-        self.again.get_or_insert(at);
-    }
-}
-
 impl Lower {
     /// The program says a T code.
     pub(super) fn tool_in_force(&mut self, word: &Word) {
-        let tool = number(word);
+        let tool = word.whole();
         self.tools.at_start.says(TOOL, tool);
         self.state.modes.tool = Know::Said(tool);
     }
 
     /// The program says an H code.
     pub(super) fn entry_in_force(&mut self, word: &Word) {
-        let entry = number(word);
+        let entry = word.whole();
         self.tools.at_start.says(ENTRY, entry);
         self.state.length_entry = entry.map_or(Know::Lost, Know::Said);
     }

@@ -9,8 +9,6 @@
 
 mod message;
 
-use std::collections::BTreeSet;
-
 use ncc_dialects::{
     Address, Bare, CALCULATOR, CodeRow, DECIMAL_POINT, INTEGER_FEED, NumberRules, Quantity, Role, Settings,
 };
@@ -20,23 +18,21 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::cycles::no_cycle::CyclesMet;
-use super::doubts::ToolsNamed;
-use super::macros::computing::Computes;
-use super::moves::compensation::RadiusNamed;
-use super::moves::unmoved::Unmoved;
-use super::number::{CentreSeen, UnitsSeen};
-use super::o_code::o_words::ODecides;
-use super::sort::{Code, Roles, Words};
+use super::block_words::{Code, Roles, Words};
 use super::text::block::Block;
+use super::text_facts::{
+    CentreSeen, CyclesMet, Dwells, MainEnding, RadiusNamed, Reported, ToolsNamed, UnitsSeen, Unmoved,
+};
 use super::word_state::{CycleState, WordState};
+use crate::batch::{Batch, refused};
 use crate::common::Source;
 use crate::common::fast::Fast;
 use crate::common::known::Know;
 use crate::common::switched::Met;
-use crate::common::text::decode;
+use crate::common::text::{begins, decode};
 use crate::initial_modes::Inherited;
-use crate::{Batch, refused};
+use crate::word::macros::computes::Computes;
+use crate::word::o_code::o_state::OWordState;
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]
@@ -70,8 +66,8 @@ pub(super) struct Lower {
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     pub(super) computes: Computes,
-    pub(super) alone: Alone,
-    pub(super) o: ODecides,
+    pub(super) main_ending: MainEnding,
+    pub(super) o: OWordState,
     pub(super) unmoved: Unmoved,
     pub(super) cycles: CyclesMet,
     /// What plain moves need; `None` if a block must be looked at.
@@ -85,64 +81,6 @@ pub(super) struct Lower {
     pub(super) radius: RadiusNamed,
     /// Letters of rotary axes that the text has named so far, a bit each.
     pub(super) rotary_named: u32,
-}
-
-/// Dwells of cycles in the whole text, where they stay in force for other cycles.
-#[derive(Debug, Default)]
-pub(super) struct Dwells {
-    /// Whether any was said so far.
-    pub(super) said: bool,
-    /// Where it was first relied on that none was said, in blocks that others call or come back to.
-    pub(super) relied: Option<Span>,
-    /// Whether control went elsewhere so far while a cycle with a dwell was in force.
-    pub(super) carried: bool,
-    /// Where a cycle was first called up without one while it is not known which is in force before it.
-    pub(super) over_unknown: Option<(Span, &'static str)>,
-}
-
-/// What has been reported and is not to be reported again.
-#[derive(Debug, Default)]
-pub(super) struct Reported {
-    /// Quantities of numbers without a point, a bit each.
-    pub(super) bare: u8,
-    /// That computed lengths and angles are rounded to an increment.
-    pub(super) increment: bool,
-    pub(super) after_cycle: bool,
-    pub(super) offset_with_z: bool,
-    pub(super) skip: bool,
-    /// How the block-skip switch stands, as the user states it.
-    pub(super) switch: bool,
-    /// That a T beside M06 is taken for the tool that is put in.
-    pub(super) tool_change: bool,
-    /// By which of two codes of distance the words of a return are read.
-    pub(super) return_distance: bool,
-    /// Programs whose calls are left out, by their places among those that the user states.
-    pub(super) calls_left_out: BTreeSet<usize>,
-    /// That a cycle drills beside a code of motion.
-    pub(super) cycle_beside_motion: bool,
-    /// Rows of codes.
-    codes: Vec<bool>,
-    /// Address letters, a bit each.
-    pub(super) letters: u32,
-    /// That entry 0 is no length offset.
-    pub(super) no_length: bool,
-    /// Options of the dictionary, by place.
-    options: u32,
-    /// What is taken for granted of the control's own values.
-    pub(super) values: Vec<&'static str>,
-}
-
-/// How the main program ends.
-#[derive(Debug, Default)]
-pub(super) struct Alone {
-    /// Where it first goes back to another.
-    pub(super) returns: Option<Span>,
-    /// Where it first begins anew.
-    pub(super) begins_again: Option<Span>,
-    /// Whether it ends by itself.
-    pub(super) ends: bool,
-    /// Where it first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
-    pub(super) feed: Option<Span>,
 }
 
 /// State of the block that is being lowered.
@@ -185,7 +123,7 @@ pub(super) struct Now {
     /// A program's name, until a call takes it.
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
-    pub(super) again: Option<crate::word::calls::again::Asked>,
+    pub(super) again: Option<crate::word::calls::repetition::Asked>,
     /// From what the words of a return count, where that is not the distance in force after the block.
     pub(super) return_distance: Option<Distance>,
 }
@@ -248,8 +186,8 @@ impl Lower {
             sub: None,
             ended: false,
             computes: Computes::default(),
-            alone: Alone::default(),
-            o: ODecides::default(),
+            main_ending: MainEnding::default(),
+            o: OWordState::default(),
             unmoved: Unmoved::default(),
             cycles: CyclesMet::default(),
             fast: None,
@@ -444,7 +382,7 @@ impl Lower {
             self.moved(&op);
         }
         if let Op::Call(call) = &op {
-            let name = (*call.name != *crate::word::calls::call_of::COMPUTED).then(|| call.name.clone());
+            let name = (*call.name != *crate::word::macros::computes::COMPUTED).then(|| call.name.clone());
             self.inherited.call(name, self.state.unsaid());
         }
         let now = &mut self.now;
@@ -539,19 +477,6 @@ impl Lower {
     pub(super) fn axis_row(&self, axis: Axis) -> Option<&'static Address> {
         self.letters[usize::from(axis.letter() - b'A')].filter(|row| row.role == Role::Axis)
     }
-}
-
-/// Where the rest of a comment begins that begins with a word, blanks and the size of letters apart.
-pub(crate) fn begins(text: &[u8], word: impl AsRef<[u8]>) -> Option<usize> {
-    let mut at = 0;
-    for byte in word.as_ref() {
-        at += text[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
-        if !text.get(at)?.eq_ignore_ascii_case(byte) {
-            return None;
-        }
-        at += 1;
-    }
-    Some(at)
 }
 
 /// Comments of one block as one text.

@@ -13,40 +13,12 @@ use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
+use super::text_facts::OwnCentre;
+use crate::batch::{BareNumber, Batch};
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::{spell, unit_of};
 use crate::common::words::{Digits, Value, Word};
-use crate::{BareNumber, Batch};
-
-/// Units of a program as far as they matter to numbers whose unit is open.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct UnitsSeen {
-    /// The units that the program has said.
-    pub(super) only: Option<Units>,
-    /// Whether it has said both.
-    pub(super) mixed: bool,
-    /// The first number that was scaled by `only` though the units in force there are open.
-    pub(super) relied: Option<Span>,
-}
-
-/// From where the text says that centres are measured.
-#[derive(Clone, Debug, Default)]
-pub(super) struct CentreSeen {
-    said: Vec<CentreFrom>,
-    /// What the subprogram at hand says, where every path has come by it.
-    own: Option<OwnCentre>,
-    /// For a way of measuring, the first arc that relies on the text's saying no other.
-    relied: Vec<(CentreFrom, Span)>,
-}
-
-/// From where the subprogram at hand says that centres are measured.
-#[derive(Clone, Copy, Debug)]
-struct OwnCentre {
-    from: CentreFrom,
-    /// The first arc in a loop or a decision that relies on the subprogram's saying no other.
-    relied: Option<Span>,
-}
 
 fn centre_open() -> Fault {
     let name = "centre of an arc that is measured as other blocks say".into();

@@ -7,9 +7,9 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::Op;
 
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 
 /// The option that says whose coordinate is the radius of a surface speed.

@@ -17,7 +17,7 @@ use ncc_ir::source::Span;
 use self::comparisons::{compared, opposite, turned, variable};
 pub(crate) use self::range::{Range, range};
 use super::{ANY, ANY_PLACE, Saved, Told};
-use crate::Batch;
+use crate::batch::Batch;
 
 /// Turns of a loop, or of all that jumps lead to, that are followed number by number: more than a group has codes, or a
 /// table of work offsets places on most controls.

@@ -14,7 +14,7 @@ use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::spell;

@@ -14,7 +14,7 @@ use ncc_ir::program::cycle::{Along, First, Pattern, Row, absolute};
 use ncc_ir::program::{Coord, Op, Point};
 
 use super::drilling::Arguments;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::siemens::lower::Lower;

@@ -12,7 +12,7 @@ use ncc_ir::program::{Op, Pitch};
 use ncc_ir::source::Span;
 
 use super::drilling::Arguments;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;

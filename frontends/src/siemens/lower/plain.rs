@@ -7,7 +7,7 @@ use ncc_ir::source::Span;
 
 use super::super::siemens_state::{ModalCall, Motion};
 use super::{Head, Lower};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::fast::{Fast, FeedWord};
 use crate::common::known::Know;
 use crate::common::number::unit_of;

@@ -10,7 +10,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::sort::Words;

@@ -15,7 +15,7 @@ use ncc_ir::expr::num::ONE;
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape, Turns};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::siemens::lower::Lower;

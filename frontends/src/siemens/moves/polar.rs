@@ -12,7 +12,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::Pole;

@@ -11,7 +11,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Pitch, Point, Synchronised};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;

@@ -13,7 +13,7 @@ use ncc_ir::expr::Expr as Value;
 use ncc_ir::program::{FrameSlot, Op, Point, Reference, ReferencePoint, Slot, Tilt, Toward};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::text::decode;

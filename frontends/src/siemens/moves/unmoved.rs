@@ -7,7 +7,7 @@
 use ncc_ir::program::{Move, Op, Stmt};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::{ModalCall, Motion};

@@ -17,7 +17,7 @@ use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
 
 use super::again::{NotAgain, Under};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Digits, Value as Number, Word};

@@ -21,14 +21,13 @@ use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::labels::{InPlace, Label, Pending, marked, resolve};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::{Motion, SiemensState};
-use crate::siemens::text::tree;
 use crate::siemens::text::tree::{Expr as Tree, Jump, Place, Target};
-use crate::siemens::text::unit;
+use crate::siemens::text::{tree, unit};
 use crate::siemens::values::typed::{Kind, Typed};
 
 /// What the text says of jumps, and the structures that are open.

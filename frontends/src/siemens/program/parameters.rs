@@ -24,7 +24,7 @@ use ncc_ir::track::Tracker;
 use ncc_passes::flow::given_back;
 
 use super::calls::Handing;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::Motion;

@@ -3,8 +3,8 @@
 
 use super::tree::{Address, BlockNumber, Direction, Expr, Jump, Place, Statement, Target};
 use super::unit::{self, Line};
-use crate::Flow;
 use crate::common::Source;
+use crate::outline::Flow;
 use crate::siemens::parse;
 
 /// Tells every unit, block and jump of a text.

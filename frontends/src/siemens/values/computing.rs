@@ -25,7 +25,7 @@ use ncc_ir::source::Span;
 use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};
 use super::texts::TextOf;
 use super::typed::{Kind, Typed};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::common::words::Digits;

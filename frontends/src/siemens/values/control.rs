@@ -13,7 +13,7 @@ use ncc_ir::program::{Data, DataMode, Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
 
 use super::typed::{Kind, Typed};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;

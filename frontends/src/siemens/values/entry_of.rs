@@ -13,7 +13,7 @@ use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::control::{axis_of, entry_of};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};

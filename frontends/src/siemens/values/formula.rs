@@ -15,7 +15,7 @@ use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
 use ncc_ir::source::Span;
 
 use super::typed::{Kind, Typed};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary as Sign};

@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 
 use super::computing::Variable;
 use super::typed::Kind;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary, Value};

@@ -13,42 +13,19 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::repetition::Asked;
+use crate::batch::{Batch, refused};
 use crate::common::Source;
-use crate::word::Reader;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
+use crate::word::reader::Reader;
 use crate::word::text::block::Block;
-use crate::{Batch, refused};
 
 /// Most passes of a repetition.
 const MOST_TIMES: u32 = 9999;
 
 /// Passes that are looked at before what is in force must be the same.
 const MOST_PASSES: u32 = 4;
-
-/// A repetition that a block asks for.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::word) struct Asked {
-    /// Number of the first block, and its word.
-    first: (u32, Span),
-    /// Number of the last block, and its word.
-    last: (u32, Span),
-    /// Passes after the first.
-    times: u32,
-    /// Where its statement stands.
-    at: usize,
-}
-
-/// The text that repetitions may be of.
-#[derive(Debug, Default)]
-pub(in crate::word) struct Kept {
-    text: Vec<u8>,
-    base: u32,
-    /// Whether numbered blocks have been met.
-    open: bool,
-    /// Whether blocks are being read again.
-    busy: bool,
-}
 
 /// The label of a numbered block.
 fn label(number: u32) -> Text {

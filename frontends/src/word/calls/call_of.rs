@@ -10,15 +10,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::macros::computing::Computes;
-use crate::word::sort::{Code, Words};
-
-/// What such a call is called until the text is read; its number is the argument. No program has this name.
-pub(in crate::word) const COMPUTED: &str = "#";
+use crate::word::macros::computes::{COMPUTED, Computes};
 
 impl Lower {
     /// A call of which the number, or how often, is computed.

@@ -10,15 +10,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::macros::computing::{Computes, label};
-use crate::word::sort::{Code, Words};
-
-/// Calls of blocks of the main program: the block, the code, and where it stands.
-pub(in crate::word) type LocalCall = (u32, &'static str, Span);
+use crate::word::macros::computes::{Computes, LocalCall, label};
 
 const WITHIN: &str = "call of a block of a subprogram";
 const COMPUTED: &str = "call of a block whose number is computed";
@@ -106,7 +103,7 @@ impl Lower {
 
     /// Whether a return behind the end of the main program is that of blocks which it calls.
     pub(in crate::word) fn returns_from_blocks(&self) -> bool {
-        self.alone.ends && !self.computes.local_calls.is_empty()
+        self.main_ending.ends && !self.computes.local_calls.is_empty()
     }
 }
 
@@ -150,7 +147,7 @@ impl Computes {
         let mut starts: Vec<(usize, LocalCall)> = Vec::new();
         for &call in &self.local_calls {
             let (number, code, at) = call;
-            if !self.jumps_of.is_empty() {
+            if !self.computed_jumps.is_empty() {
                 return Err((code, BESIDE, at));
             }
             if starts.iter().any(|(_, (other, ..))| *other == number) {
@@ -198,7 +195,7 @@ fn leave_out(body: &mut [Stmt], calls: &[LocalCall]) {
         match &mut stmt.op {
             Op::Control(control) => control.bodies_mut().for_each(|body| leave_out(body, calls)),
             Op::Call(call) if calls.iter().any(|(number, ..)| label(*number) == call.name) => {
-                stmt.op = crate::refused(stmt.span).op;
+                stmt.op = crate::batch::refused(stmt.span).op;
             }
             _ => {}
         }

@@ -11,12 +11,12 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Call, Op};
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word, tenths};
+use crate::word::block_words::Code;
 use crate::word::lower::Lower;
 use crate::word::macros::computing::has_round;
-use crate::word::sort::Code;
 use crate::word::text::block::Block;
 
 /// Local variables of a program.

@@ -13,4 +13,5 @@ pub(super) mod call_of;
 pub(super) mod local_call;
 pub(super) mod macro_call;
 pub(super) mod modal_call;
+pub(super) mod repetition;
 pub(super) mod return_to;

@@ -12,12 +12,12 @@ use ncc_ir::program::{Coord, Move, Op};
 use ncc_ir::source::Span;
 
 use super::kind::{Pecks, kind_of};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words, motion_of};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words, motion_of};
 use crate::word::word_state::{ActiveCycle, CycleState};
 
 /// Most repetitions of a cycle's block.

@@ -6,10 +6,10 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
+use crate::word::block_words::Code;
 use crate::word::lower::Lower;
-use crate::word::sort::Code;
 use crate::word::word_state::CycleState;
 
 impl Lower {

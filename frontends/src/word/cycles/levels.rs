@@ -11,7 +11,7 @@ use ncc_ir::canon::{Distance, Fact, ReturnLevel};
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
 use crate::word::lower::Lower;
 use crate::word::word_state::CycleState;

@@ -11,20 +11,9 @@ use ncc_ir::program::Procedure;
 use ncc_ir::source::Span;
 use ncc_passes::support::known_facts::ActiveCycles;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::word::lower::Lower;
 use crate::word::word_state::CycleState;
-
-/// Blocks in which no cycle may be active.
-#[derive(Debug, Default)]
-pub(in crate::word) struct CyclesMet {
-    /// Whether the text calls a cycle up.
-    any: bool,
-    /// Whether one was active where the program began to be kept whole.
-    entered: bool,
-    /// Codes behind a call, a jump or a label: decided when the text has been read.
-    doubts: Vec<(Fault, Span)>,
-}
 
 impl Lower {
     /// Refuses a code where a cycle is active. Behind a call, a jump or a label the end of the text decides.

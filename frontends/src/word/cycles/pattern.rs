@@ -12,11 +12,11 @@ use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 use crate::word::word_state::CycleState;
 
 impl Lower {

@@ -5,10 +5,10 @@ use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
 use super::super::text::block::Block;
-use super::{Lower, begins};
-use crate::Batch;
+use super::Lower;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::common::text::decode;
+use crate::common::text::{begins, decode};
 
 impl Lower {
     /// The last comment of a block may be a message, which comes before all that the block does, or

@@ -16,14 +16,14 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
 use ncc_ir::program::{Move, Op, Point, Text};
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::saved::{ANY, Told, ways};
 use crate::common::setting::setting;
 use crate::common::words::{Digits, Value, Word};
+use crate::word::block_words::{Code, motion_of};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, motion_of};
 use crate::word::text::block::Block;
 use crate::word::word_state::CycleState;
 

@@ -7,82 +7,27 @@
 
 mod values;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 
+use super::computes::{Computes, OpenLoop, label};
 use super::formula::{Statement, To};
-use super::jump_of::JumpOf;
 use super::named_blocks::{has_jumps, named_blocks};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::common::saved::Saved;
-use crate::initial_modes::Unsaid;
-use crate::word::calls::local_call::{LocalCall, has_local_calls};
+use crate::word::calls::local_call::has_local_calls;
 use crate::word::calls::macro_call::parameters;
-use crate::word::calls::modal_call::{AtMoves, Reach};
-use crate::word::calls::return_to::{ReturnTo, has_returns_to};
+use crate::word::calls::return_to::has_returns_to;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
 use crate::word::word_state::CycleState;
 
 /// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
 const MOST_LOOPS: usize = 3;
-
-/// What the text computes, as far as read.
-#[derive(Debug, Default)]
-pub(in crate::word) struct Computes {
-    /// Whether it has variables.
-    variables: bool,
-    /// Whether blocks with numbers may be jumped to.
-    pub(in crate::word) jumps: bool,
-    /// Whether there were such blocks before that was known.
-    unnamed: bool,
-    /// Numbers of blocks that the text names; `None` if one is named by what is computed.
-    named: Option<BTreeSet<u32>>,
-    /// Numbers of blocks that were read as no jump's.
-    passed: BTreeSet<u32>,
-    loops: Vec<Open>,
-    /// How many arguments programs are called with, by their names.
-    called: BTreeMap<Text, usize>,
-    /// Jumps to blocks whose number is computed.
-    pub(in crate::word) jumps_of: Vec<JumpOf>,
-    /// Calls of blocks of the main program.
-    pub(in crate::word) local_calls: Vec<LocalCall>,
-    /// Returns of the subprograms.
-    pub(in crate::word) returns: Vec<ReturnTo>,
-    /// Whether programs are called whose number is computed.
-    pub(in crate::word) calls_of: bool,
-    /// The macro that is called behind each block that moves.
-    pub(in crate::word) at_moves: Option<AtMoves>,
-    /// Modes that are saved and put back.
-    pub(in crate::word) saved: Saved,
-    pub(in crate::word) reach: Reach,
-}
-
-/// A loop that has not ended.
-#[derive(Debug)]
-struct Open {
-    number: u32,
-    condition: Option<Expr>,
-    /// Where its body begins; `None` until a further block is read.
-    at: Option<usize>,
-    block: Span,
-    skip: Option<u8>,
-    label: Option<u32>,
-    /// The calls at moves that it began in.
-    calls: u32,
-    /// What was not said before it.
-    unsaid: Unsaid,
-}
-
-/// The name by which jumps know the block of a number.
-pub(in crate::word) fn label(number: u32) -> Text {
-    format!("N{number}").into()
-}
 
 impl Computes {
     /// A program is called with so many arguments.
@@ -223,7 +168,7 @@ impl Lower {
                     (To::Computed(to), condition) => {
                         let to = self.value(to, span, out);
                         let condition = condition.as_ref().map(|c| self.value(c, span, out));
-                        let mark = self.computes.jump_of(condition, to);
+                        let mark = self.computes.computed_jump(condition, to);
                         self.push(span, Op::Goto(mark), out);
                     }
                 }
@@ -273,12 +218,13 @@ impl Lower {
     fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
         let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
         let (calls, unsaid) = (self.calls_in_force(), self.state.unsaid());
-        self.computes.loops.push(Open { number, condition, at: None, block, skip, label, calls, unsaid });
+        self.computes.loops.push(OpenLoop { number, condition, at: None, block, skip, label, calls, unsaid });
     }
 
     fn end_loop(&mut self, number: u32, span: Span, out: &mut Batch) {
         let found = self.computes.loops.pop();
-        let Some(Open { at: Some(at), number: own, condition, block, skip, label, calls, unsaid }) = found
+        let Some(OpenLoop { at: Some(at), number: own, condition, block, skip, label, calls, unsaid }) =
+            found
         else {
             let code = format!("END{number}").into();
             return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);

@@ -13,7 +13,7 @@ use ncc_ir::expr::{Expr, Function, Node, Var};
 use ncc_ir::program::{Alarm, Data, DataMode, Op, Text, ToolValue};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::text::decode;
 use crate::word::lower::Lower;

@@ -15,12 +15,12 @@ use ncc_ir::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::saved::ANY_PLACE;
 use crate::word::lower::Lower;
-use crate::word::o_code::o_words::Setting;
 use crate::word::o_code::parameters::parameter;
+use crate::word::o_code::statements::Setting;
 use crate::word::text::block::Block;
 
 /// A number that is a variable's, so many times, and something added.

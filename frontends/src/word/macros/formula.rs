@@ -14,7 +14,6 @@ use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Var};
 use ncc_ir::program::Output;
 
 use crate::common::words::Digits;
-use crate::word::o_code::parameters::Index;
 
 /// Deepest nesting of an expression.
 const DEEPEST: u32 = 64;
@@ -219,4 +218,13 @@ pub(crate) fn statement(pieces: Vec<Piece>) -> Option<Statement> {
         [Some(Piece::Output(output)), None, None] => Statement::Output(output),
         _ => return None,
     })
+}
+
+/// What stands behind `#`, or behind the letter of programs.
+#[derive(Clone, Debug)]
+pub(crate) enum Index {
+    Number(Digits),
+    /// In small letters, without blanks.
+    Name(Box<str>),
+    Computed(Formula),
 }

@@ -8,15 +8,8 @@
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::{Alarm, Control, NO_SUCH_BLOCK, Op, Stmt, Text};
 
-use super::computing::{Computes, label};
-use crate::Batch;
-
-/// A jump of which the number is computed, and whether it is one of those that depend on something.
-#[derive(Clone, Debug)]
-pub(in crate::word) struct JumpOf {
-    condition: Option<Expr>,
-    to: Expr,
-}
+use super::computes::{ComputedJump, Computes, label};
+use crate::batch::Batch;
 
 /// What a jump is called until the text is read: no block has this name.
 fn mark(at: usize) -> Text {
@@ -26,14 +19,14 @@ fn mark(at: usize) -> Text {
 impl Computes {
     /// A jump to the block of a number that is computed, if a condition holds. Gives where it goes until
     /// [`Computes::join_jumps`].
-    pub(in crate::word) fn jump_of(&mut self, condition: Option<Expr>, to: Expr) -> Text {
-        self.jumps_of.push(JumpOf { condition, to });
-        mark(self.jumps_of.len() - 1)
+    pub(in crate::word) fn computed_jump(&mut self, condition: Option<Expr>, to: Expr) -> Text {
+        self.computed_jumps.push(ComputedJump { condition, to });
+        mark(self.computed_jumps.len() - 1)
     }
 
     /// The text is over: such jumps become decisions about the blocks of their program.
     pub(in crate::word) fn join_jumps(&self, out: &mut Batch) {
-        if self.jumps_of.is_empty() {
+        if self.computed_jumps.is_empty() {
             return;
         }
         self.join(&mut out.stmts, &[]);
@@ -59,7 +52,7 @@ impl Computes {
                 Op::Control(control) => control.bodies_mut().for_each(|body| self.join(body, &numbers)),
                 Op::Goto(name) => {
                     let found = name.strip_prefix('#').and_then(|n| n.parse::<usize>().ok());
-                    if let Some(jump) = found.and_then(|found| self.jumps_of.get(found)) {
+                    if let Some(jump) = found.and_then(|found| self.computed_jumps.get(found)) {
                         let chain = jump.decisions(&numbers, &body[at]);
                         let length = chain.len();
                         body.splice(at..=at, chain);
@@ -74,7 +67,7 @@ impl Computes {
     }
 }
 
-impl JumpOf {
+impl ComputedJump {
     /// The decisions, in the block of the jump.
     fn decisions(&self, numbers: &[u32], jump: &Stmt) -> Vec<Stmt> {
         let both = |a: Option<Expr>, b: Option<Expr>| match (a, b) {

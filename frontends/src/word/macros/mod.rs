@@ -9,6 +9,7 @@
 //! Not here: the language of O words (`o_code`).
 
 pub(super) mod code_of;
+pub(super) mod computes;
 pub(super) mod computing;
 pub(super) mod control_set;
 pub(super) mod entry_of;

@@ -8,11 +8,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::Op;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
+use crate::word::block_words::Words;
 use crate::word::lower::Lower;
-use crate::word::sort::Words;
 use crate::word::word_state::AxisWords;
 
 impl Lower {

@@ -9,12 +9,12 @@ use ncc_ir::expr::{Expr, Function, Node, Unary};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Turns};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words, motion_of};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words, motion_of};
 use crate::word::word_state::CycleState;
 
 /// Most turns of one arc.
@@ -217,11 +217,11 @@ impl Lower {
             self.push(block, Op::SetFeedRate(Expr::Num(feed)), out);
         }
         if self.state.modes.feed == Know::Unsaid && !self.watch {
-            if self.sub.is_some() || self.alone.ends || !self.settings.dialect.program.macro_b {
+            if self.sub.is_some() || self.main_ending.ends || !self.settings.dialect.program.macro_b {
                 return self.fault(Fault::NoFeed, block, out);
             }
             // The end of the text says whether it has a caller, which has stated a feed.
-            self.alone.feed = Some(block);
+            self.main_ending.feed = Some(block);
             self.state.modes.feed = Know::Callers;
         }
     }

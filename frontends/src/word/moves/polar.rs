@@ -14,11 +14,11 @@ use ncc_ir::geometry::polar;
 use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
+use crate::word::block_words::Code;
 use crate::word::lower::Lower;
-use crate::word::sort::Code;
 use crate::word::word_state::AxisWords;
 
 impl Lower {
@@ -51,7 +51,7 @@ impl Lower {
         &mut self,
         said: bool,
         block: Span,
-        words: &mut crate::word::sort::Words,
+        words: &mut crate::word::block_words::Words,
         src: Source,
         out: &mut Batch,
     ) -> bool {

@@ -10,11 +10,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 
 impl Lower {
     /// A block with the code of a probing move.

@@ -8,34 +8,10 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
 use crate::word::lower::Lower;
 use crate::word::word_state::{CycleState, WordState};
-
-/// Codes of motion that no move has said.
-#[derive(Debug, Default)]
-pub(in crate::word) struct Unmoved {
-    /// The last one, while no move follows it.
-    code: Option<(Span, Motion)>,
-    /// Of one that was lost: where it stands.
-    lost: Option<Span>,
-    /// Axis words that do what is in force.
-    bare: Option<Span>,
-    told: bool,
-}
-
-impl Unmoved {
-    /// Puts the code aside, as a program within the text has its own.
-    pub(in crate::word) fn aside(&mut self) -> Option<(Span, Motion)> {
-        self.code.take()
-    }
-
-    /// Takes it up again.
-    pub(in crate::word) fn again(&mut self, code: Option<(Span, Motion)>) {
-        self.code = code;
-    }
-}
 
 impl Lower {
     /// A code of motion; `before` is what was known until then.

@@ -7,41 +7,14 @@
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::computed::open::open_variables;
 use ncc_ir::expr::Var;
-use ncc_ir::program::{Op, Procedure, Program, Text};
+use ncc_ir::program::{Op, Procedure, Program};
 
+use super::o_state::StandaloneOsub;
 use super::o_subs::refused;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::word::Reader;
+use crate::word::reader::Reader;
 use crate::word::text::token::FlowWord;
-
-/// Whether the text is a subprogram by itself.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(in crate::word) enum Alone {
-    /// Nothing says so.
-    #[default]
-    No,
-    /// The text is that of a file of this name, in small letters.
-    File(Text),
-    /// It is said to be one, which has not begun yet.
-    Looked,
-    /// The subprogram that is open.
-    Open(Text),
-    /// It is over: its caller goes on.
-    Over,
-}
-
-impl Alone {
-    /// Whether it is open under this name.
-    pub(in crate::word) fn is(&self, name: &str) -> bool {
-        matches!(self, Alone::Open(own) if **own == *name)
-    }
-
-    /// Whether it is open.
-    pub(in crate::word) fn is_open(&self) -> bool {
-        matches!(self, Alone::Open(_))
-    }
-}
 
 /// Whether a text is the subprogram by whose name its file is called, and nothing else: comments before and behind, the
 /// end of the program behind.
@@ -88,25 +61,25 @@ impl Reader {
     pub(crate) fn named(&mut self, file: &str) {
         if self.lower.settings.dialect.program.o_words {
             let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-            self.lower.o.alone = Alone::File(stem.to_ascii_lowercase().into());
+            self.lower.o.standalone = StandaloneOsub::File(stem.to_ascii_lowercase().into());
         }
     }
 
     /// Looks whether a text that begins is the subprogram that its file is named by. What is longer than one piece of
     /// text is a program with a subprogram in it.
     pub(in crate::word) fn looks_alone(&mut self, text: &[u8]) {
-        if let Alone::File(name) = &self.lower.o.alone {
+        if let StandaloneOsub::File(name) = &self.lower.o.standalone {
             let whole = is_whole(text, name, self.lower.settings.dialect);
-            self.lower.o.alone = if whole { Alone::Looked } else { Alone::No };
+            self.lower.o.standalone = if whole { StandaloneOsub::Looked } else { StandaloneOsub::No };
         }
     }
 
     /// The beginning of such a subprogram, if one is looked for: its body is that of the main procedure.
     pub(in crate::word) fn begins_alone(&mut self, name: &str, out: &mut Batch) -> bool {
-        if self.lower.o.alone != Alone::Looked || self.frame.blocks || self.lower.ended {
+        if self.lower.o.standalone != StandaloneOsub::Looked || self.frame.blocks || self.lower.ended {
             return false;
         }
-        self.lower.o.alone = Alone::Open(name.into());
+        self.lower.o.standalone = StandaloneOsub::Open(name.into());
         // Its numbers are its arguments, and zeros behind them.
         self.lower.o.given.numbered = true;
         self.frame.blocks = true;
@@ -116,13 +89,13 @@ impl Reader {
 
     /// Whether a block behind such a subprogram is the end of its file, which its caller never comes to.
     pub(in crate::word) fn ends_the_file(&self, src: Source) -> bool {
-        self.lower.o.alone == Alone::Over
+        self.lower.o.standalone == StandaloneOsub::Over
             && is_end(&bare(src.bytes(self.block.span)), self.lower.settings.dialect)
     }
 
     /// Its end.
     pub(in crate::word) fn ends_alone(&mut self, name: &str, out: &mut Batch) -> bool {
-        if !self.lower.o.alone.is(name) {
+        if !self.lower.o.standalone.is(name) {
             return false;
         }
         let span = self.block.span;
@@ -137,7 +110,7 @@ impl Reader {
         self.lower.leave_motion(None, out);
         self.lower.push(span, Op::Return, out);
         self.frame.faulty |= self.lower.now.failed;
-        self.lower.o.alone = Alone::Over;
+        self.lower.o.standalone = StandaloneOsub::Over;
         self.lower.ended = true;
         let body = std::mem::take(&mut out.stmts);
         let whole =

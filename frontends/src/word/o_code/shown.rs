@@ -7,7 +7,7 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Op, Piece};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::text::decode;
 use crate::word::lower::Lower;
 

@@ -3,69 +3,43 @@
 //!
 //! Not here: jumps to numbered blocks, which this language has not.
 
-use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
 
-use super::o_words::{Kind, Open};
-use crate::Batch;
+use super::o_state::{OpenStructure, StructureKind, StructurePaths};
+use crate::batch::Batch;
 use crate::initial_modes::Unsaid;
 use crate::word::lower::Lower;
 
-/// What holds where a structure begins, and on the ways that have left its bodies.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ways {
-    /// From where the program has said before that centres are measured.
-    centre: Option<CentreFrom>,
-    /// Modes that are not said at the head.
-    head: Unsaid,
-    /// Modes that are not said where a body that is over has ended, or was left.
-    ends: Unsaid,
-}
-
-impl Ways {
-    /// The end of the structure: all its bodies may have been passed over, unless one is `else`, or the condition is
-    /// asked for behind the body.
-    fn passed_over(&mut self, kind: &Kind) {
-        if let Kind::While(_) | Kind::Repeat(_) | Kind::If { now: Some(_), .. } = kind {
-            self.ends = self.ends.and(self.head);
-        }
-    }
-}
-
-impl Open {
-    /// The structure is over: what it is.
-    pub(super) fn close(&mut self) -> Kind {
-        self.ways.passed_over(&self.kind);
-        std::mem::replace(&mut self.kind, Kind::Do)
-    }
-}
-
 impl Lower {
     /// A further body of a structure begins.
-    pub(super) fn next_body(&mut self, mut open: Open, at: Span, out: &mut Batch) {
+    pub(super) fn next_body(&mut self, mut open: OpenStructure, at: Span, out: &mut Batch) {
         self.body_ends(&mut open.ways);
         self.body_begins(open.ways, at, out);
         self.o.open.push(open);
     }
 
     /// A structure begins here.
-    pub(super) fn ways(&self) -> Ways {
-        Ways { centre: self.state.centre_before, head: self.state.unsaid(), ends: Unsaid::default() }
+    pub(super) fn ways(&self) -> StructurePaths {
+        StructurePaths {
+            centre: self.state.centre_before,
+            head: self.state.unsaid(),
+            ends: Unsaid::default(),
+        }
     }
 
     /// A body of a structure begins.
-    pub(super) fn body_begins(&mut self, ways: Ways, at: Span, out: &mut Batch) {
+    pub(super) fn body_begins(&mut self, ways: StructurePaths, at: Span, out: &mut Batch) {
         self.merge_paths(ways.head, at, out);
         self.state.centre_before = ways.centre;
     }
 
     /// A body is over, or left: the structure goes on elsewhere.
-    pub(super) fn body_ends(&self, ways: &mut Ways) {
+    pub(super) fn body_ends(&self, ways: &mut StructurePaths) {
         ways.ends = ways.ends.and(self.state.unsaid());
     }
 
     /// The structure is over.
-    pub(super) fn ways_join(&mut self, ways: Ways, at: Span, out: &mut Batch) {
+    pub(super) fn ways_join(&mut self, ways: StructurePaths, at: Span, out: &mut Batch) {
         self.merge_paths(ways.ends, at, out);
         self.state.centre_before = ways.centre;
     }
@@ -80,8 +54,8 @@ impl Lower {
     /// A loop is left here, or its next iteration begins.
     pub(super) fn leaves_loop(&mut self) {
         let unsaid = self.state.unsaid();
-        let inner = self.o.open.iter_mut().rev().find(|open| !matches!(open.kind, Kind::If { .. }));
-        if let Some(Open { ways, .. }) = inner {
+        let inner = self.o.open.iter_mut().rev().find(|open| !matches!(open.kind, StructureKind::If { .. }));
+        if let Some(OpenStructure { ways, .. }) = inner {
             ways.ends = ways.ends.and(unsaid);
         }
     }

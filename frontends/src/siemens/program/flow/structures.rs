@@ -6,7 +6,7 @@ use ncc_ir::expr::{Expr, Node, Target as Into, Var};
 use ncc_ir::program::{Control, Op, Stmt};
 
 use super::{Closes, Open, What};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::{Head, Lower};
 use crate::siemens::text::tree::{Expr as Tree, Place};

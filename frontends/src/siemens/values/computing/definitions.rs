@@ -8,7 +8,7 @@ use ncc_ir::source::Span;
 use super::super::texts::TextOf;
 use super::super::typed::Kind;
 use super::{Variable, several_values, stored};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Declaration, Declared, Expr as Tree, Place, TypeName, Value};
