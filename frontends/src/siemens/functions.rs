@@ -10,10 +10,10 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
 
+use super::block_words::{Code, Words};
 use super::lower::{Head, Lower};
 use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::siemens_state::{ModalCall, Motion};
-use super::sort::{Code, Words};
 use super::text::unit::Kind;
 use crate::batch::Batch;
 use crate::common::Source;

@@ -20,15 +20,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::block_words::Words;
 use super::program::again::Again;
-use super::program::flow::{Closes, Flow};
-use super::program::parameters::Handed;
-use super::siemens_state::{ModalCall, Motion, Only, SiemensState, Stand};
-use super::sort::Words;
-use super::speed::Surfaces;
+use super::siemens_state::{ModalCall, Motion, SiemensState, Stand};
 use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::text::unit::Kind;
-use super::values::computing::Variables;
+use super::text_facts::{Only, Surfaces};
 use super::values::typed::Typed;
 use crate::batch::{Batch, refused};
 use crate::common::Source;
@@ -37,6 +34,9 @@ use crate::common::saved::Saved;
 use crate::common::switched::Met;
 use crate::common::text::decode;
 use crate::initial_modes::Inherited;
+use crate::siemens::program::handed::Handed;
+use crate::siemens::program::open_structures::{Closes, Flow};
+use crate::siemens::values::variables::Variables;
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]

@@ -15,10 +15,10 @@ use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
-use super::parse;
 use super::program::calls::procedure_name;
 use super::siemens_state::ModalCall;
 use super::text::letters::letter_for_zero;
+use super::text::parse::parse;
 use super::text::tree::{Block, Statement};
 use super::text::unit;
 use super::text::unit::{Header, Kind, Line};

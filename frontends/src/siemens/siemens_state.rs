@@ -141,49 +141,6 @@ impl SiemensState {
     }
 }
 
-/// The one value that a whole text says of a fact, for where the fact is lost.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Only<T> {
-    value: Option<T>,
-    mixed: bool,
-    /// The first place that relied on there being one value.
-    relied: Option<Span>,
-}
-
-impl<T> Default for Only<T> {
-    fn default() -> Only<T> {
-        Only { value: None, mixed: false, relied: None }
-    }
-}
-
-impl<T: Copy + PartialEq> Only<T> {
-    /// The text says it; gives a place that relied on another value.
-    pub(super) fn see(&mut self, value: T) -> Option<Span> {
-        if *self.value.get_or_insert(value) == value {
-            return None;
-        }
-        self.mixed = true;
-        self.relied.take()
-    }
-
-    /// Blocks may run under a value that the text does not say.
-    pub(super) fn open(&mut self) {
-        self.mixed = true;
-    }
-
-    /// The value, if there is only one; `otherwise` if the text has said none.
-    pub(super) fn rely(&mut self, otherwise: Option<T>, at: Span) -> Option<T> {
-        if self.mixed {
-            return None;
-        }
-        let value = self.value.or(otherwise)?;
-        // A later one that differs is found by it.
-        self.value = Some(value);
-        self.relied.get_or_insert(at);
-        Some(value)
-    }
-}
-
 /// Where the tool is known to stand in program coordinates, by the words that put it there.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stand {

@@ -11,8 +11,8 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Advice, Op, Text};
 use ncc_ir::source::Span;
 
+use super::block_words::Words;
 use super::lower::Lower;
-use super::sort::Words;
 use super::text::tree::{Address, Called, Expr, Place, Value};
 use crate::batch::Batch;
 use crate::common::Source;

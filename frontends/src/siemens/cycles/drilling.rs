@@ -18,10 +18,10 @@ use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::spell;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
 use crate::siemens::program::again::CYCLE;
 use crate::siemens::siemens_state::ModalCall;
-use crate::siemens::sort::Given;
 use crate::siemens::text::tree::{Called, Expr as Argument};
 
 /// Arguments of a call by the places of its parameters.

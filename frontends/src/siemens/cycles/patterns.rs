@@ -17,10 +17,10 @@ use super::drilling::Arguments;
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
 use crate::siemens::program::again::CYCLE;
 use crate::siemens::siemens_state::ModalCall;
-use crate::siemens::sort::Given;
 use crate::siemens::text::tree::Called;
 
 /// Most holes of a pattern, along one direction.

@@ -18,10 +18,10 @@ use ncc_ir::source::Span;
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
+use crate::siemens::block_words::{Code, Given, Words};
 use crate::siemens::lower::Lower;
 use crate::siemens::program::again::{CYCLE, MOTION};
 use crate::siemens::siemens_state::{ModalCall, Motion};
-use crate::siemens::sort::{Code, Given, Words};
 
 const CENTRE: &[u8] = b"IJK";
 

@@ -14,9 +14,9 @@ use ncc_ir::source::Span;
 
 use crate::batch::Batch;
 use crate::common::Source;
+use crate::siemens::block_words::{Code, Given, Words};
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::Pole;
-use crate::siemens::sort::{Code, Given, Words};
 
 const ROLES: [NameRole; 2] = [NameRole::PolarRadius, NameRole::PolarAngle];
 

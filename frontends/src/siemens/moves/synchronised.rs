@@ -13,9 +13,9 @@ use ncc_ir::source::Span;
 
 use crate::batch::Batch;
 use crate::common::Source;
+use crate::siemens::block_words::{Code, Words};
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;
-use crate::siemens::sort::{Code, Words};
 
 /// Letters of leads along X, Y and Z.
 const LEADS: [u8; 3] = *b"IJK";

@@ -17,9 +17,9 @@ use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::text::decode;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;
-use crate::siemens::sort::Given;
 use crate::siemens::spindles::number;
 use crate::siemens::text::tree::Expr;
 

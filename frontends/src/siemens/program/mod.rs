@@ -10,5 +10,7 @@
 pub(super) mod again;
 pub(super) mod calls;
 pub(super) mod flow;
+pub(super) mod handed;
 pub(super) mod labels;
+pub(super) mod open_structures;
 pub(super) mod parameters;

@@ -24,6 +24,7 @@ use ncc_ir::track::Tracker;
 use ncc_passes::flow::given_back;
 
 use super::calls::Handing;
+use super::handed::{Argument, Call, Taken};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
@@ -32,26 +33,6 @@ use crate::siemens::text::tree::{Address, Expr as Tree, Parameter, Place, Value}
 use crate::siemens::values::computing::{array, stored};
 use crate::siemens::values::formula::{may_be_one, reads, several};
 use crate::siemens::values::typed::{Kind, Typed};
-
-/// What is known of calls with arguments and of parameters.
-#[derive(Debug, Default)]
-pub(in crate::siemens) struct Handed {
-    calls: Vec<Call>,
-    parameters: Vec<(Text, Vec<Taken>)>,
-    /// What holds where the part of the text begins that is kept whole.
-    stood: Tracker,
-}
-
-/// A call with arguments, by its place.
-#[derive(Debug)]
-struct Call {
-    name: Text,
-    at: Span,
-    /// What is handed over; `None` where nothing is.
-    given: Vec<Option<Argument>>,
-    /// Whether it is made after each move.
-    modal: bool,
-}
 
 /// Where an element is kept of an array that is the caller's own.
 pub(super) fn element_of(reference: &Var, at: &[u32]) -> Var {
@@ -67,26 +48,6 @@ pub(super) fn all_indices(sizes: &[u32]) -> Vec<Vec<u32>> {
         all.into_iter().flat_map(with).collect()
     };
     sizes.iter().fold(vec![Vec::new()], more)
-}
-
-/// What a call hands over for one parameter.
-#[derive(Clone, Debug)]
-enum Argument {
-    /// A value.
-    One(Typed),
-    /// An array as a whole: its sizes, and its elements.
-    Array(Box<[u32]>, Vec<Typed>),
-}
-
-/// A parameter: its type, and its value where a call has none.
-#[derive(Clone, Debug)]
-struct Taken {
-    kind: Kind,
-    otherwise: Expr,
-    /// Where one is kept that is the caller's variable itself; of an array, what the names of its elements begin with.
-    reference: Option<Var>,
-    /// Of an array.
-    sizes: Box<[u32]>,
 }
 
 /// What a call hands over.

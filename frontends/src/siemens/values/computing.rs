@@ -11,8 +11,6 @@
 
 mod definitions;
 
-use std::collections::HashMap;
-
 use ncc_dialects::Quantity;
 use ncc_ir::canon::Fact;
 use ncc_ir::diag::Fault;
@@ -23,35 +21,18 @@ use ncc_ir::program::{Op, Type as Stored};
 use ncc_ir::source::Span;
 
 use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};
-use super::texts::TextOf;
 use super::typed::{Kind, Typed};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::common::words::Digits;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;
-use crate::siemens::sort::Given;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};
 
 /// The last R parameter; how many a machine has is a matter of its data.
 pub(in crate::siemens) const LAST_R: u32 = 999;
-
-/// A variable of the program that is being read.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::siemens) struct Variable {
-    pub(in crate::siemens) kind: Kind,
-    /// Of an array.
-    pub(in crate::siemens) sizes: Box<[u32]>,
-    /// The text of a text variable.
-    pub(in crate::siemens) text: TextOf,
-    /// Of a parameter that is the caller's variable itself, where it is kept; of an array, what the names of its elements
-    /// begin with.
-    pub(in crate::siemens) reference: Option<Var>,
-}
-
-/// Variables of the program that is being read, by their names in capitals.
-pub(in crate::siemens) type Variables = HashMap<Box<str>, Variable>;
 
 /// A place in memory.
 struct Kept {

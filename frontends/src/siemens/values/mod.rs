@@ -13,3 +13,4 @@ pub(super) mod entry_of;
 pub(super) mod formula;
 pub(super) mod texts;
 pub(super) mod typed;
+pub(super) mod variables;

@@ -8,7 +8,7 @@
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::expr::{Expr, Node, Var};
+use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Call, Op};
 
 use crate::batch::Batch;
@@ -226,9 +226,4 @@ impl Lower {
             Value::None => None,
         }
     }
-}
-
-/// The local variables that so many arguments are given to.
-pub(in crate::word) fn parameters(count: usize) -> Vec<Var> {
-    (1..=count).map(|number| Var::Local(number.to_string().into())).collect()
 }

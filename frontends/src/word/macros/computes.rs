@@ -4,8 +4,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ncc_ir::expr::Expr;
-use ncc_ir::program::{Call, Text};
+use ncc_ir::expr::{Expr, Var};
+use ncc_ir::program::{Call, Procedure, Text};
 use ncc_ir::source::Span;
 
 use crate::common::saved::Saved;
@@ -114,3 +114,27 @@ pub(in crate::word) struct Reach {
 
 /// What such a call is called until the text is read; its number is the argument. No program has this name.
 pub(in crate::word) const COMPUTED: &str = "#";
+
+/// The local variables that so many arguments are given to.
+pub(in crate::word) fn parameters(count: usize) -> Vec<Var> {
+    (1..=count).map(|number| Var::Local(number.to_string().into())).collect()
+}
+
+impl Computes {
+    /// A program is called with so many arguments.
+    pub(in crate::word) fn calls(&mut self, name: &str, arguments: usize) {
+        match self.called.get_mut(name) {
+            Some(most) => *most = (*most).max(arguments),
+            None => _ = self.called.insert(name.into(), arguments),
+        }
+    }
+
+    /// The text is over: what is called with arguments has them as its first local variables.
+    pub(in crate::word) fn give_parameters(&self, procedures: &mut [Procedure]) {
+        for procedure in procedures {
+            if let Some(most) = self.called.get(&procedure.name) {
+                procedure.parameters = parameters(*most);
+            }
+        }
+    }
+}

@@ -11,16 +11,16 @@ use std::collections::BTreeSet;
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::program::{Control, Op, Procedure, Stmt};
+use ncc_ir::program::{Control, Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::computes::{Computes, OpenLoop, label};
+use super::computes::{OpenLoop, label};
 use super::formula::{Statement, To};
 use super::named_blocks::{has_jumps, named_blocks};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::word::calls::local_call::has_local_calls;
-use crate::word::calls::macro_call::parameters;
+
 use crate::word::calls::return_to::has_returns_to;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
@@ -28,25 +28,6 @@ use crate::word::word_state::CycleState;
 
 /// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
 const MOST_LOOPS: usize = 3;
-
-impl Computes {
-    /// A program is called with so many arguments.
-    pub(in crate::word) fn calls(&mut self, name: &str, arguments: usize) {
-        match self.called.get_mut(name) {
-            Some(most) => *most = (*most).max(arguments),
-            None => _ = self.called.insert(name.into(), arguments),
-        }
-    }
-
-    /// The text is over: what is called with arguments has them as its first local variables.
-    pub(in crate::word) fn give_parameters(&self, procedures: &mut [Procedure]) {
-        for procedure in procedures {
-            if let Some(most) = self.called.get(&procedure.name) {
-                procedure.parameters = parameters(*most);
-            }
-        }
-    }
-}
 
 impl Lower {
     /// Looks through text that is to be read for what is computed in it.
