@@ -77,7 +77,7 @@ impl Reader {
     /// and never says is taken from the dictionary, recorded in [`Batch::assumed`] and reported
     /// once; without (text that ncc wrote), it stays open.
     pub fn new(settings: Settings, assume: bool) -> Reader {
-        let corners = Corners::of(&settings).filter(|_| assume);
+        let corners = Corners::from_settings(&settings).filter(|_| assume);
         let family = match settings.dialect.family {
             Family::Word => OfFamily::Word(Box::new(word::Reader::new(settings, assume))),
             Family::Canon => OfFamily::Canon(Box::new(canon::Reader::new(settings, assume))),

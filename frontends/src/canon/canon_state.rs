@@ -22,7 +22,7 @@ pub(super) struct CanonState {
     pub(super) feed_mode: Option<FeedMode>,
     pub(super) selected: Selected,
     /// Where the axes stand, as far as their words say.
-    pub(super) stands: [Option<Num>; AXES],
+    pub(super) positions: [Option<Num>; AXES],
 }
 
 impl CanonState {
@@ -52,12 +52,12 @@ impl CanonState {
     }
 
     /// Whether an axis is known to stand where a word sends it.
-    pub(super) fn stands_at(&self, axis: Axis, to: Option<&Coord>) -> bool {
+    pub(super) fn is_at(&self, axis: Axis, to: Option<&Coord>) -> bool {
         let to = to.and_then(|coord| coord.value.literal());
         let same = |a: Num, b: Num| {
             (a.trimmed().mantissa, a.trimmed().scale) == (b.trimmed().mantissa, b.trimmed().scale)
         };
-        to.zip(self.stands[axis as usize]).is_some_and(|(a, b)| a.unit == b.unit && same(a, b))
+        to.zip(self.positions[axis as usize]).is_some_and(|(a, b)| a.unit == b.unit && same(a, b))
     }
 
     /// Takes note of what a statement leaves in force.
@@ -71,7 +71,7 @@ impl CanonState {
             Op::ArcFeed(arc) => self.go(&arc.to, skipped),
             Op::UseLengthUnits(units) => {
                 set(&mut self.units, *units, skipped);
-                self.stands = [None; AXES];
+                self.positions = [None; AXES];
             }
             Op::SetFeedMode(mode) => set(&mut self.feed_mode, *mode, skipped),
             Op::SelectPlane(plane) => set(&mut self.plane, *plane, skipped),
@@ -93,7 +93,7 @@ impl CanonState {
             | Op::SetPole(_)
             | Op::Polar(_)
             | Op::UseToolLengthOffset(_) => {
-                self.stands = [None; AXES];
+                self.positions = [None; AXES];
             }
             Op::Comment(_)
             | Op::NoEffect(_)
@@ -153,9 +153,9 @@ impl CanonState {
 
     #[inline]
     pub(super) fn go(&mut self, to: &Point, skipped: bool) {
-        for (stands, word) in self.stands.iter_mut().zip(&to.axes) {
+        for (position, word) in self.positions.iter_mut().zip(&to.axes) {
             if let Some(coord) = word {
-                *stands = coord.value.literal().filter(|_| !skipped);
+                *position = coord.value.literal().filter(|_| !skipped);
             }
         }
     }

@@ -259,7 +259,7 @@ fn arc(args: &mut Arguments<'_>, length: Unit, state: &CanonState) -> Result<Arc
     // An axis outside of the plane that ends where it stands makes no helix.
     for axis in Axis::ALL {
         let in_plane = axis == first || axis == second;
-        if !in_plane && to.get(axis).is_some() && state.stands_at(axis, to.get(axis)) {
+        if !in_plane && to.get(axis).is_some() && state.is_at(axis, to.get(axis)) {
             to.axes[axis as usize] = None;
         }
     }

@@ -89,7 +89,7 @@ impl Reader {
                 plane: Some(Plane::Xy),
                 feed_mode: Some(FeedMode::PerMinute),
                 selected: Selected::None,
-                stands: [None; AXES],
+                positions: [None; AXES],
             },
             said: Modes::default(),
             moved: !assume,
@@ -105,7 +105,7 @@ impl Reader {
         let mut rest = text;
         let mut at = base;
         while !rest.is_empty() {
-            let length = if self.moved && !self.ended && self.fast(rest, at, out) {
+            let length = if self.moved && !self.ended && self.fast_lower(rest, at, out) {
                 self.end.wrapping_sub(at) as usize
             } else {
                 let newline = rest.iter().position(|&b| b == b'\n');
@@ -135,7 +135,7 @@ impl Reader {
     /// Reads a straight move at the start of the text, if there is one that the recogniser takes;
     /// `end` is then the end of its line.
     #[inline]
-    fn fast(&mut self, text: &[u8], at: u32, out: &mut Batch) -> bool {
+    fn fast_lower(&mut self, text: &[u8], at: u32, out: &mut Batch) -> bool {
         let Some(found) = straight::straight(text, self.state.length()) else { return false };
         self.state.go(&found.to, false);
         let m = Move { to: found.to, said: false };

@@ -87,7 +87,7 @@ pub(crate) fn number(n: Literal, negative: bool, l: usize, r: usize) -> Parsed<N
 }
 
 /// A whole number without unit.
-pub(crate) fn whole<T: TryFrom<u64>>(n: Literal, l: usize, r: usize) -> Parsed<T> {
+pub(crate) fn whole_number<T: TryFrom<u64>>(n: Literal, l: usize, r: usize) -> Parsed<T> {
     match n.plain().and_then(|n| T::try_from(n).ok()) {
         Some(n) => Ok(n),
         None => refuse(l, r, Fault::OutOfRange { word: "whole number".into() }),

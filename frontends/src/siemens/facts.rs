@@ -8,7 +8,7 @@ use ncc_ir::expr::num::Unit;
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
-use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
+use super::program::repeated_blocks::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::siemens_state::Motion;
 use crate::batch::Batch;
 use crate::common::known::Know;
@@ -24,13 +24,13 @@ impl Lower {
     }
 
     pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
-        self.again.use_fact(DISTANCE);
+        self.repeated_blocks.use_fact(DISTANCE);
         let (modes, mut by) = self.asker(at, out);
         modes.ask_distance(&mut by)
     }
 
     pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
-        self.again.use_fact(UNITS);
+        self.repeated_blocks.use_fact(UNITS);
         let (modes, mut by) = self.asker(at, out);
         let (units, taken) = modes.ask_units(&mut by);
         if let Some(taken) = taken {
@@ -40,7 +40,7 @@ impl Lower {
     }
 
     pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
-        self.again.use_fact(PLANE);
+        self.repeated_blocks.use_fact(PLANE);
         let (modes, mut by) = self.asker(at, out);
         let (plane, taken) = modes.ask_plane(&mut by);
         if let Some(taken) = taken {
@@ -73,7 +73,7 @@ impl Lower {
 
     /// The unit of a feed. Under G70 and G71 it is that of the machine's basic system.
     pub(super) fn feed_unit(&mut self, at: Span, out: &mut Batch) -> Option<Unit> {
-        self.again.use_fact(SCALED);
+        self.repeated_blocks.use_fact(SCALED);
         if !matches!(self.state.scaled, Know::Lost | Know::Open | Know::Callers) {
             self.rely_on_scaled(at);
         }
@@ -145,7 +145,7 @@ impl Lower {
     /// # Errors
     /// The program has not said it, and nothing may be taken for granted (reported).
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
-        self.again.use_fact(MOTION);
+        self.repeated_blocks.use_fact(MOTION);
         let (modes, mut by) = self.asker(at, out);
         let motion = modes.ask_motion(&mut by);
         self.now.failed |= motion.is_err();

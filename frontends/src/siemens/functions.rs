@@ -12,7 +12,7 @@ use ncc_ir::program::{CutterRadius, Op, PathControl};
 
 use super::block_words::{Code, Words};
 use super::lower::{Head, Lower};
-use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
+use super::program::repeated_blocks::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::siemens_state::{ModalCall, Motion};
 use super::text::unit::Kind;
 use crate::batch::Batch;
@@ -176,7 +176,7 @@ impl Lower {
     pub(super) fn set_mode(&mut self, code: Code, out: &mut Batch) {
         if let Some(motion) = motion_of(code.meaning) {
             self.state.modes.motion = Know::Said(motion);
-            self.again.say(MOTION);
+            self.repeated_blocks.say(MOTION);
         }
         let NameMeaning::Code(meaning) = code.meaning else {
             return;
@@ -188,14 +188,14 @@ impl Lower {
                     self.state.pole.lose();
                 }
                 self.state.modes.plane = Know::Said(plane);
-                self.again.say(PLANE);
+                self.repeated_blocks.say(PLANE);
                 if let Some(at) = self.only_plane.see(plane) {
                     out.report(Fault::EntryFactNeeded { fact: ModeName::Plane }, at);
                 }
             }
             Meaning::SetDistanceMode(distance) => {
                 self.state.modes.distance = Know::Said(distance);
-                self.again.say(DISTANCE);
+                self.repeated_blocks.say(DISTANCE);
             }
             Meaning::SetFeedMode(mode) => {
                 self.count_feed(mode);
@@ -235,8 +235,8 @@ impl Lower {
         let basic = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
         self.state.modes.units = Know::Said(units);
         self.state.scaled = Know::Said(scaled);
-        self.again.say(UNITS);
-        self.again.say(SCALED);
+        self.repeated_blocks.say(UNITS);
+        self.repeated_blocks.say(SCALED);
         let after = counts(self.state.scaled, self.state.modes.units);
         let real = |unit: Option<Unit>| unit.map(|u| if u == Unit::One { basic } else { u });
         if before.is_some() && real(before) != real(after) && self.state.modes.feed == Know::Said(()) {
@@ -364,7 +364,7 @@ impl Lower {
                 if let Some(tool) = self.amount(given, Quantity::Integer, src, out) {
                     self.push(given.span, Op::SelectTool(tool), out);
                 }
-            } else if let Some(tool) = self.whole(given, src, out) {
+            } else if let Some(tool) = self.read_whole(given, src, out) {
                 self.push(given.span, Op::SelectTool(Expr::int(tool.into())), out);
             }
         }
@@ -384,7 +384,7 @@ impl Lower {
         let edge = words.take(self.role_letter(Role::ToolEdge));
         let (edge, said, span) = match (edge, change) {
             (Some(given), _) => {
-                let Some(edge) = self.whole(given, src, out) else {
+                let Some(edge) = self.read_whole(given, src, out) else {
                     return;
                 };
                 if edge > 9 {

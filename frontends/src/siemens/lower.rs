@@ -10,7 +10,7 @@
 //! the functions, moves, frames, cycles, patterns and calls of a block mean; they have files of their own beside
 //! this one.
 
-mod plain;
+mod fast_lower;
 
 use std::collections::HashSet;
 
@@ -21,7 +21,7 @@ use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::block_words::Words;
-use super::program::again::Again;
+use super::program::repeated_blocks::RepeatedBlocks;
 use super::siemens_state::{ModalCall, Motion, SiemensState, Stand};
 use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::text::unit::Kind;
@@ -29,7 +29,7 @@ use super::text_facts::{Only, Surfaces};
 use super::values::typed::Typed;
 use crate::batch::{Batch, refused};
 use crate::common::Source;
-use crate::common::fast::Fast;
+use crate::common::fast_lower::FastLower;
 use crate::common::saved::Saved;
 use crate::common::switched::Met;
 use crate::common::text::decode;
@@ -56,13 +56,13 @@ pub(super) struct Lower {
     pub(super) only_units: Only<Units>,
     pub(super) only_scaled: Only<bool>,
     pub(super) only_plane: Only<Plane>,
-    pub(super) again: Again,
+    pub(super) repeated_blocks: RepeatedBlocks,
     /// Where the tool stands, as far as words have said it.
     pub(super) stand: Stand,
     /// What the statements have put in force last, as a subprogram's position would find it.
     pub(super) moved: Option<Motion>,
     /// Whether no move has followed the code of the motion in force.
-    pub(super) unmoved: bool,
+    pub(super) motion_without_move: bool,
     /// Whether a cycle was called up where the motion in force is not known: it is not known after
     /// it either.
     pub(super) cycled: bool,
@@ -91,7 +91,7 @@ pub(super) struct Lower {
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     /// What plain moves need; `None` if a block must be looked at.
-    pub(super) fast: Option<Fast>,
+    pub(super) fast_lower: Option<FastLower>,
     pub(super) now: Now,
     words: Words,
     stretch: Option<Stretch>,
@@ -158,7 +158,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    fn of(block: &Block) -> Head {
+    fn from_block(block: &Block) -> Head {
         let number = block.number.map(|BlockNumber { value, .. }| value);
         let Block { skip, label, comment, span, .. } = *block;
         Head { skip, number, label, comment, span }
@@ -178,10 +178,10 @@ impl Lower {
             only_units: Only::default(),
             only_scaled: Only::default(),
             only_plane: Only::default(),
-            again: Again::default(),
+            repeated_blocks: RepeatedBlocks::default(),
             stand: Stand::default(),
             moved: None,
-            unmoved: false,
+            motion_without_move: false,
             cycled: false,
             recall: false,
             idle_tap: false,
@@ -193,7 +193,7 @@ impl Lower {
             unit: None,
             callers_feed: None,
             ended: false,
-            fast: None,
+            fast_lower: None,
             now: Now::default(),
             words: Words::default(),
             stretch: None,
@@ -213,7 +213,7 @@ impl Lower {
 
     /// Lowers a block that the grammar has read.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
-        let head = Head::of(block);
+        let head = Head::from_block(block);
         let before = self.enter_stretch(&head, out);
         self.begin(&head, src, out);
         self.statement(&block.statement, &head, src, out);
@@ -234,7 +234,7 @@ impl Lower {
             self.stretch = Some(Stretch { level, before, moved, inside, moved_inside });
         }
         if head.label.is_some() {
-            self.again.label_over(&self.state);
+            self.repeated_blocks.label_over(&self.state);
         }
         let definition = matches!(
             block.statement,
@@ -292,15 +292,15 @@ impl Lower {
             let row = self.settings.dialect.name_row(&name);
             let end = row.is_some_and(|row| row.means == Some(NameMeaning::EndOfRepeat));
             if end {
-                name = self.again.end_name();
+                name = self.repeated_blocks.end_name();
             } else if let Some(row) = row {
                 let refuse = row.refuse.as_deref().unwrap_or("word of the language as a label");
                 self.not_supported(&name, refuse, label, out);
             }
             self.arrive(Some(&name), head.number, label, src, out);
-            self.again.label(name.clone(), &self.state);
+            self.repeated_blocks.label(name.clone(), &self.state);
             if end {
-                self.again.is_end();
+                self.repeated_blocks.is_end();
             }
             out.whole = true;
             self.push(label, Op::Label(name), out);
@@ -365,7 +365,7 @@ impl Lower {
 
     /// Words, assignments and calls of a block.
     fn items(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) {
-        if self.alone(items, head, src, out) {
+        if self.standalone_item(items, head, src, out) {
             return;
         }
         let mut words = std::mem::take(&mut self.words);
@@ -378,7 +378,7 @@ impl Lower {
 
     /// Items that stand alone in their block: calls by name or number, cycles, patterns, messages.
     /// `false` if the block has none.
-    fn alone(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) -> bool {
+    fn standalone_item(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) -> bool {
         let is_call = |item: &Item| match item {
             Item::Word(word) => word.letter == b'L',
             Item::Set { .. } => false,

@@ -24,7 +24,7 @@ use super::text::unit;
 use super::text::unit::{Header, Kind, Line};
 use crate::batch::{Batch, refused};
 use crate::common::words::{Value, Word};
-use crate::common::{Source, plain};
+use crate::common::{Source, fast_parse};
 
 /// Longest block of a dictionary that sets no limit, in bytes.
 const LONGEST: usize = 60_000;
@@ -150,10 +150,10 @@ impl Reader {
                 continue;
             }
             if open
-                && let Some(end) = plain::read(text, at, base, &mut self.words)
+                && let Some(end) = fast_parse::read(text, at, base, &mut self.words)
                 && end - at <= self.longest
                 && !negative_number(&self.words, src)
-                && self.plain(src, out)
+                && self.fast_parsed_block(src, out)
             {
                 at = end + 1;
                 continue;
@@ -198,7 +198,7 @@ impl Reader {
         self.lower.give_back(out);
         self.lower.saved.check(out);
         self.lower.inherited.settle(self.lower.settings.dialect, out);
-        for (name, at) in self.lower.again.unknown() {
+        for (name, at) in self.lower.repeated_blocks.unknown() {
             out.report(Fault::CallUnknown { name }, at);
         }
         if !self.blocks && !self.faulty {
@@ -207,7 +207,7 @@ impl Reader {
     }
 
     /// A block that the recogniser has read; `false` if it is the grammar's after all.
-    fn plain(&mut self, src: Source, out: &mut Batch) -> bool {
+    fn fast_parsed_block(&mut self, src: Source, out: &mut Batch) -> bool {
         let is_number = |word: &Word| match word.value {
             Value::Number(d) => !d.point && d.mantissa >= 0 && u32::try_from(d.mantissa).is_ok(),
             Value::None | Value::Computed(_) => false,
@@ -230,7 +230,7 @@ impl Reader {
         self.blocks = true;
         self.after_header = false;
         self.end = span.end;
-        self.lower.plain(&words, span, src, out);
+        self.lower.lower_fast_parsed(&words, span, src, out);
         self.words = words;
         self.faulty |= self.lower.now.failed;
         true

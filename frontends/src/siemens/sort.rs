@@ -397,7 +397,7 @@ impl Lower {
     }
 
     /// A whole number, not negative.
-    pub(super) fn whole(&mut self, given: Given, src: Source, out: &mut Batch) -> Option<u32> {
+    pub(super) fn read_whole(&mut self, given: Given, src: Source, out: &mut Batch) -> Option<u32> {
         let num = self.number(given, Quantity::Integer, src, out)?;
         match u32::try_from(num.mantissa) {
             Ok(whole) => Some(whole),

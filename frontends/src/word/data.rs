@@ -37,7 +37,7 @@ impl Lower {
             let code_text = code.row.code.as_str().into();
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
-        let Some(which) = self.whole(&word, src, out) else { return };
+        let Some(which) = self.read_whole(&word, src, out) else { return };
         let count = u32::from(code.row.count.unwrap_or(0));
         let Some(offset) = (1..=count).contains(&which).then(|| first + (which - 1) as u16) else {
             return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
@@ -56,7 +56,7 @@ impl Lower {
             let word = char::from(letter).to_string().into();
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
-        let Some(number) = self.whole(&word, src, out) else { return };
+        let Some(number) = self.read_whole(&word, src, out) else { return };
         let Some((row, _)) = rows().find(|(_, (.., own))| *own == number) else {
             // What the other words are for is another table's matter.
             words.left = 0;
@@ -70,8 +70,8 @@ impl Lower {
     fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
         let row_name = || Box::<str>::from(row.name.as_str());
         // Execution looks at what is not known here: where a caller, or a block that may be skipped, has a cycle in force.
-        let in_force = matches!(self.state.cycle, CycleState::Active(_));
-        if in_force {
+        let active = matches!(self.state.cycle, CycleState::Active(_));
+        if active {
             let name = "data input while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
         }
@@ -97,7 +97,7 @@ impl Lower {
                 };
                 Some(known)
             }
-            _ => self.whole(&entry, src, out),
+            _ => self.read_whole(&entry, src, out),
         };
         let Some(number) = found.and_then(|number| self.existing(number, code, row, &entry, src, out)) else {
             return;
@@ -159,7 +159,7 @@ impl Lower {
         let ways = (1..=u32::from(row.count)).map(|number| (i64::from(number), input(number)));
         self.computes.saved.entry(code.span, &row.name);
         self.push(code.span, of_number(&computed, ways.collect(), code.span), out);
-        self.stands_alone();
+        self.end_block_here();
     }
 
     /// The number of an entry that the table has; 0 may be the one in force.
@@ -249,7 +249,7 @@ impl Lower {
                     let word = char::from(letter).to_string().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
-                let Some(tool) = self.whole(&word, src, out) else { return };
+                let Some(tool) = self.read_whole(&word, src, out) else { return };
                 Data::ToolInSpindle(Expr::int(i64::from(tool)))
             }
         };
@@ -279,9 +279,9 @@ impl Lower {
         }
         let [x, y, z, ..] = by;
         let length = match (entry, &along[..], z) {
-            (Some(word), ..) => {
-                self.whole(&word, src, out).map(|entry| ToolLength::AddedEntry(Expr::int(i64::from(entry))))
-            }
+            (Some(word), ..) => self
+                .read_whole(&word, src, out)
+                .map(|entry| ToolLength::AddedEntry(Expr::int(i64::from(entry)))),
             (None, [], _) if self.now.failed => None,
             (None, [], _) => {
                 return self.fault(Fault::WordMissing { code: code_text, word: "Z".into() }, code.span, out);

@@ -24,7 +24,7 @@ use crate::common::words::{Value, Word};
 impl Lower {
     /// A block selects a tool.
     pub(super) fn tool_named(&mut self, word: &Word) {
-        let (before, now) = (self.tools.waits, word.whole());
+        let (before, now) = (self.tools.waits, word.to_whole());
         self.tools.waits = now;
         self.tools.now = now.map(|now| (before, now, word.span));
     }
@@ -47,7 +47,7 @@ impl Lower {
     /// A length is called up: with the number of the tool that waited, it contradicts the T beside M06.
     pub(super) fn length_named(&mut self, word: &Word, out: &mut Batch) {
         let Some((named, waiting, span)) = self.tools.doubt.take() else { return };
-        let contradicts = word.whole() == Some(waiting);
+        let contradicts = word.to_whole() == Some(waiting);
         let behaviours = self.settings.behaviours();
         let with_change = Behaviour::ToolWithChange;
         let open = behaviours.is_open(with_change) && !behaviours.does(with_change);

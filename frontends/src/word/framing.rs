@@ -210,7 +210,7 @@ impl Reader {
 
     /// A program's name in a block of its own.
     fn named_program(&mut self, span: Span, src: Source, out: &mut Batch) {
-        let Some(called) = Called::of(src.bytes(span)) else {
+        let Some(called) = Called::parse(src.bytes(span)) else {
             out.report(Fault::OutOfRange { word: src.text(span) }, span);
             self.frame.faulty = true;
             return;

@@ -309,7 +309,7 @@ impl Lower {
             let name = "advice to the control in a block with axis words".into();
             return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
         }
-        let value = match self.whole(&word, src, out) {
+        let value = match self.read_whole(&word, src, out) {
             None => return,
             Some(0) => 0,
             // However many blocks it is limited to.
@@ -339,7 +339,7 @@ impl Lower {
             self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
-            self.tool_in_force(&word);
+            self.note_tool_code(&word);
             self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);
@@ -364,7 +364,7 @@ impl Lower {
         if let Value::Computed(_) = word.value {
             return self.amount(word, Quantity::Integer, words, src, out);
         }
-        let whole = self.whole(word, src, out)?;
+        let whole = self.read_whole(word, src, out)?;
         Some(Expr::int(i64::from(whole)))
     }
 
@@ -494,7 +494,7 @@ impl Lower {
             return;
         };
         if self.option("o_word", word.span, out) == "ignore" {
-            let _ = self.whole(&word, src, out);
+            let _ = self.read_whole(&word, src, out);
             self.state.modes.length = Know::Said(true);
             return;
         }
@@ -515,7 +515,7 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        self.entry_in_force(word);
+        self.note_length_code(word);
         self.length_named(word, out);
         match self.entry(word, words, src, out) {
             Some(entry) => self.use_entry(entry, span, words, out),

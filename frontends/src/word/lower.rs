@@ -21,12 +21,13 @@ use ncc_ir::source::Span;
 use super::block_words::{Code, Roles, Words};
 use super::text::block::Block;
 use super::text_facts::{
-    CentreSeen, CyclesMet, Dwells, MainEnding, RadiusNamed, Reported, ToolsNamed, UnitsSeen, Unmoved,
+    CentreSeen, CyclesMet, Dwells, MainEnding, MotionWithoutMove, RadiusNamed, Reported, ToolsNamed,
+    UnitsSeen,
 };
 use super::word_state::{CycleState, WordState};
 use crate::batch::{Batch, refused};
 use crate::common::Source;
-use crate::common::fast::Fast;
+use crate::common::fast_lower::FastLower;
 use crate::common::known::Know;
 use crate::common::switched::Met;
 use crate::common::text::{begins, decode};
@@ -68,10 +69,10 @@ pub(super) struct Lower {
     pub(super) computes: Computes,
     pub(super) main_ending: MainEnding,
     pub(super) o: OWordState,
-    pub(super) unmoved: Unmoved,
+    pub(super) motion_without_move: MotionWithoutMove,
     pub(super) cycles: CyclesMet,
     /// What plain moves need; `None` if a block must be looked at.
-    pub(super) fast: Option<Fast>,
+    pub(super) fast_lower: Option<FastLower>,
     pub(super) now: Now,
     codes: Vec<Code>,
     /// What the text has said of control of the tool's tip, and of tilted planes.
@@ -123,7 +124,7 @@ pub(super) struct Now {
     /// A program's name, until a call takes it.
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
-    pub(super) again: Option<crate::word::calls::repetition::Asked>,
+    pub(super) repetition: Option<crate::word::calls::repetition::Repetition>,
     /// From what the words of a return count, where that is not the distance in force after the block.
     pub(super) return_distance: Option<Distance>,
 }
@@ -188,9 +189,9 @@ impl Lower {
             computes: Computes::default(),
             main_ending: MainEnding::default(),
             o: OWordState::default(),
-            unmoved: Unmoved::default(),
+            motion_without_move: MotionWithoutMove::default(),
             cycles: CyclesMet::default(),
-            fast: None,
+            fast_lower: None,
             now: Now::default(),
             codes: Vec::new(),
             tip: Met::default(),
@@ -378,7 +379,7 @@ impl Lower {
     /// Adds a statement to the block.
     #[inline]
     pub(super) fn push(&mut self, span: Span, op: Op, out: &mut Batch) {
-        if self.unmoved() {
+        if self.has_motion_without_move() {
             self.moved(&op);
         }
         if let Op::Call(call) = &op {
@@ -400,7 +401,7 @@ impl Lower {
     }
 
     /// What was pushed is a block of its own, as if what follows stood in another; a label says the number.
-    pub(super) fn stands_alone(&mut self) {
+    pub(super) fn end_block_here(&mut self) {
         self.now.pushed = false;
         self.now.silent = true;
         self.now.number = None;

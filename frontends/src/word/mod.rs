@@ -1,8 +1,8 @@
 //! The reader of the word-address family: all dialects of letters and numbers, told apart by their
 //! dictionaries alone.
 //!
-//! A plain move goes from the line straight to its statement (`common::fast`). Any other line goes to the
-//! recogniser of plain blocks (`common::plain`), and to the lexer (`text::token`) and the grammar
+//! A plain move goes from the line straight to its statement (`common::fast_lower`). Any other line goes to the
+//! recogniser of plain blocks (`common::fast_parse`), and to the lexer (`text::token`) and the grammar
 //! (`text/block.lalrpop`) if it is not one. Its words are then lowered to statements (`lower` and its
 //! neighbours) with what the program has said so far (`word_state`).
 //!
@@ -11,6 +11,7 @@
 //!
 //! Not here: what execution makes of a program, and everything about files.
 
+mod active_codes;
 mod block_words;
 mod by_hand;
 mod calls;
@@ -18,11 +19,10 @@ mod cycles;
 mod data;
 mod doubts;
 mod facts;
-mod fast;
+mod fast_lower;
 mod frames;
 mod framing;
 mod functions;
-mod in_force;
 mod lower;
 mod macros;
 mod moves;

@@ -224,7 +224,7 @@ impl Lower {
     }
 
     /// A whole number of a word, not negative.
-    pub(super) fn whole(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<u32> {
+    pub(super) fn read_whole(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<u32> {
         let num = self.number(word, Quantity::Integer, src, out)?.trimmed();
         match u32::try_from(num.mantissa) {
             Ok(whole) => Some(whole),

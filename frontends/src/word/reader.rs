@@ -6,7 +6,7 @@ use ncc_dialects::{BLOCK_SKIP, Settings};
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
 
-use super::calls::repetition::Kept;
+use super::calls::repetition::RepeatedText;
 use super::lower::Lower;
 use super::o_code::o_state::StandaloneOsub;
 use super::text::block;
@@ -31,7 +31,7 @@ pub struct Reader {
     /// Longest line of which the characters need not be counted.
     pub(super) uncounted: usize,
     /// Text of blocks that may be executed again.
-    pub(super) kept: Kept,
+    pub(super) kept: RepeatedText,
 }
 
 impl Reader {
@@ -53,7 +53,7 @@ impl Reader {
             },
             lower: Lower::new(settings, assume),
             block: Block::default(),
-            kept: Kept::default(),
+            kept: RepeatedText::default(),
         }
     }
 
@@ -96,7 +96,7 @@ impl Reader {
             return self.not_text(Span::new(at, at + 1), out);
         }
         if base == 0 {
-            self.looks_alone(text);
+            self.look_for_standalone_osub(text);
         }
         self.keep(text, base);
         self.lower.look_ahead(text, out);
@@ -115,10 +115,10 @@ impl Reader {
                 continue;
             }
             if open
-                && let Some(end) = crate::common::plain::read(text, at, base, &mut self.block.words)
+                && let Some(end) = crate::common::fast_parse::read(text, at, base, &mut self.block.words)
                 && end - at <= self.uncounted
             {
-                self.plain_block(at, end, src, out);
+                self.fast_parsed_block(at, end, src, out);
                 at = end + 1;
                 continue;
             }
@@ -150,7 +150,7 @@ impl Reader {
         if !self.frame.is_binary {
             self.end_of_program(out);
             self.end_of_text(out);
-            self.lower.alone_or_main(out);
+            self.lower.settle_main_ending(out);
             self.lower.computes.give_parameters(&mut out.procedures);
             self.lower.computes.cut_out_called_blocks(out);
             self.lower.computes.join_returns(out);
@@ -165,7 +165,7 @@ impl Reader {
     }
 
     /// A block that the recogniser has read.
-    fn plain_block(&mut self, start: usize, end: usize, src: Source, out: &mut Batch) {
+    fn fast_parsed_block(&mut self, start: usize, end: usize, src: Source, out: &mut Batch) {
         let words = std::mem::take(&mut self.block.words);
         self.block.clear();
         self.block.words = words;

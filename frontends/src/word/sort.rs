@@ -59,7 +59,7 @@ impl Lower {
                     if self.now.number.is_some() {
                         self.fault(Fault::WordTwice { letter: char::from(letter) }, word.span, out);
                     }
-                    self.now.number = self.whole(word, src, out);
+                    self.now.number = self.read_whole(word, src, out);
                 }
                 letter => {
                     let place = usize::from(letter.wrapping_sub(b'A'));

@@ -127,7 +127,7 @@ impl Lower {
         }
         if let Some(turn) = rule.turn
             && let Some(word) = words.take(turn as u8)
-            && self.whole(&word, src, out)? != 0
+            && self.read_whole(&word, src, out)? != 0
         {
             let name = "sense in which the spindle turns to its angle".into();
             return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);

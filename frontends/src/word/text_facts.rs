@@ -61,24 +61,24 @@ pub(super) struct RadiusNamed {
 
 /// Codes of motion that no move has said.
 #[derive(Debug, Default)]
-pub(super) struct Unmoved {
+pub(super) struct MotionWithoutMove {
     /// The last one, while no move follows it.
     pub(super) code: Option<(Span, Motion)>,
     /// Of one that was lost: where it stands.
     pub(super) lost: Option<Span>,
     /// Axis words that do what is in force.
     pub(super) bare: Option<Span>,
-    pub(super) told: bool,
+    pub(super) reported: bool,
 }
 
-impl Unmoved {
+impl MotionWithoutMove {
     /// Puts the code aside, as a program within the text has its own.
-    pub(super) fn aside(&mut self) -> Option<(Span, Motion)> {
+    pub(super) fn take_code(&mut self) -> Option<(Span, Motion)> {
         self.code.take()
     }
 
     /// Takes it up again.
-    pub(super) fn again(&mut self, code: Option<(Span, Motion)>) {
+    pub(super) fn restore_code(&mut self, code: Option<(Span, Motion)>) {
         self.code = code;
     }
 }
@@ -106,7 +106,7 @@ pub(super) struct AtStart {
     /// Whether that is not one number.
     pub(super) several: [bool; 2],
     /// Where the main program begins again.
-    pub(super) again: Option<Span>,
+    pub(super) begins_again: Option<Span>,
 }
 
 impl AtStart {
@@ -116,8 +116,8 @@ impl AtStart {
     }
 
     /// The main program begins again here.
-    pub(super) fn begins_again(&mut self, at: Span) {
-        self.again.get_or_insert(at);
+    pub(super) fn note_begin_again(&mut self, at: Span) {
+        self.begins_again.get_or_insert(at);
     }
 }
 

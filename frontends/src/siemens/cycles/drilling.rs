@@ -20,7 +20,7 @@ use crate::common::known::Know;
 use crate::common::number::spell;
 use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
-use crate::siemens::program::again::CYCLE;
+use crate::siemens::program::repeated_blocks::CYCLE;
 use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::{Called, Expr as Argument};
 
@@ -229,7 +229,7 @@ impl Lower {
         self.no_idle_tap(block, src, out);
         let cycle = self.arguments(row, called, src, out).and_then(|a| self.cycle_of(&a, src, out));
         if modal {
-            self.again.say(CYCLE);
+            self.repeated_blocks.say(CYCLE);
         }
         let says_speed = std::mem::take(&mut self.idle_tap);
         let Some(cycle) = cycle.filter(|_| !self.now.failed) else {
@@ -254,7 +254,7 @@ impl Lower {
             self.state.cycle = ModalCall::Active(cycle);
             return;
         }
-        self.again.use_fact(CYCLE);
+        self.repeated_blocks.use_fact(CYCLE);
         if !matches!(self.state.cycle, ModalCall::None | ModalCall::Refused) {
             let name = "cycle called while another is modal";
             return self.not_supported(&row.name, name, block, out);
@@ -285,7 +285,7 @@ impl Lower {
     /// `MCALL` alone.
     pub(in crate::siemens) fn end_cycle(&mut self, at: Span, src: Source, out: &mut Batch) {
         self.no_idle_tap(at, src, out);
-        self.again.say(CYCLE);
+        self.repeated_blocks.say(CYCLE);
         if matches!(self.state.cycle, ModalCall::Subprogram(_)) {
             if self.skipped() {
                 let name = "end of a call after each move that a switch may skip";

@@ -19,7 +19,7 @@ use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
-use crate::siemens::program::again::CYCLE;
+use crate::siemens::program::repeated_blocks::CYCLE;
 use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::Called;
 
@@ -38,7 +38,7 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        self.again.use_fact(CYCLE);
+        self.repeated_blocks.use_fact(CYCLE);
         if self.state.cycle == ModalCall::None {
             self.fault(Fault::NoCycle, called.span, out);
         }

@@ -95,18 +95,18 @@ impl Lower {
     }
 
     /// The unit of a pitch that has none of its own: the machine's, or that in force.
-    fn pitch_unit(&mut self, in_force: Unit, at: Span, out: &mut Batch) -> Unit {
+    fn pitch_unit(&mut self, active: Unit, at: Span, out: &mut Batch) -> Unit {
         let machine = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
-        let known = match (in_force, self.state.modes.units.value()) {
+        let known = match (active, self.state.modes.units.value()) {
             (Unit::Entry, Some(Units::Inch)) => Unit::Inch,
             (Unit::Entry, Some(Units::Mm)) => Unit::Mm,
             (unit, _) => unit,
         };
         if known == machine {
-            return in_force;
+            return active;
         }
         match self.option("pitch_unit", at, out) {
-            "in-force" => in_force,
+            "in-force" => active,
             _ => machine,
         }
     }

@@ -20,7 +20,7 @@ use crate::common::Source;
 use crate::common::known::Know;
 use crate::siemens::block_words::{Code, Given, Words};
 use crate::siemens::lower::Lower;
-use crate::siemens::program::again::{CYCLE, MOTION};
+use crate::siemens::program::repeated_blocks::{CYCLE, MOTION};
 use crate::siemens::siemens_state::{ModalCall, Motion};
 
 const CENTRE: &[u8] = b"IJK";
@@ -53,7 +53,7 @@ impl Lower {
     ) {
         if let Some((code, motion)) = motion {
             self.state.modes.motion = Know::Said(motion);
-            self.again.say(MOTION);
+            self.repeated_blocks.say(MOTION);
             let foreign = matches!(self.state.cycle, ModalCall::Inherited { .. } | ModalCall::Lost { .. });
             if foreign && motion != Motion::Traverse {
                 let name = "motion at feed while a cycle of the caller may be in force";
@@ -64,16 +64,16 @@ impl Lower {
         let arc_now = self.state.modes.motion.value().is_some_and(|m| !line(m));
         let arc_words = words.has_any(CENTRE) || NAMED.iter().any(|&role| words.named(role).is_some());
         if !(words.has_point() || arc_now && arc_words) {
-            self.unmoved |= motion.is_some();
+            self.motion_without_move |= motion.is_some();
             if let Some(code) = machine {
                 // Without a move it does nothing.
                 self.push(code.span, Op::NoEffect(code.name.into()), out);
             }
             return;
         }
-        self.unmoved = false;
-        self.again.use_fact(CYCLE);
-        self.again.use_fact(MOTION);
+        self.motion_without_move = false;
+        self.repeated_blocks.use_fact(CYCLE);
+        self.repeated_blocks.use_fact(MOTION);
         if let Some(Motion::Thread(thread)) = self.state.modes.motion.value() {
             self.moved = None;
             return self.thread(thread, machine, block, words, src, out);
@@ -363,7 +363,7 @@ impl Lower {
         let angle = words.take_named(NameRole::OpeningAngle);
         let turns = match words.take_named(NameRole::Turns) {
             None => 0,
-            Some(given) => match self.whole(given, src, out) {
+            Some(given) => match self.read_whole(given, src, out) {
                 Some(turns @ 0..=MOST_TURNS) => turns,
                 Some(_) => {
                     return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);

@@ -16,7 +16,7 @@ use ncc_ir::expr::{Expr as Value, Many, Node, Var};
 use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
 
-use super::again::{NotAgain, Under};
+use super::repeated_blocks::{NotRepeatable, Under};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
@@ -230,7 +230,7 @@ impl Lower {
         } else {
             None
         };
-        self.again.say(super::again::CYCLE);
+        self.repeated_blocks.say(super::repeated_blocks::CYCLE);
         if let Some(refuse) = refuse {
             self.not_supported(&src.text(called.span), refuse, called.span, out);
             self.state.cycle = ModalCall::Refused;
@@ -300,9 +300,9 @@ impl Lower {
             }
         };
         let drills = matches!(under, Under::Cycle { .. });
-        self.again.use_fact(super::again::CYCLE);
+        self.repeated_blocks.use_fact(super::repeated_blocks::CYCLE);
         if drills {
-            self.again.use_fact(super::again::MOTION);
+            self.repeated_blocks.use_fact(super::repeated_blocks::MOTION);
             match self.state.modes.motion.value() {
                 Some(Motion::Traverse) => {}
                 None if matches!(self.state.cycle, ModalCall::Inherited { .. }) => {}
@@ -315,7 +315,7 @@ impl Lower {
         } else {
             self.hand_motion_on(at, out);
         }
-        if !self.again.call(name, &written, at, under) {
+        if !self.repeated_blocks.call(name, &written, at, under) {
             let name = "call under another cycle than where the subprogram was called before";
             return self.not_supported(&src.text(at), name, at, out);
         }
@@ -360,7 +360,7 @@ impl Lower {
         if motion == self.moved {
             return;
         }
-        self.again.use_fact(super::again::MOTION);
+        self.repeated_blocks.use_fact(super::repeated_blocks::MOTION);
         let nowhere = Move { said: true, ..Move::default() };
         match motion {
             Some(Motion::Traverse) => self.push(at, Op::StraightTraverse(nowhere), out),
@@ -397,7 +397,7 @@ impl Lower {
         let times = match count {
             None => Some(Value::int(1)),
             Some(Expr::Number(digits, _)) => {
-                whole(*digits).filter(|t| (1..=MOST_TIMES).contains(t)).map(Value::int)
+                whole_digits(*digits).filter(|t| (1..=MOST_TIMES).contains(t)).map(Value::int)
             }
             Some(other) => {
                 let Some(typed) = self.formula(other, src, out) else { return };
@@ -415,20 +415,20 @@ impl Lower {
         };
         let (from, mut to) = (upper(first), last.map(upper));
         for (name, span) in [Some((&from, first)), to.as_ref().zip(last)].into_iter().flatten() {
-            if !self.again.has_label(name) {
+            if !self.repeated_blocks.has_label(name) {
                 return self.fault(Fault::LabelUnknown { name: name.clone() }, span, out);
             }
         }
         if to.is_none() {
-            to = self.again.end_behind(&from);
+            to = self.repeated_blocks.end_behind(&from);
         }
         let several = times != Value::int(1);
-        match self.again.repeat(&from, to.as_deref(), several, &mut self.state) {
+        match self.repeated_blocks.repeat(&from, to.as_deref(), several, &mut self.state) {
             Ok(()) => {}
-            Err(NotAgain::Unknown) => {
+            Err(NotRepeatable::Unknown) => {
                 return self.fault(Fault::LabelUnknown { name: to.unwrap_or(from) }, head.span, out);
             }
-            Err(NotAgain::Differs) => {
+            Err(NotRepeatable::Differs) => {
                 let name = "repetition of blocks that find other modes in force than the first time";
                 return self.not_supported("REPEAT", name, head.span, out);
             }
@@ -477,7 +477,7 @@ impl Lower {
 
     /// The text of a subprogram begins.
     pub(in crate::siemens) fn enter(&mut self, name: &Text, at: Span, out: &mut Batch) {
-        let entry = self.again.enter(name);
+        let entry = self.repeated_blocks.enter(name);
         if entry.is_none() {
             out.report(Fault::ProgramTwice { name: name.clone() }, at);
         }
@@ -561,17 +561,17 @@ impl Lower {
 /// The count of a call: `P3`, `P=3`.
 fn times(item: &Item) -> Option<i64> {
     match item {
-        Item::Word(Word { letter: b'P', value: Number::Number(digits), .. }) => whole(*digits),
+        Item::Word(Word { letter: b'P', value: Number::Number(digits), .. }) => whole_digits(*digits),
         Item::Set {
             place: Place { address: Address::Letter(b'P'), extension: None, index, .. },
             value: Written::Expr(Expr::Number(digits, _)),
             ..
-        } if index.is_empty() => whole(*digits),
+        } if index.is_empty() => whole_digits(*digits),
         Item::Word(_) | Item::Set { .. } | Item::Name(_) => None,
     }
 }
 
-fn whole(digits: Digits) -> Option<i64> {
+fn whole_digits(digits: Digits) -> Option<i64> {
     (digits.scale == 0).then_some(digits.mantissa)
 }
 

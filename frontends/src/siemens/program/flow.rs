@@ -119,7 +119,7 @@ impl Lower {
         let cycle = std::mem::take(&mut self.state.cycle);
         self.state = SiemensState::lost(cycle);
         self.stand.forget();
-        self.again.use_all();
+        self.repeated_blocks.use_all();
         self.forget_texts();
         // Behind a cycle, what was in force before it is still not known where it was not told.
         self.cycled &= self.moved.is_none();

@@ -279,7 +279,7 @@ impl Lower {
             let takes = takes.map_or(&[][..], |(_, takes)| takes);
             if call.given.len() > takes.len() {
                 // One that is not in the text is told as that.
-                if !self.again.has_met(&call.name) {
+                if !self.repeated_blocks.has_met(&call.name) {
                     continue;
                 }
                 let name = "call with more arguments than its subprogram has parameters".into();

@@ -27,10 +27,10 @@ impl Lower {
             && let Some((name, span)) = self.now.name.take()
         {
             let times = match letters.next().and_then(|l| words.take(l)) {
-                Some(word) => self.whole(&word, src, out),
+                Some(word) => self.read_whole(&word, src, out),
                 None => Some(1),
             };
-            let (Some(times), Some(called)) = (times, Called::of(name.as_bytes())) else {
+            let (Some(times), Some(called)) = (times, Called::parse(name.as_bytes())) else {
                 return self.fault(Fault::OutOfRange { word: name }, span, out);
             };
             return self.call_program(called.text(), times, code.span.to(span), span, out);
@@ -53,12 +53,12 @@ impl Lower {
         if says && (computed(&word) || count.as_ref().is_some_and(computed)) {
             return self.computed_call(code, &word, count.as_ref(), words, src, out);
         }
-        let Some(mut number) = self.whole(&word, src, out) else {
+        let Some(mut number) = self.read_whole(&word, src, out) else {
             return;
         };
         let mut times = 1;
         if let Some(word) = count {
-            match self.whole(&word, src, out) {
+            match self.read_whole(&word, src, out) {
                 Some(n) => times = n,
                 None => return,
             }
@@ -123,15 +123,15 @@ impl Lower {
     }
 
     /// The end of the main program's text: what returns does not end by itself as well.
-    pub(in crate::word) fn alone_or_main(&mut self, out: &mut Batch) {
+    pub(in crate::word) fn settle_main_ending(&mut self, out: &mut Batch) {
         self.callers_feed(out);
         if let Some(at) = self.main_ending.returns {
-            self.alone_or_again(at, out);
+            self.settle_endless_main(at, out);
         }
         self.starts_again_alike(out);
     }
 
-    fn alone_or_again(&mut self, at: Span, out: &mut Batch) {
+    fn settle_endless_main(&mut self, at: Span, out: &mut Batch) {
         if self.main_ending.ends {
             if out.subprogram {
                 self.began_again(at, out);
@@ -173,7 +173,7 @@ impl Lower {
         if !self.settings.dialect.program.begins_again {
             return self.endless(at, "M99".into(), out);
         }
-        self.tools.at_start.begins_again(at);
+        self.tools.at_start.note_begin_again(at);
         out.subprogram = false;
         begin_again_there(&mut out.stmts);
     }
@@ -196,7 +196,7 @@ impl Lower {
             return self.endless(code.span, name.into(), out);
         }
         self.main_ending.begins_again.get_or_insert(code.span);
-        self.tools.at_start.begins_again(code.span);
+        self.tools.at_start.note_begin_again(code.span);
         self.ended |= self.now.skip.is_none();
         self.leave_motion(None, out);
         self.tap_elsewhere(out);

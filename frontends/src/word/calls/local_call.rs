@@ -71,7 +71,7 @@ impl Lower {
         if let Some(why) = why {
             return self.fault(refused(&code.row.code, why), code.span, out);
         }
-        let Some(number) = self.whole(block, src, out) else { return };
+        let Some(number) = self.read_whole(block, src, out) else { return };
         let times = match count {
             None => None,
             Some(count) => match self.amount(count, Quantity::Integer, words, src, out) {
@@ -172,15 +172,16 @@ impl Computes {
             let end = starts.get(k + 1).map_or(body.len(), |(next, _)| *next);
             let returns = (first..end).filter(|&i| body[i].op == Op::Return && body[i].skip.is_none());
             let closed = |last: usize| {
-                let (labels, jumps) = ways(&body[first..=last]);
+                let (labels, jumps) = labels_and_jumps(&body[first..=last]);
                 jumps.iter().all(|to| labels.contains(to))
             };
             let Some(last) = returns.into_iter().find(|&last| closed(last)) else {
                 return Err((code, NO_RETURN, at));
             };
             ranges.push((number, first, last));
-            let (labels, _) = ways(&body[first..=last]);
-            let outside = ways(&body[..first]).1.into_iter().chain(ways(&body[last + 1..]).1);
+            let (labels, _) = labels_and_jumps(&body[first..=last]);
+            let outside =
+                labels_and_jumps(&body[..first]).1.into_iter().chain(labels_and_jumps(&body[last + 1..]).1);
             if outside.into_iter().any(|to| labels.contains(&to)) {
                 return Err((code, JUMPED_INTO, at));
             }
@@ -208,7 +209,7 @@ fn goes_nowhere_on(stmt: &Stmt) -> bool {
 }
 
 /// Labels of some statements, and where they jump.
-fn ways(body: &[Stmt]) -> (Vec<Text>, Vec<Text>) {
+fn labels_and_jumps(body: &[Stmt]) -> (Vec<Text>, Vec<Text>) {
     let (mut labels, mut jumps) = (Vec::new(), Vec::new());
     let mut left: Vec<&Stmt> = body.iter().collect();
     while let Some(stmt) = left.pop() {

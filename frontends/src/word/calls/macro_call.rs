@@ -104,15 +104,15 @@ impl Lower {
                 seen |= bit;
             }
             if word.letter == number_letter {
-                self.now.number = self.whole(word, src, out);
+                self.now.number = self.read_whole(word, src, out);
                 continue;
             }
             if word.letter == program {
-                name = self.whole(word, src, out);
+                name = self.read_whole(word, src, out);
                 continue;
             }
             if word.letter == count {
-                times = self.whole(word, src, out).unwrap_or(1);
+                times = self.read_whole(word, src, out).unwrap_or(1);
                 if !(1..=MOST_TIMES).contains(&times) {
                     self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
                 }

@@ -30,7 +30,7 @@ const OWN_BLOCK: &str = "own_block_call";
 
 impl Lower {
     /// Which calls at moves are in force; 0 is none.
-    pub(in crate::word) fn calls_in_force(&self) -> u32 {
+    pub(in crate::word) fn active_calls(&self) -> u32 {
         self.computes.at_moves.as_ref().map_or(0, |calls| calls.which)
     }
 
@@ -242,7 +242,7 @@ impl Lower {
     /// The end of a program: jumps lead from where the same calls are in force.
     pub(in crate::word) fn calls_over(&mut self, out: &mut Batch) {
         self.computes.at_moves = None;
-        self.computes.reach.ways = Jumps::default();
+        self.computes.reach.unsaid_at_jumps = Jumps::default();
         let labels = std::mem::take(&mut self.computes.reach.labels);
         let mut by_number: HashMap<u32, BTreeSet<u32>> = HashMap::new();
         for (number, calls) in &labels {

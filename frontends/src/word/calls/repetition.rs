@@ -1,12 +1,12 @@
 //! A repetition that a block asks for, and the text that it may be of.
 //!
-//! Not here: how blocks are read again (`again`).
+//! Not here: how blocks are read again (`repeated_blocks`).
 
 use ncc_ir::source::Span;
 
 /// A repetition that a block asks for.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::word) struct Asked {
+pub(in crate::word) struct Repetition {
     /// Number of the first block, and its word.
     pub(in crate::word) first: (u32, Span),
     /// Number of the last block, and its word.
@@ -19,7 +19,7 @@ pub(in crate::word) struct Asked {
 
 /// The text that repetitions may be of.
 #[derive(Debug, Default)]
-pub(in crate::word) struct Kept {
+pub(in crate::word) struct RepeatedText {
     pub(in crate::word) text: Vec<u8>,
     pub(in crate::word) base: u32,
     /// Whether numbered blocks have been met.

@@ -42,7 +42,7 @@ impl Lower {
     ) -> bool {
         let letter = code.row.blocks.bytes().next().filter(|_| self.settings.dialect.program.returns_within);
         let Some(word) = letter.and_then(|letter| words.take(letter)) else { return false };
-        if let Some(number) = self.whole(&word, src, out)
+        if let Some(number) = self.read_whole(&word, src, out)
             && self.jumps_from(&code.row.code, Some(number), code.span, out)
         {
             self.push(code.span.to(word.span), Op::Goto(label(number)), out);
@@ -63,7 +63,7 @@ impl Lower {
         let letter = code.row.blocks.bytes().next();
         let block = match letter.and_then(|letter| words.take(letter)) {
             None => None,
-            Some(word) => match self.whole(&word, src, out) {
+            Some(word) => match self.read_whole(&word, src, out) {
                 Some(number) if self.now.skip.is_none() => Some(number),
                 Some(_) => {
                     self.fault(refused(&code.row.code, SEVERAL), code.span, out);

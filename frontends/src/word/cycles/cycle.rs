@@ -364,7 +364,7 @@ impl Lower {
         let Some(word) = letter.and_then(|l| words.take(l as u8)) else {
             return 1;
         };
-        match self.whole(&word, src, out) {
+        match self.read_whole(&word, src, out) {
             Some(times)
                 if times <= MOST_REPEATS && (times > 0 || !self.settings.dialect.cycles.repeat_once) =>
             {

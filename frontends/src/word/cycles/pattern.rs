@@ -170,7 +170,7 @@ impl Lower {
             self.missing(code, letter, out);
             return None;
         };
-        match self.whole(&word, src, out)? {
+        match self.read_whole(&word, src, out)? {
             count @ 1..=9999 => Some(count),
             _ => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
         }

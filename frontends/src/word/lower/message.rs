@@ -29,7 +29,7 @@ impl Lower {
         if let Some((name, at)) = rules.shown.iter().find_map(|name| Some((name, begins(bytes, name)?))) {
             if bytes.contains(&b'#') && self.settings.dialect.program.o_words {
                 self.now.message = true;
-                return self.shown(&bytes[at..], span, out);
+                return self.operator_text(&bytes[at..], span, out);
             }
             if bytes.contains(&b'#') {
                 let code = format!("{}{name}", rules.open).into();

@@ -107,7 +107,7 @@ pub(in crate::word) struct Reach {
     /// Jumps; of one without a number it is computed.
     pub(in crate::word) jumps: Vec<(Option<u32>, u32, Span)>,
     /// What the program has not said where it jumps.
-    pub(in crate::word) ways: Jumps,
+    pub(in crate::word) unsaid_at_jumps: Jumps,
     /// Programs that are called behind moves, and those that have such calls; the main one has no name.
     pub(in crate::word) called: Vec<(Text, Text, Span)>,
 }

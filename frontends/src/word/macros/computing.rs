@@ -101,8 +101,8 @@ impl Lower {
             self.computes.passed.insert(number);
             return;
         }
-        self.merge_paths(self.computes.reach.ways.unsaid(number), block.span, out);
-        let calls = self.calls_in_force();
+        self.merge_paths(self.computes.reach.unsaid_at_jumps.unsaid(number), block.span, out);
+        let calls = self.active_calls();
         self.computes.reach.labels.push((number, calls));
         let skip = self.now.skip.take();
         self.push(block.span, Op::Label(label(number)), out);
@@ -189,16 +189,16 @@ impl Lower {
             self.fault(Fault::NotSupported { code: code.into(), name }, span, out);
             return false;
         }
-        let calls = self.calls_in_force();
+        let calls = self.active_calls();
         self.computes.reach.jumps.push((to, calls, span));
-        self.computes.reach.ways.jump(to, self.state.unsaid());
+        self.computes.reach.unsaid_at_jumps.jump(to, self.state.unsaid());
         self.leave_motion(None, out);
         true
     }
 
     fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
         let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
-        let (calls, unsaid) = (self.calls_in_force(), self.state.unsaid());
+        let (calls, unsaid) = (self.active_calls(), self.state.unsaid());
         self.computes.loops.push(OpenLoop { number, condition, at: None, block, skip, label, calls, unsaid });
     }
 
@@ -215,7 +215,7 @@ impl Lower {
             let name = format!("end of a loop within the loop {own}").into();
             return self.fault(Fault::NotSupported { code, name }, span, out);
         }
-        if calls != self.calls_in_force() {
+        if calls != self.active_calls() {
             return self.refuse_under("modal call that begins or ends within a loop", span, out);
         }
         if skip.is_some() || self.now.skip.is_some() {

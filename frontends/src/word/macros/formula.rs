@@ -104,7 +104,7 @@ impl Formula {
     /// B-63684EN, custom macro, variables).
     pub(crate) fn variable(index: Index) -> Option<Formula> {
         let (node, depth) = match index {
-            Index::Number(digits) => match digits.whole()? {
+            Index::Number(digits) => match digits.to_whole()? {
                 0 => (Node::Vacant, 0),
                 number => (Node::Var(variable(number)), 0),
             },
@@ -121,7 +121,7 @@ impl Formula {
     pub(crate) fn target(index: Index) -> Option<Target> {
         match index {
             Index::Number(digits) => {
-                digits.whole().filter(|number| *number > 0).map(|number| Target::Var(variable(number)))
+                digits.to_whole().filter(|number| *number > 0).map(|number| Target::Var(variable(number)))
             }
             Index::Computed(of) => indexed(of).map(|element| Target::Element(Box::new(element))),
             Index::Name(_) => None,

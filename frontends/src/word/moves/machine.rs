@@ -32,7 +32,7 @@ impl Lower {
         self.check_shut(code, out);
         let number = match code.row.words.chars().next() {
             Some(letter) => match words.take(letter as u8) {
-                Some(word) => self.whole(&word, src, out),
+                Some(word) => self.read_whole(&word, src, out),
                 None => Some(2),
             },
             None => None,

@@ -383,7 +383,7 @@ impl Lower {
             let all = self.amount(&word, Quantity::Integer, words, src, out);
             return all.map_or(Turns::NONE, Turns::of_all);
         }
-        match self.whole(&word, src, out) {
+        match self.read_whole(&word, src, out) {
             Some(turns @ 1..=MOST_TURNS) => Turns::from(turns - 1),
             Some(_) => {
                 self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);

@@ -23,7 +23,7 @@ pub(super) fn node(node: Node) -> Expr {
 
 impl Formula {
     /// A function of values; `None` is one that is refused by name, or nested too deep.
-    pub(crate) fn of(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
+    pub(crate) fn call_function(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
         Formula::call(function, arguments)
     }
 
@@ -75,7 +75,7 @@ impl Formula {
     pub(crate) fn parameter(of: Index) -> Option<Formula> {
         match of {
             Index::Number(digits) => {
-                let number = digits.whole().filter(|number| *number > 0)?;
+                let number = digits.to_whole().filter(|number| *number > 0)?;
                 Formula::within(named(format!("#{number}")), 0)
             }
             Index::Name(name) => Formula::within(named(format!("#<{name}>")), 0),

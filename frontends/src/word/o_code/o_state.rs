@@ -45,7 +45,7 @@ pub(in crate::word) struct OpenStructure {
     pub(in crate::word) block: Span,
     pub(in crate::word) number: Option<u32>,
     pub(in crate::word) given: Given,
-    pub(in crate::word) ways: StructurePaths,
+    pub(in crate::word) paths: StructurePaths,
     /// Whether a `continue` stands in it.
     pub(in crate::word) turned: bool,
 }
@@ -101,7 +101,7 @@ impl StructurePaths {
 impl OpenStructure {
     /// The structure is over: what it is.
     pub(in crate::word) fn close(&mut self) -> StructureKind {
-        self.ways.passed_over(&self.kind);
+        self.paths.passed_over(&self.kind);
         std::mem::replace(&mut self.kind, StructureKind::Do)
     }
 }
@@ -139,7 +139,7 @@ impl StandaloneOsub {
 pub(in crate::word) struct Outer {
     pub(in crate::word) state: WordState,
     /// A code of motion that no move has said yet.
-    pub(in crate::word) unmoved: Option<(Span, Motion)>,
+    pub(in crate::word) motion_without_move: Option<(Span, Motion)>,
     pub(in crate::word) ended: bool,
     pub(in crate::word) labels: Vec<Text>,
     pub(in crate::word) numbered_program: bool,

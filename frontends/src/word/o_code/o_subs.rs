@@ -38,7 +38,7 @@ pub(in crate::word) fn refused(label: &str, word: FlowWord, name: &str) -> Fault
 /// The label of a block, if it is no computed one.
 fn label_of(label: &Index) -> Option<Text> {
     match label {
-        Index::Number(digits) => digits.whole().map(|number| number.to_string().into()),
+        Index::Number(digits) => digits.to_whole().map(|number| number.to_string().into()),
         Index::Name(name) => Some(name.clone()),
         Index::Computed(_) => None,
     }
@@ -79,7 +79,7 @@ impl Reader {
     }
 
     fn begin_sub(&mut self, name: Text, span: Span, out: &mut Batch) {
-        if self.begins_alone(&name, out) {
+        if self.begin_standalone_osub(&name, out) {
             return;
         }
         if self.lower.sub.is_some() && self.lower.ended && self.lower.o.open.is_empty() {
@@ -107,7 +107,7 @@ impl Reader {
         let lower = &mut self.lower;
         lower.centre_said_elsewhere(out);
         let outer = Outer {
-            unmoved: lower.unmoved.aside(),
+            motion_without_move: lower.motion_without_move.take_code(),
             state: std::mem::replace(&mut lower.state, WordState::called()),
             ended: std::mem::replace(&mut lower.ended, false),
             labels: std::mem::take(&mut lower.o.labels),
@@ -123,7 +123,7 @@ impl Reader {
 
     fn end_sub(&mut self, name: &str, src: Source, out: &mut Batch) {
         let span = self.block.span;
-        if self.ends_alone(name, out) {
+        if self.end_standalone_osub(name, out) {
             return;
         }
         let lower = &mut self.lower;
@@ -159,7 +159,7 @@ impl Reader {
         out.procedures.push(procedure);
         (lower.state, lower.ended, lower.o.labels) = (outer.state, outer.ended, outer.labels);
         lower.o.numbered_program = outer.numbered_program;
-        lower.unmoved.again(outer.unmoved);
+        lower.motion_without_move.restore_code(outer.motion_without_move);
         lower.refresh();
         self.frame.faulty |= failed;
         // Its comment stands behind the subprogram.

@@ -266,13 +266,13 @@ impl Lower {
         let span = block.span;
         let letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
         self.now.number = block.words.iter().find(|w| w.letter == letter).and_then(|w| match w.value {
-            crate::common::words::Value::Number(digits) => digits.whole(),
+            crate::common::words::Value::Number(digits) => digits.to_whole(),
             _ => None,
         });
         let word = decision.word;
         let code = |label: &str| -> Text { format!("O{label} {}", spelled(word)).into() };
         let label: Text = match &decision.label {
-            Index::Number(digits) => match digits.whole() {
+            Index::Number(digits) => match digits.to_whole() {
                 Some(number) => number.to_string().into(),
                 None => return self.fault(Fault::OutOfRange { word: spelled(word).into() }, span, out),
             },
@@ -369,9 +369,9 @@ impl Lower {
     pub(in crate::word) fn open_sub(&mut self, label: &str, outer: Outer, block: Span) {
         let given = std::mem::take(&mut self.o.given);
         let kind = StructureKind::Sub(Box::new(outer));
-        let (label, at, number, ways, turned) =
+        let (label, at, number, paths, turned) =
             (label.into(), Some(0), None, StructurePaths::default(), false);
-        self.o.open.push(OpenStructure { label, kind, at, block, number, given, ways, turned });
+        self.o.open.push(OpenStructure { label, kind, at, block, number, given, paths, turned });
     }
 
     /// The subprogram that is open, if it has this label and nothing in it is.

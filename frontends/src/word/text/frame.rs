@@ -19,7 +19,7 @@ pub(in crate::word) enum Called {
 
 impl Called {
     /// What a name in brackets calls: `<O12>` is a number; `None` is no name.
-    pub(in crate::word) fn of(bracketed: &[u8]) -> Option<Called> {
+    pub(in crate::word) fn parse(bracketed: &[u8]) -> Option<Called> {
         let name = std::str::from_utf8(bracketed).ok()?.strip_prefix('<')?.strip_suffix('>')?;
         let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
         if let Some(number) = name.strip_prefix('O').filter(|rest| digits(rest)) {

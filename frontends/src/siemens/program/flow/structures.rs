@@ -31,7 +31,7 @@ impl Lower {
         } else {
             self.no_idle_tap(head.span, src, out);
             self.no_stale_offset(head.span, out);
-            self.again.use_all();
+            self.repeated_blocks.use_all();
             self.forget_texts();
         }
         let number = self.take_number();

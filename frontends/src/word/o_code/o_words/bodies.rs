@@ -32,10 +32,10 @@ impl Lower {
             self.o.repeats.get_or_insert(block);
             self.check_continue(block, out);
         }
-        let (number, given, ways) = (self.now.number, self.o.given.clone(), self.ways());
+        let (number, given, paths) = (self.now.number, self.o.given.clone(), self.paths_at_head());
         let (label, at, turned) = (label.into(), None, false);
-        self.o.open.push(OpenStructure { label, kind, at, block, number, given, ways, turned });
-        self.body_begins(ways, block, out);
+        self.o.open.push(OpenStructure { label, kind, at, block, number, given, paths, turned });
+        self.body_begins(paths, block, out);
     }
 
     /// Takes what was opened last, with its body.
@@ -53,14 +53,14 @@ impl Lower {
 
     /// The statement of a structure stands where its head does.
     pub(super) fn closed(&mut self, mut open: OpenStructure, control: Control, out: &mut Batch) {
-        self.body_ends(&mut open.ways);
+        self.body_ends(&mut open.paths);
         let at = open.at.unwrap_or(usize::MAX);
         self.now.mark = self.now.mark.min(at).min(self.target(out).len());
         self.now.number = open.number;
         self.o.given = open.given;
         self.push(open.block, Op::Control(Box::new(control)), out);
         self.separate(out);
-        self.ways_join(open.ways, open.block, out);
+        self.merge_bodies(open.paths, open.block, out);
     }
 
     /// `break` and `continue`.

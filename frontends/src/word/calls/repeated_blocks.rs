@@ -13,7 +13,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::repetition::Asked;
+use super::repetition::Repetition;
 use crate::batch::{Batch, refused};
 use crate::common::Source;
 use crate::word::block_words::{Code, Words};
@@ -49,7 +49,7 @@ impl Lower {
         }
         let found = letters.map(|letter| words.take(letter));
         let [Some(first), Some(last), Some(count)] = found else { return false };
-        let whole = [first, last, count].map(|word| self.whole(&word, src, out));
+        let whole = [first, last, count].map(|word| self.read_whole(&word, src, out));
         let [Some(from), Some(to), Some(times)] = whole else { return true };
         let total = self.option(REPEAT_COUNT, count.span, out) == "total";
         if times == 0 || times > MOST_TIMES {
@@ -58,7 +58,8 @@ impl Lower {
         }
         let times = if total { times - 1 } else { times };
         let at = self.target(out).len();
-        self.now.again = Some(Asked { first: (from, first.span), last: (to, last.span), times, at });
+        self.now.repetition =
+            Some(Repetition { first: (from, first.span), last: (to, last.span), times, at });
         let times = Expr::int(i64::from(times));
         let blocks = RepeatBlocks { from: label(from), to: Some(label(to)), times };
         self.push(block.span, Op::RepeatBlocks(Box::new(blocks)), out);
@@ -96,7 +97,7 @@ impl Reader {
 
     /// The repetition that the last block has asked for.
     pub(in crate::word) fn repeat(&mut self, out: &mut Batch) {
-        let Some(asked) = self.lower.now.again.take() else { return };
+        let Some(asked) = self.lower.now.repetition.take() else { return };
         if self.lower.now.failed {
             return;
         }
@@ -115,7 +116,7 @@ impl Reader {
         }
     }
 
-    fn repeated(&mut self, asked: Asked, out: &mut Batch) -> Result<(), (Fault, Span)> {
+    fn repeated(&mut self, asked: Repetition, out: &mut Batch) -> Result<(), (Fault, Span)> {
         let refuse = |name: &str| {
             let fault = Fault::NotSupported { code: "H".into(), name: name.into() };
             Err((fault, asked.first.1))

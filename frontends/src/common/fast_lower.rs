@@ -13,12 +13,12 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::plain;
+use super::fast_parse;
 use super::words::Digits;
 
 /// What a plain move needs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fast {
+pub(crate) struct FastLower {
     pub(crate) unit: Unit,
     pub(crate) distance: Fact<Distance>,
     /// Whether the motion in force is at feed.
@@ -28,7 +28,7 @@ pub(crate) struct Fast {
     /// Whether a number means the same with and without a point.
     pub(crate) bare: bool,
     /// Number of the G code that says the motion in force once more, and changes nothing else.
-    pub(crate) again: Option<u8>,
+    pub(crate) repeated_motion: Option<u8>,
     /// What a feed word needs, if it would change no more than the feed.
     pub(crate) feed_word: Option<FeedWord>,
 }
@@ -43,7 +43,7 @@ pub(crate) struct FeedWord {
 }
 
 /// The number of the G code that says a straight motion, if its row is confirmed.
-pub(crate) fn code_again(dialect: &Dialect, feed: bool) -> Option<u8> {
+pub(crate) fn repeated_motion_code(dialect: &Dialect, feed: bool) -> Option<u8> {
     let meaning = if feed { Meaning::StraightFeed } else { Meaning::StraightTraverse };
     let says = |row: &CodeRow| row.means == Some(meaning) && row.sure;
     [0, 1].into_iter().find(|&code| dialect.code_row(b'G', 10 * u32::from(code)).is_some_and(says))
@@ -67,7 +67,7 @@ pub(crate) fn counts_units(rules: &NumberRules, units: Fact<Units>) -> bool {
 /// and then nothing was done.
 #[inline]
 pub(crate) fn line(
-    fast: &Fast,
+    fast: &FastLower,
     text: &[u8],
     from: usize,
     base: u32,
@@ -104,7 +104,7 @@ fn say_feed(num: Num, span: Span, stmts: &mut Vec<Stmt>) {
 /// Fills a straight move from a line; gives where the line's end is, if it is a plain move.
 #[inline(always)]
 fn fill(
-    fast: &Fast,
+    fast: &FastLower,
     text: &[u8],
     from: usize,
     base: u32,
@@ -163,8 +163,8 @@ fn fill(
                 stmt.number = Some(u32::try_from(digits.mantissa).ok()?);
                 first = at;
             } else if letter == b'G' {
-                let again = fast.again.map(i64::from);
-                if seen & code_bit != 0 || digits.point || again != Some(digits.mantissa) {
+                let repeated = fast.repeated_motion.map(i64::from);
+                if seen & code_bit != 0 || digits.point || repeated != Some(digits.mantissa) {
                     return None;
                 }
                 if seen == 0 {
@@ -229,7 +229,7 @@ fn blank(here: &[u8; WINDOW]) -> Option<Blank> {
 fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize)> {
     let negative = here[1] == b'-';
     let number = if negative { &here[2..] } else { &here[1..9] };
-    match number.first_chunk::<8>().and_then(|eight| plain::short(*eight)) {
+    match number.first_chunk::<8>().and_then(|eight| fast_parse::short(*eight)) {
         Some((digits, len)) => {
             let mantissa = if negative { -digits.mantissa } else { digits.mantissa };
             Some((Digits { mantissa, ..digits }, 1 + usize::from(negative) + len))
@@ -241,7 +241,7 @@ fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize)>
 #[cold]
 #[inline(never)]
 fn long_value(text: &[u8], at: usize) -> Option<(Digits, usize)> {
-    let (digits, end) = plain::number(text, at + 1)?;
+    let (digits, end) = fast_parse::number(text, at + 1)?;
     Some((digits, end - at))
 }
 

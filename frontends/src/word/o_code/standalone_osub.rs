@@ -67,7 +67,7 @@ impl Reader {
 
     /// Looks whether a text that begins is the subprogram that its file is named by. What is longer than one piece of
     /// text is a program with a subprogram in it.
-    pub(in crate::word) fn looks_alone(&mut self, text: &[u8]) {
+    pub(in crate::word) fn look_for_standalone_osub(&mut self, text: &[u8]) {
         if let StandaloneOsub::File(name) = &self.lower.o.standalone {
             let whole = is_whole(text, name, self.lower.settings.dialect);
             self.lower.o.standalone = if whole { StandaloneOsub::Looked } else { StandaloneOsub::No };
@@ -75,7 +75,7 @@ impl Reader {
     }
 
     /// The beginning of such a subprogram, if one is looked for: its body is that of the main procedure.
-    pub(in crate::word) fn begins_alone(&mut self, name: &str, out: &mut Batch) -> bool {
+    pub(in crate::word) fn begin_standalone_osub(&mut self, name: &str, out: &mut Batch) -> bool {
         if self.lower.o.standalone != StandaloneOsub::Looked || self.frame.blocks || self.lower.ended {
             return false;
         }
@@ -94,7 +94,7 @@ impl Reader {
     }
 
     /// Its end.
-    pub(in crate::word) fn ends_alone(&mut self, name: &str, out: &mut Batch) -> bool {
+    pub(in crate::word) fn end_standalone_osub(&mut self, name: &str, out: &mut Batch) -> bool {
         if !self.lower.o.standalone.is(name) {
             return false;
         }

@@ -37,7 +37,7 @@ impl Lower {
                 Some(number) => (COMPUTED.into(), vec![number]),
                 None => return,
             },
-            Value::Number(_) | Value::None => match self.whole(program, src, out) {
+            Value::Number(_) | Value::None => match self.read_whole(program, src, out) {
                 Some(number @ 1..) => (number.to_string().into(), Vec::new()),
                 Some(0) => {
                     return self.fault(Fault::OutOfRange { word: src.text(program.span) }, program.span, out);

@@ -3,7 +3,7 @@
 //! decisions about the one variable in the number, and an alarm where no place has it.
 //!
 //! A variable of the program's own that is meant by such a number stays one. That the number is one of the table's on
-//! every way is looked at when the whole text has been read ([`crate::common::saved::ways`]); any other is refused by name, since the
+//! every way is looked at when the whole text has been read ([`crate::common::saved::paths`]); any other is refused by name, since the
 //! control would take another of its variables.
 
 use ncc_dialects::SystemRow;

@@ -83,7 +83,7 @@ struct Sub {
 
 /// What is known of labels and subprograms.
 #[derive(Debug, Default)]
-pub(in crate::siemens) struct Again {
+pub(in crate::siemens) struct RepeatedBlocks {
     /// Labels of the program that is being read.
     labels: Vec<Label>,
     subs: HashMap<Text, Sub>,
@@ -108,14 +108,14 @@ fn changed<T: Copy + PartialEq>(before: Know<T>, now: Know<T>) -> bool {
 
 /// Why blocks cannot be repeated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::siemens) enum NotAgain {
+pub(in crate::siemens) enum NotRepeatable {
     /// No such label before.
     Unknown,
     /// They would find something else in force.
     Differs,
 }
 
-impl Again {
+impl RepeatedBlocks {
     /// Whether nothing can be repeated.
     pub(in crate::siemens) fn is_empty(&self) -> bool {
         self.labels.is_empty()
@@ -195,19 +195,19 @@ impl Again {
         to: Option<&str>,
         several: bool,
         now: &mut SiemensState,
-    ) -> Result<(), NotAgain> {
+    ) -> Result<(), NotRepeatable> {
         let place = |name: &str| self.labels.iter().rposition(|l| &*l.name == name);
-        let first = place(from).ok_or(NotAgain::Unknown)?;
+        let first = place(from).ok_or(NotRepeatable::Unknown)?;
         let label = &self.labels[first];
         if differing(&label.before, now) & label.used != 0 {
-            return Err(NotAgain::Differs);
+            return Err(NotRepeatable::Differs);
         }
         if let Some(to) = to {
-            let last = place(to).filter(|last| *last >= first).ok_or(NotAgain::Unknown)?;
-            let after = self.labels[last].after.as_ref().ok_or(NotAgain::Unknown)?;
+            let last = place(to).filter(|last| *last >= first).ok_or(NotRepeatable::Unknown)?;
+            let after = self.labels[last].after.as_ref().ok_or(NotRepeatable::Unknown)?;
             // From the second time on they find what they leave.
             if several && differing(&label.before, after) & label.used != 0 {
-                return Err(NotAgain::Differs);
+                return Err(NotRepeatable::Differs);
             }
             let before = now.clone();
             *now = after.clone();

@@ -17,7 +17,7 @@ const FLOAT_DIGITS: u8 = 4;
 
 impl Lower {
     /// A message with values in it. `at` is its comment.
-    pub(in crate::word) fn shown(&mut self, text: &[u8], at: Span, out: &mut Batch) {
+    pub(in crate::word) fn operator_text(&mut self, text: &[u8], at: Span, out: &mut Batch) {
         let (mut pieces, mut plain): (Vec<Piece>, Vec<u8>) = (Vec::new(), Vec::new());
         let (mut rest, mut digits) = (text, DIGITS);
         while let Some(&byte) = rest.first() {
@@ -32,7 +32,7 @@ impl Lower {
             };
             rest = &rest[len..];
             if !plain.is_empty() {
-                pieces.push(Piece::Text(whole(&std::mem::take(&mut plain))));
+                pieces.push(Piece::Text(untrimmed_text(&std::mem::take(&mut plain))));
             }
             let mut value = Expr::Node(Box::new(Node::Var(Var::System(System::Other(name.into())))));
             self.parameters(&mut value, at, out);
@@ -70,7 +70,7 @@ impl Lower {
 }
 
 /// Text within a message: blanks at its end count.
-fn whole(bytes: &[u8]) -> ncc_ir::program::Text {
+fn untrimmed_text(bytes: &[u8]) -> ncc_ir::program::Text {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),
         Err(_) => bytes.iter().map(|&b| char::from(b)).collect::<String>().into(),

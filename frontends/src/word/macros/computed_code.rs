@@ -3,7 +3,7 @@
 //! an alarm where none has the number. The group is that of which a variable was given the code in force, or that of
 //! the number that comes of the constants that its variables were given last.
 //!
-//! That the number is one of the group's on every way to the code is looked at when the whole text has been read (`ways`);
+//! That the number is one of the group's on every way to the code is looked at when the whole text has been read (`structure_paths`);
 //! any other is refused by name, since any code might come of it.
 
 use std::mem::discriminant;
@@ -19,7 +19,7 @@ use ncc_ir::program::{Move, Op, Point, Text};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
-use crate::common::saved::{ANY, Told, ways};
+use crate::common::saved::{ANY, GroupSource, paths};
 use crate::common::setting::setting;
 use crate::common::words::{Digits, Value, Word};
 use crate::word::block_words::{Code, motion_of};
@@ -119,8 +119,8 @@ impl Lower {
             Expr::Num(_) => None,
         };
         let (group, told) = match saved {
-            Some((var, row)) => (self.codes_of(row), Told::Saved(row, var)),
-            None => (self.codes_beside(&number), Told::Range),
+            Some((var, row)) => (self.codes_of(row), GroupSource::Saved(row, var)),
+            None => (self.codes_beside(&number), GroupSource::Range),
         };
         let Some(own) = group.first().map(|(_, _, own)| *own) else { return refused(self, ANY, out) };
         let same = |code: &Code| group.iter().any(|(_, _, group)| **group == *code.row.group);
@@ -136,7 +136,7 @@ impl Lower {
         self.computes.saved.back.push((word.span, told));
         let group = group.into_iter().map(|(code, op, _)| (code, op)).collect();
         self.push(word.span, of_number(&number, group, word.span), out);
-        self.stands_alone();
+        self.end_block_here();
         Some(own)
     }
 
@@ -157,9 +157,9 @@ impl Lower {
                 of == var && (!matches!(var, Var::Local(_)) || **program == *own)
             };
             let found = self.computes.saved.numbers.iter().rev().find(here);
-            found.and_then(|(_, _, number)| ways::Range::only(*number))
+            found.and_then(|(_, _, number)| paths::Range::only(*number))
         };
-        ways::range(number, &given).map(|range| range.from)
+        paths::range(number, &given).map(|range| range.from)
     }
 
     /// The codes of the group that a computed number is likely to be of: with what its variables were last given as the

@@ -8,11 +8,11 @@ use ncc_ir::source::Span;
 use super::super::siemens_state::{ModalCall, Motion};
 use super::{Head, Lower};
 use crate::batch::Batch;
-use crate::common::fast::{Fast, FeedWord};
+use crate::common::fast_lower::{FastLower, FeedWord};
 use crate::common::known::Know;
 use crate::common::number::unit_of;
 use crate::common::words::{Value, Word};
-use crate::common::{Source, fast};
+use crate::common::{Source, fast_lower};
 
 impl Lower {
     /// Lowers the line that begins at `at` of `text`, if it is a plain move of at most `longest`
@@ -26,9 +26,9 @@ impl Lower {
         longest: usize,
         out: &mut Batch,
     ) -> Option<usize> {
-        let fast = self.fast.as_ref()?;
+        let fast = self.fast_lower.as_ref()?;
         let stmts = out.body(&mut self.sub);
-        let end = fast::line(fast, text, at, base, longest, stmts)?;
+        let end = fast_lower::line(fast, text, at, base, longest, stmts)?;
         let absolute = fast.distance == Fact::Known(Distance::Absolute);
         if let Some(Op::StraightFeed(to) | Op::StraightTraverse(to)) = stmts.last().map(|stmt| &stmt.op) {
             for (stand, word) in self.stand.axes.iter_mut().zip(&to.to.axes) {
@@ -42,10 +42,10 @@ impl Lower {
 
     /// Finds out whether plain moves can go the short way from here.
     pub(in crate::siemens) fn refresh(&mut self) {
-        self.fast = self.settled();
+        self.fast_lower = self.settled();
     }
 
-    fn settled(&self) -> Option<Fast> {
+    fn settled(&self) -> Option<FastLower> {
         let dialect = self.settings.dialect;
         let linear = |axis: Axis| {
             let row = dialect.address_row(axis.letter());
@@ -71,7 +71,7 @@ impl Lower {
             || !moved
             || state.cycle != ModalCall::None
             || self.ended
-            || !self.again.is_empty()
+            || !self.repeated_blocks.is_empty()
             || self.rounding.is_some()
             // The block after skipped ones ends their stretch.
             || self.stretch.is_some()
@@ -82,13 +82,13 @@ impl Lower {
             return None;
         }
         let said = matches!(state.modes.motion, Know::Said(_));
-        Some(Fast {
+        Some(FastLower {
             unit: unit_of(state.modes.units.fact()),
             distance: state.modes.distance.fact(),
             feed,
             number: b'N',
             bare: true,
-            again: said.then(|| fast::code_again(dialect, feed)).flatten(),
+            repeated_motion: said.then(|| fast_lower::repeated_motion_code(dialect, feed)).flatten(),
             feed_word: self.settled_feed(),
         })
     }
@@ -114,7 +114,13 @@ impl Lower {
     }
 
     /// Lowers a block that the recogniser has read; its number, if any, is its first word.
-    pub(in crate::siemens) fn plain(&mut self, plain: &[Word], span: Span, src: Source, out: &mut Batch) {
+    pub(in crate::siemens) fn lower_fast_parsed(
+        &mut self,
+        plain: &[Word],
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
         self.stretch = None;
         self.executed = true;
         let mut plain = plain;

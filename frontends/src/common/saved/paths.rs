@@ -16,7 +16,7 @@ use ncc_ir::source::Span;
 
 use self::comparisons::{compared, opposite, turned, variable};
 pub(crate) use self::range::{Range, range};
-use super::{ANY, ANY_PLACE, Saved, Told};
+use super::{ANY, ANY_PLACE, GroupSource, Saved};
 use crate::batch::Batch;
 
 /// Turns of a loop, or of all that jumps lead to, that are followed number by number: more than a group has codes, or a
@@ -111,7 +111,7 @@ impl Saved {
         let mut found = Found::default();
         let mut bodies = vec![("", &out.stmts)];
         bodies.extend(out.procedures.iter().map(|procedure| (&*procedure.name, &procedure.body)));
-        let set: Vec<Set> = bodies.iter().map(|(_, body)| Set::of(body)).collect();
+        let set: Vec<Set> = bodies.iter().map(|(_, body)| Set::from_body(body)).collect();
         let names: Vec<&str> = bodies.iter().skip(1).map(|(name, _)| *name).collect();
         for (at, (_, body)) in bodies.iter().enumerate() {
             let again = comes_back(at, &set, &names);
@@ -154,7 +154,7 @@ struct Set {
 }
 
 impl Set {
-    fn of(body: &[Stmt]) -> Set {
+    fn from_body(body: &[Stmt]) -> Set {
         let mut set = Set::default();
         set.body(body);
         set
@@ -304,7 +304,7 @@ impl Ways<'_> {
                     }
                     // One of them may give a variable its value.
                     let mut behind = known.clone();
-                    control.bodies().for_each(|body| Set::of(body).takes_from(&mut behind));
+                    control.bodies().for_each(|body| Set::from_body(body).takes_from(&mut behind));
                     return Some(behind);
                 }
                 return self.control(control, known);
@@ -318,7 +318,7 @@ impl Ways<'_> {
     fn refused(&self, code: &CodeOf<'_>, at: Span) -> Fault {
         let told = self.saved.back.iter().find(|(span, _)| *span == at);
         let (code, name) = match told {
-            Some((_, Told::Entry(name))) => ((*name).into(), ANY_PLACE.into()),
+            Some((_, GroupSource::Entry(name))) => ((*name).into(), ANY_PLACE.into()),
             _ => (format!("G{}", spelt(code.number)).into(), ANY.into()),
         };
         Fault::NotSupported { code, name }
@@ -328,11 +328,11 @@ impl Ways<'_> {
     fn is_one_of(&mut self, code: &CodeOf<'_>, at: Span, known: &Known) -> bool {
         let Some((_, told)) = self.saved.back.iter().find(|(span, _)| *span == at) else { return true };
         match told {
-            Told::Saved(row, var) => {
+            GroupSource::Saved(row, var) => {
                 let Some(Holds::Code(group)) = known.get(&key(var)) else { return false };
                 std::ptr::eq(self.saved.rows[*group].2, *row) && !code.codes.is_empty()
             }
-            Told::Range | Told::Entry(_) => {
+            GroupSource::Range | GroupSource::Entry(_) => {
                 let Some(range) = worth(code.number, known) else { return false };
                 // What is repeated stands in more than one body.
                 let all = self.found.ranges.get(&at.start).map_or(range, |other| range.hull(*other));
@@ -355,7 +355,7 @@ impl Ways<'_> {
             }
             Control::While { condition, body } => {
                 let (known, _) = self.turns([Some(condition), None], body, known);
-                if Set::of(body).leaves {
+                if Set::from_body(body).leaves {
                     known
                 } else {
                     known.and_then(|known| where_it(condition, false, known))
@@ -364,7 +364,7 @@ impl Ways<'_> {
             Control::Loop { body } => self.turns([None, None], body, known).0,
             Control::Until { condition, body } => {
                 let (begins, behind) = self.turns([None, Some(condition)], body, known);
-                match Set::of(body).leaves {
+                match Set::from_body(body).leaves {
                     true => begins,
                     false => behind.and_then(|known| where_it(condition, true, known)),
                 }
@@ -378,7 +378,7 @@ impl Ways<'_> {
                 let mut known = without(known, body)?;
                 let counts = counted([from, to, step], &known);
                 known.remove(&key(variable));
-                let own = Set::of(body);
+                let own = Set::from_body(body);
                 let mut within = known.clone();
                 if let Some(range) = counts.filter(|_| !own.any && !own.vars.contains(&key(variable))) {
                     within.insert(key(variable), Holds::Whole(range));
@@ -401,7 +401,7 @@ impl Ways<'_> {
         known: Option<Known>,
     ) -> (Option<Known>, Option<Known>) {
         // Where it is left from within, that place would have to be looked at as well.
-        let mut begins = if Set::of(body).leaves { without(known, body) } else { known };
+        let mut begins = if Set::from_body(body).leaves { without(known, body) } else { known };
         let wrong = take(&mut self.wrong);
         let mut turn = 0;
         let behind = loop {
@@ -435,7 +435,7 @@ impl Ways<'_> {
 /// What is known where a body may have been executed, or not.
 fn without(known: Option<Known>, body: &[Stmt]) -> Option<Known> {
     let mut known = known?;
-    Set::of(body).takes_from(&mut known);
+    Set::from_body(body).takes_from(&mut known);
     Some(known)
 }
 

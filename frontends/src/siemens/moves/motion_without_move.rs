@@ -44,7 +44,7 @@ impl Lower {
             ModalCall::Active(_) | ModalCall::Inherited { .. } | ModalCall::Lost { .. }
         ) {
             // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be said.
-            if motion != Motion::Traverse && std::mem::take(&mut self.unmoved) {
+            if motion != Motion::Traverse && std::mem::take(&mut self.motion_without_move) {
                 let name = "motion that no move has said, under a cycle, before control goes elsewhere";
                 self.not_supported(word_of(motion), name, at, out);
             }
@@ -55,7 +55,7 @@ impl Lower {
             Motion::Traverse => Op::StraightTraverse(nowhere),
             Motion::Feed => Op::StraightFeed(nowhere),
             Motion::Arc(_) | Motion::Through | Motion::Tangent | Motion::Thread(_) => {
-                if std::mem::take(&mut self.unmoved) {
+                if std::mem::take(&mut self.motion_without_move) {
                     let name =
                         "motion that no move has said before control goes elsewhere or comes from there";
                     self.not_supported(word_of(motion), name, at, out);
@@ -63,7 +63,7 @@ impl Lower {
                 return None;
             }
         };
-        self.again.use_fact(crate::siemens::program::again::MOTION);
+        self.repeated_blocks.use_fact(crate::siemens::program::repeated_blocks::MOTION);
         self.moved = Some(motion);
         Some(op)
     }

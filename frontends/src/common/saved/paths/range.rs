@@ -23,7 +23,7 @@ impl Range {
     }
 
     /// Of whatever two numbers of each come to.
-    fn of(corners: [Option<i64>; 4]) -> Option<Range> {
+    fn from_corners(corners: [Option<i64>; 4]) -> Option<Range> {
         let mut ranges = corners.into_iter().map(|number| number.and_then(Range::only));
         let first = ranges.next()??;
         ranges.try_fold(first, |range, next| Some(range.hull(next?)))
@@ -43,7 +43,7 @@ pub(crate) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Optio
         Node::Binary(operator, a, b) => {
             let (a, b) = (range(a, known)?, range(b, known)?);
             let both = |of: fn(i64, i64) -> Option<i64>| {
-                Range::of([of(a.from, b.from), of(a.from, b.to), of(a.to, b.from), of(a.to, b.to)])
+                Range::from_corners([of(a.from, b.from), of(a.from, b.to), of(a.to, b.from), of(a.to, b.to)])
             };
             match operator {
                 Binary::Add => both(i64::checked_add),

@@ -12,7 +12,7 @@ use ncc_ir::expr::{Expr, Function, Node};
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::control::{axis_of, entry_of};
+use super::control::{axis_of, table_entry};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
@@ -128,8 +128,8 @@ impl Lower {
             dialect.data.iter().filter(|row| row.is_variable()).map(|row| (&row.name, u32::from(row.count)));
         let (row, count) = rows.chain(data).find(|(row, count)| {
             row.contains('#')
-                && entry_of(row, *count, &name, place, None, src).is_none()
-                && entry_of(row, *count, &name, place, Some(1), src).is_some()
+                && table_entry(row, *count, &name, place, None, src).is_none()
+                && table_entry(row, *count, &name, place, Some(1), src).is_some()
         })?;
         let indices = row.split_once('[')?.1;
         let at = indices.split([',', ']']).position(|index| index == "#")?;

@@ -13,13 +13,13 @@ use crate::word::lower::Lower;
 impl Lower {
     /// A further body of a structure begins.
     pub(super) fn next_body(&mut self, mut open: OpenStructure, at: Span, out: &mut Batch) {
-        self.body_ends(&mut open.ways);
-        self.body_begins(open.ways, at, out);
+        self.body_ends(&mut open.paths);
+        self.body_begins(open.paths, at, out);
         self.o.open.push(open);
     }
 
     /// A structure begins here.
-    pub(super) fn ways(&self) -> StructurePaths {
+    pub(super) fn paths_at_head(&self) -> StructurePaths {
         StructurePaths {
             centre: self.state.centre_before,
             head: self.state.unsaid(),
@@ -28,20 +28,20 @@ impl Lower {
     }
 
     /// A body of a structure begins.
-    pub(super) fn body_begins(&mut self, ways: StructurePaths, at: Span, out: &mut Batch) {
-        self.merge_paths(ways.head, at, out);
-        self.state.centre_before = ways.centre;
+    pub(super) fn body_begins(&mut self, paths: StructurePaths, at: Span, out: &mut Batch) {
+        self.merge_paths(paths.head, at, out);
+        self.state.centre_before = paths.centre;
     }
 
     /// A body is over, or left: the structure goes on elsewhere.
-    pub(super) fn body_ends(&self, ways: &mut StructurePaths) {
-        ways.ends = ways.ends.and(self.state.unsaid());
+    pub(super) fn body_ends(&self, paths: &mut StructurePaths) {
+        paths.ends = paths.ends.and(self.state.unsaid());
     }
 
     /// The structure is over.
-    pub(super) fn ways_join(&mut self, ways: StructurePaths, at: Span, out: &mut Batch) {
-        self.merge_paths(ways.ends, at, out);
-        self.state.centre_before = ways.centre;
+    pub(super) fn merge_bodies(&mut self, paths: StructurePaths, at: Span, out: &mut Batch) {
+        self.merge_paths(paths.ends, at, out);
+        self.state.centre_before = paths.centre;
     }
 
     /// Facts are lost, and what the program has said of centres stays said.
@@ -55,8 +55,8 @@ impl Lower {
     pub(super) fn leaves_loop(&mut self) {
         let unsaid = self.state.unsaid();
         let inner = self.o.open.iter_mut().rev().find(|open| !matches!(open.kind, StructureKind::If { .. }));
-        if let Some(OpenStructure { ways, .. }) = inner {
-            ways.ends = ways.ends.and(unsaid);
+        if let Some(OpenStructure { paths, .. }) = inner {
+            paths.ends = paths.ends.and(unsaid);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Whether plain moves can go the short way ([`crate::common::fast`]) from here: while every fact that
+//! Whether plain moves can go the short way ([`crate::common::fast_lower`]) from here: while every fact that
 //! they depend on is settled.
 
 use ncc_dialects::Quantity;
@@ -9,23 +9,23 @@ use ncc_ir::program::{Coord, Op, Stmt};
 use super::lower::Lower;
 use super::word_state::{AxisWords, CycleState};
 use crate::batch::Batch;
-use crate::common::fast::{Fast, FeedWord, code_again, counts_units, line};
+use crate::common::fast_lower::{FastLower, FeedWord, counts_units, line, repeated_motion_code};
 use crate::common::known::Know;
 use crate::common::number::unit_of;
 
 impl Lower {
     /// Finds out whether plain moves can go the short way from here.
     pub(super) fn refresh(&mut self) {
-        self.fast = self.settled();
+        self.fast_lower = self.settled();
     }
 
-    fn settled(&self) -> Option<Fast> {
+    fn settled(&self) -> Option<FastLower> {
         let linear =
             |axis: Axis| self.axis_row(axis).is_some_and(|r| r.quantity == Quantity::Length && r.sure);
         let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         let state = &self.state;
         // Its code is not said yet.
-        if self.unmoved() || self.computes.at_moves.is_some() {
+        if self.has_motion_without_move() || self.computes.at_moves.is_some() {
             return None;
         }
         let feed = match state.modes.motion {
@@ -59,13 +59,13 @@ impl Lower {
             return None;
         }
         let said = matches!(state.modes.motion, Know::Said(_));
-        Some(Fast {
+        Some(FastLower {
             unit: unit_of(state.modes.units.fact()),
             distance: state.modes.distance.fact(),
             feed,
             number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
             bare: false,
-            again: said.then(|| code_again(self.settings.dialect, feed)).flatten(),
+            repeated_motion: said.then(|| repeated_motion_code(self.settings.dialect, feed)).flatten(),
             feed_word: self.settled_feed(),
         })
     }
@@ -94,7 +94,7 @@ impl Lower {
         longest: usize,
         out: &mut Batch,
     ) -> Option<usize> {
-        let fast = self.fast.as_ref()?;
+        let fast = self.fast_lower.as_ref()?;
         let stmts = match &mut self.sub {
             Some(procedure) => &mut procedure.body,
             None => &mut out.stmts,

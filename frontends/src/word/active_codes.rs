@@ -26,15 +26,15 @@ const ENTRY: usize = 1;
 
 impl Lower {
     /// The program says a T code.
-    pub(super) fn tool_in_force(&mut self, word: &Word) {
-        let tool = word.whole();
+    pub(super) fn note_tool_code(&mut self, word: &Word) {
+        let tool = word.to_whole();
         self.tools.at_start.says(TOOL, tool);
         self.state.modes.tool = Know::Said(tool);
     }
 
     /// The program says an H code.
-    pub(super) fn entry_in_force(&mut self, word: &Word) {
-        let entry = word.whole();
+    pub(super) fn note_length_code(&mut self, word: &Word) {
+        let entry = word.to_whole();
         self.tools.at_start.says(ENTRY, entry);
         self.state.length_entry = entry.map_or(Know::Lost, Know::Said);
     }
@@ -89,7 +89,7 @@ impl Lower {
 
     /// The end of the text: a program that begins again has in force what it was stated to start with.
     pub(super) fn starts_again_alike(&mut self, out: &mut Batch) {
-        let Some(at) = self.tools.at_start.again else { return };
+        let Some(at) = self.tools.at_start.begins_again else { return };
         let AtStart { used, said, several, .. } = self.tools.at_start;
         let other = |which: usize| {
             used[which].is_some() && (several[which] || said[which].is_some() && said[which] != used[which])

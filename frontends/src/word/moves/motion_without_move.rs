@@ -17,8 +17,8 @@ impl Lower {
     /// A code of motion; `before` is what was known until then.
     pub(in crate::word) fn said_motion(&mut self, motion: Motion, before: Know<Motion>, span: Span) {
         // What is in force already is said.
-        if self.unmoved.code.is_some() || before.value() != Some(motion) {
-            self.unmoved.code = Some((span, motion));
+        if self.motion_without_move.code.is_some() || before.value() != Some(motion) {
+            self.motion_without_move.code = Some((span, motion));
         }
     }
 
@@ -34,7 +34,7 @@ impl Lower {
                 | Op::Polar(_)
         );
         if moves {
-            self.unmoved.code = None;
+            self.motion_without_move.code = None;
         }
     }
 
@@ -59,13 +59,13 @@ impl Lower {
 
     /// The facts of motion are lost, or others than the next block may go on with them; `skip` is that of the code.
     pub(in crate::word) fn leave_motion(&mut self, skip: Option<u8>, out: &mut Batch) {
-        let Some((span, motion)) = self.unmoved.code.take() else { return };
+        let Some((span, motion)) = self.motion_without_move.code.take() else { return };
         let nowhere = Move { to: Point::default(), said: true };
         let op = match motion {
             Motion::Traverse => Op::StraightTraverse(nowhere),
             Motion::Feed => Op::StraightFeed(nowhere),
             Motion::Arc(_) | Motion::Cycle => {
-                self.unmoved.lost.get_or_insert(span);
+                self.motion_without_move.lost.get_or_insert(span);
                 return self.tell_motion(out);
             }
         };
@@ -78,19 +78,21 @@ impl Lower {
     }
 
     /// Whether no move has said the code of motion yet.
-    pub(in crate::word) fn unmoved(&self) -> bool {
-        self.unmoved.code.is_some()
+    pub(in crate::word) fn has_motion_without_move(&self) -> bool {
+        self.motion_without_move.code.is_some()
     }
 
     /// Axis words that do what is in force when the program runs.
     pub(in crate::word) fn bare_words(&mut self, block: Span, out: &mut Batch) {
-        self.unmoved.bare.get_or_insert(block);
+        self.motion_without_move.bare.get_or_insert(block);
         self.tell_motion(out);
     }
 
     fn tell_motion(&mut self, out: &mut Batch) {
-        let (Some(code), Some(bare)) = (self.unmoved.lost, self.unmoved.bare) else { return };
-        if std::mem::replace(&mut self.unmoved.told, true) {
+        let (Some(code), Some(bare)) = (self.motion_without_move.lost, self.motion_without_move.bare) else {
+            return;
+        };
+        if std::mem::replace(&mut self.motion_without_move.reported, true) {
             return;
         }
         let name =
