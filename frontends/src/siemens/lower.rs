@@ -25,11 +25,12 @@ use super::program::repeated_blocks::RepeatedBlocks;
 use super::siemens_state::{ModalCall, Motion, SiemensState, Stand};
 use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::text::unit::Kind;
-use super::text_facts::{Only, Surfaces};
+use super::text_facts::Surfaces;
 use super::values::typed::Typed;
 use crate::batch::{Batch, refused};
 use crate::common::Source;
 use crate::common::fast_lower::FastLower;
+use crate::common::only_value::OnlyValue;
 use crate::common::saved::Saved;
 use crate::common::switched::Met;
 use crate::common::text::decode;
@@ -53,9 +54,9 @@ pub(super) struct Lower {
     /// Whether what is taken for granted of the control is told: its modes are by `assume` alone.
     pub(super) reports: bool,
     pub(super) state: SiemensState,
-    pub(super) only_units: Only<Units>,
-    pub(super) only_scaled: Only<bool>,
-    pub(super) only_plane: Only<Plane>,
+    pub(super) only_units: OnlyValue<Units>,
+    pub(super) only_scaled: OnlyValue<bool>,
+    pub(super) only_plane: OnlyValue<Plane>,
     pub(super) repeated_blocks: RepeatedBlocks,
     /// Where the tool stands, as far as words have said it.
     pub(super) stand: Stand,
@@ -175,9 +176,9 @@ impl Lower {
             watch: false,
             reports: assume,
             state: SiemensState::default(),
-            only_units: Only::default(),
-            only_scaled: Only::default(),
-            only_plane: Only::default(),
+            only_units: OnlyValue::default(),
+            only_scaled: OnlyValue::default(),
+            only_plane: OnlyValue::default(),
             repeated_blocks: RepeatedBlocks::default(),
             stand: Stand::default(),
             moved: None,

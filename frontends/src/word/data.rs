@@ -156,9 +156,9 @@ impl Lower {
         };
         let Some(computed) = computed else { return self.push(code.span, input(number), out) };
         out.whole = true;
-        let ways = (1..=u32::from(row.count)).map(|number| (i64::from(number), input(number)));
+        let cases = (1..=u32::from(row.count)).map(|number| (i64::from(number), input(number)));
         self.computes.saved.entry(code.span, &row.name);
-        self.push(code.span, of_number(&computed, ways.collect(), code.span), out);
+        self.push(code.span, of_number(&computed, cases.collect(), code.span), out);
         self.end_block_here();
     }
 

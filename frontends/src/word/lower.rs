@@ -12,7 +12,7 @@ mod message;
 use ncc_dialects::{
     Address, Bare, CALCULATOR, CodeRow, DECIMAL_POINT, INTEGER_FEED, NumberRules, Quantity, Role, Settings,
 };
-use ncc_ir::canon::{Axis, Distance, FeedMode};
+use ncc_ir::canon::{Axis, Distance, FeedMode, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
@@ -22,13 +22,13 @@ use super::block_words::{Code, Roles, Words};
 use super::text::block::Block;
 use super::text_facts::{
     CentreSeen, CyclesMet, Dwells, MainEnding, MotionWithoutMove, RadiusNamed, Reported, ToolsNamed,
-    UnitsSeen,
 };
 use super::word_state::{CycleState, WordState};
 use crate::batch::{Batch, refused};
 use crate::common::Source;
 use crate::common::fast_lower::FastLower;
 use crate::common::known::Know;
+use crate::common::only_value::OnlyValue;
 use crate::common::switched::Met;
 use crate::common::text::{begins, decode};
 use crate::initial_modes::Inherited;
@@ -56,7 +56,8 @@ pub(super) struct Lower {
     pub(super) letters: [Option<&'static Address>; 26],
     pub(super) roles: Roles,
     pub(super) state: WordState,
-    pub(super) units_seen: UnitsSeen,
+    /// The units that the text says, for numbers whose unit is open.
+    pub(super) only_units: OnlyValue<Units>,
     pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
     pub(super) dwells: Dwells,
@@ -182,7 +183,7 @@ impl Lower {
             inherited: Inherited::default(),
             watch: false,
             state: WordState::default(),
-            units_seen: UnitsSeen::default(),
+            only_units: OnlyValue::default(),
             centre_seen: CentreSeen::default(),
             sub: None,
             ended: false,

@@ -252,23 +252,16 @@ impl Lower {
             return Some(units);
         }
         // Open here, but if the whole text says only one kind of units, it is that one.
-        match self.units_seen.only {
-            Some(units) if !self.units_seen.mixed => {
-                self.units_seen.relied.get_or_insert(at);
-                Some(units)
-            }
-            Some(_) | None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
+        match self.only_units.rely(None, at) {
+            Some(units) => Some(units),
+            None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
         }
     }
 
     /// The program says units.
     pub(super) fn see_units(&mut self, units: Units, out: &mut Batch) {
-        let seen = &mut self.units_seen;
-        if *seen.only.get_or_insert(units) != units {
-            seen.mixed = true;
-            if let Some(at) = seen.relied.take() {
-                out.report(Fault::EntryFactNeeded { fact: ModeName::Units }, at);
-            }
+        if let Some(at) = self.only_units.see(units) {
+            out.report(Fault::EntryFactNeeded { fact: ModeName::Units }, at);
         }
     }
 }

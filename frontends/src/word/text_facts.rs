@@ -4,21 +4,10 @@
 
 use std::collections::BTreeSet;
 
-use ncc_ir::canon::{Motion, Units};
+use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
-
-/// Units of a program as far as they matter to numbers whose unit is open.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct UnitsSeen {
-    /// The units that the program has said.
-    pub(super) only: Option<Units>,
-    /// Whether it has said both.
-    pub(super) mixed: bool,
-    /// The first number that was scaled by `only` though the units in force there are open.
-    pub(super) relied: Option<Span>,
-}
 
 /// From where the text says that centres are measured.
 #[derive(Clone, Debug, Default)]

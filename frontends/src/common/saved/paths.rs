@@ -121,19 +121,19 @@ impl Saved {
                 others.vars.extend(own.vars.iter().cloned());
             }
             let (labels, wrong) = (BTreeMap::new(), Vec::new());
-            let mut ways = Ways { saved: self, others, labels, wrong, found, turns: 0 };
+            let mut analysis = PathAnalysis { saved: self, others, labels, wrong, found, turns: 0 };
             for turn in 0.. {
-                let before = ways.labels.clone();
-                ways.wrong.clear();
-                ways.body(body, Some(given[at].clone()));
-                if ways.labels == before {
+                let before = analysis.labels.clone();
+                analysis.wrong.clear();
+                analysis.body(body, Some(given[at].clone()));
+                if analysis.labels == before {
                     break;
                 }
-                if turn >= TURNS || ways.turns > ALL_TURNS {
-                    ways.settle_labels(&before);
+                if turn >= TURNS || analysis.turns > ALL_TURNS {
+                    analysis.settle_labels(&before);
                 }
             }
-            let Ways { mut wrong, found: behind, .. } = ways;
+            let PathAnalysis { mut wrong, found: behind, .. } = analysis;
             found = behind;
             found.faults.append(&mut wrong);
         }
@@ -205,7 +205,7 @@ fn key(var: &Var) -> String {
 }
 
 /// What is known on the ways through a program.
-struct Ways<'s> {
+struct PathAnalysis<'s> {
     saved: &'s Saved,
     /// What the other programs set.
     others: Set,
@@ -235,7 +235,7 @@ fn meet(one: Option<Known>, other: Option<Known>) -> Option<Known> {
     }
 }
 
-impl Ways<'_> {
+impl PathAnalysis<'_> {
     /// Forgets what still changes at labels.
     fn settle_labels(&mut self, before: &BTreeMap<Text, Known>) {
         for (name, known) in &mut self.labels {

@@ -273,9 +273,9 @@ impl Lower {
 
     /// Which way round rotary axes go in a line.
     fn rotary_ways(&mut self, machine: Option<Code>, words: &mut Words, src: Source, out: &mut Batch) {
-        let mut ways = [None; 3];
+        let mut directions = [None; 3];
         let mut at: Option<Span> = None;
-        for (way, letter) in ways.iter_mut().zip(b"ABC") {
+        for (way, letter) in directions.iter_mut().zip(b"ABC") {
             let Some((said, span)) = words.take_way(*letter) else { continue };
             let angle = words.get(*letter).map(|given| given.digits);
             if machine.is_some() || words.has_polar() {
@@ -289,7 +289,7 @@ impl Lower {
             at = Some(at.map_or(span, |at| at.to(span)));
         }
         if let Some(at) = at {
-            self.push(at, Op::TurnRotaryAxes(ways), out);
+            self.push(at, Op::TurnRotaryAxes(directions), out);
         }
     }
 

@@ -66,7 +66,7 @@ impl Lower {
         let at = self.target(out).len();
         // What else stands before it in its block is a statement of its own.
         let mark = std::mem::replace(&mut self.now.mark, at);
-        let (mut ways, mut first): (Vec<(i64, Op)>, Option<Stmt>) = (Vec::new(), None);
+        let (mut cases, mut first): (Vec<(i64, Op)>, Option<Stmt>) = (Vec::new(), None);
         for worth in 1..=count {
             self.worth = Some(worth);
             if let Some((stmt, ops)) = &before {
@@ -78,11 +78,11 @@ impl Lower {
                 false => self.set_control(place, value, span, src, out),
             }
             let Some(stmt) = self.target(out).split_off(at).pop() else { break };
-            ways.push((i64::from(worth), stmt.op.clone()));
+            cases.push((i64::from(worth), stmt.op.clone()));
             first.get_or_insert(stmt);
         }
         self.worth = None;
-        if ways.len() < count as usize && !self.now.failed && !self.now.refused {
+        if cases.len() < count as usize && !self.now.failed && !self.now.refused {
             self.not_supported(
                 PLACE,
                 "place of the control's tables, for something else than a value",
@@ -93,7 +93,7 @@ impl Lower {
         self.now.mark = mark;
         if let Some(first) = first {
             self.saved.entry(span, PLACE);
-            self.target(out).push(Stmt { op: of_number(&number, ways, span), ..first });
+            self.target(out).push(Stmt { op: of_number(&number, cases, span), ..first });
         }
         true
     }

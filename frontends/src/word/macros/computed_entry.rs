@@ -129,7 +129,7 @@ impl Lower {
         if worths.is_empty() {
             return refuse(self, ANY_PLACE, out);
         }
-        let mut ways = Vec::with_capacity(worths.len());
+        let mut cases = Vec::with_capacity(worths.len());
         for worth in worths {
             let mut value = value.clone();
             self.put_numbers(&mut value, worth);
@@ -145,7 +145,7 @@ impl Lower {
                 return Some(Vec::new());
             }
             match (ops.pop(), ops.is_empty()) {
-                (Some(op @ (Op::Assign(..) | Op::SetData(_))), true) => ways.push((worth, op)),
+                (Some(op @ (Op::Assign(..) | Op::SetData(_))), true) => cases.push((worth, op)),
                 _ => {
                     return refuse(
                         self,
@@ -157,7 +157,7 @@ impl Lower {
         }
         let number = self.value(&of, block.span, out);
         self.computes.saved.entry(block.span, PLACE);
-        Some(vec![of_number(&number, ways, block.span)])
+        Some(vec![of_number(&number, cases, block.span)])
     }
 
     /// The same of a parameter that is set to a place of a table by a computed number, in a block of its own.
@@ -186,16 +186,16 @@ impl Lower {
             return None;
         }
         let to = self.target_of(&set.to, set.span, out)?;
-        let mut ways = Vec::with_capacity(worths.len());
+        let mut cases = Vec::with_capacity(worths.len());
         for worth in worths {
             let mut value = set.value.clone();
             self.put_numbers(&mut value, worth);
             self.parameters(&mut value, set.span, out);
-            ways.push((worth, Op::Assign(to.clone(), value)));
+            cases.push((worth, Op::Assign(to.clone(), value)));
         }
         self.parameters(&mut of, set.span, out);
         self.computes.saved.entry(set.span, PLACE);
-        Some(of_number(&of, ways, set.span))
+        Some(of_number(&of, cases, set.span))
     }
 
     /// The number of one of the control's own variables, where it is computed from one variable alone.
