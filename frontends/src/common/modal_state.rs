@@ -43,40 +43,35 @@ pub(crate) struct ModalState<M> {
     pub(crate) tilt: Know<bool>,
 }
 
+/// Every mode in one state of knowledge.
+macro_rules! all_modes {
+    ($know:expr) => {
+        ModalState {
+            units: $know,
+            distance: $know,
+            plane: $know,
+            feed_mode: $know,
+            motion: $know,
+            work_offset: $know,
+            length: $know,
+            no_shift: $know,
+            feed: $know,
+            tool: $know,
+            tilt: $know,
+        }
+    };
+}
+
 impl<M> Default for ModalState<M> {
     fn default() -> ModalState<M> {
-        ModalState {
-            units: Know::Unsaid,
-            distance: Know::Unsaid,
-            plane: Know::Unsaid,
-            feed_mode: Know::Unsaid,
-            motion: Know::Unsaid,
-            work_offset: Know::Unsaid,
-            length: Know::Unsaid,
-            no_shift: Know::Unsaid,
-            feed: Know::Unsaid,
-            tool: Know::Unsaid,
-            tilt: Know::Unsaid,
-        }
+        all_modes!(Know::Unsaid)
     }
 }
 
 impl<M: Copy + PartialEq> ModalState<M> {
     /// Nothing is known, and nothing is taken from power-on.
     pub(crate) fn lost() -> ModalState<M> {
-        ModalState {
-            units: Know::Lost,
-            distance: Know::Lost,
-            plane: Know::Lost,
-            feed_mode: Know::Lost,
-            motion: Know::Lost,
-            work_offset: Know::Lost,
-            length: Know::Lost,
-            no_shift: Know::Lost,
-            feed: Know::Lost,
-            tool: Know::Lost,
-            tilt: Know::Lost,
-        }
+        all_modes!(Know::Lost)
     }
 
     /// A subprogram begins: its modes are its caller's.

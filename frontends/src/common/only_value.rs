@@ -27,9 +27,10 @@ impl<T: Copy + PartialEq> OnlyValue<T> {
         self.relied.take()
     }
 
-    /// Blocks may run under a value that the text does not say.
-    pub(crate) fn open(&mut self) {
-        self.mixed = true;
+    /// Blocks may run under this value, or under one that the text does not say; gives what [`Self::see`] does.
+    pub(crate) fn see_or_open(&mut self, value: Option<T>) -> Option<Span> {
+        self.mixed |= value.is_none();
+        self.see(value?)
     }
 
     /// The value, if there is only one; `otherwise` if the text has said none.

@@ -13,11 +13,12 @@
 
 mod block_words;
 mod cycles;
-mod facts;
+
 mod frames;
 mod functions;
 mod lower;
 mod message;
+mod mode_queries;
 mod moves;
 mod program;
 mod reader;

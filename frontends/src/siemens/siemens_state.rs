@@ -4,7 +4,7 @@
 //! As in the reader of words: a mode that was never said is taken from power-on if the source is a user's, and stays open
 //! if it is not; after a call, and after a block that a switch may skip, it is lost.
 //!
-//! Not here: how modes are asked for and reported (`facts`), and what repeated blocks and subprograms find
+//! Not here: how modes are asked for and reported (`mode_queries`), and what repeated blocks and subprograms find
 //! (`repeated_blocks`).
 
 use ncc_dialects::Thread;

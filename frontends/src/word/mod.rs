@@ -18,13 +18,14 @@ mod calls;
 mod cycles;
 mod data;
 mod doubts;
-mod facts;
+
 mod fast_lower;
 mod frames;
 mod framing;
 mod functions;
 mod lower;
 mod macros;
+mod mode_queries;
 mod moves;
 mod number;
 mod o_code;

@@ -248,14 +248,9 @@ impl Lower {
         at: Span,
         out: &mut Batch,
     ) -> Option<Units> {
-        if let Fact::Known(units) = units {
-            return Some(units);
-        }
         // Open here, but if the whole text says only one kind of units, it is that one.
-        match self.only_units.rely(None, at) {
-            Some(units) => Some(units),
-            None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
-        }
+        let units = units.known().or_else(|| self.only_units.rely(None, at));
+        units.or_else(|| self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out))
     }
 
     /// The program says units.

@@ -4,7 +4,7 @@
 //! A mode that the text never says is taken from power-on if the source is a user's, and stays open if it is not. After a
 //! call, and after a block that a switch may skip, a mode is lost: its value is only known when the program runs.
 //!
-//! Not here: how modes are asked for and reported (`facts`), and what the whole text says (`text_facts`).
+//! Not here: how modes are asked for and reported (`mode_queries`), and what the whole text says (`text_facts`).
 
 use ncc_dialects::CodeRow;
 use ncc_ir::canon::{Fact, Motion, Plane, ReturnLevel};

@@ -497,28 +497,14 @@ impl Lower {
 
     /// What is called runs under what the text has not said: as the program begins, where that is taken for granted.
     fn as_it_begins(&mut self, out: &mut Batch) {
-        let begins = &self.settings.dialect.power_on;
-        let relied = [
-            match &begins.units {
-                _ if !self.state.modes.units.unsaid() => None,
-                Some(units) if self.assume => self.only_units.see(units.value.into()),
-                _ => {
-                    self.only_units.open();
-                    None
-                }
-            }
-            .map(|at| (ModeName::Units, at)),
-            match &begins.plane {
-                _ if !self.state.modes.plane.unsaid() => None,
-                Some(plane) if self.assume => self.only_plane.see(plane.value.into()),
-                _ => {
-                    self.only_plane.open();
-                    None
-                }
-            }
-            .map(|at| (ModeName::Plane, at)),
-        ];
-        for (fact, at) in relied.into_iter().flatten() {
+        let power_on = &self.settings.dialect.power_on;
+        let (units, plane) = (self.state.modes.units, self.state.modes.plane);
+        let unit = power_on.units.as_ref().map(|row| row.value.into()).filter(|_| self.assume);
+        let own = power_on.plane.as_ref().map(|row| row.value.into()).filter(|_| self.assume);
+        let units = units.unsaid().then(|| self.only_units.see_or_open(unit)).flatten();
+        let plane = plane.unsaid().then(|| self.only_plane.see_or_open(own)).flatten();
+        let relied = [(ModeName::Units, units), (ModeName::Plane, plane)];
+        for (fact, at) in relied.into_iter().filter_map(|(fact, at)| Some((fact, at?))) {
             out.report(Fault::EntryFactNeeded { fact }, at);
         }
     }

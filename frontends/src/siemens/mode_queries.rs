@@ -51,24 +51,14 @@ impl Lower {
 
     /// The plane where it must be known: in a subprogram, the only one of the text.
     pub(super) fn known_plane(&mut self, at: Span, out: &mut Batch) -> Option<Plane> {
-        match self.plane(at, out) {
-            Fact::Known(plane) => Some(plane),
-            Fact::Entry => match self.only_plane.rely(None, at) {
-                Some(plane) => Some(plane),
-                None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Plane }, at, out),
-            },
-        }
+        let plane = self.plane(at, out).known().or_else(|| self.only_plane.rely(None, at));
+        plane.or_else(|| self.refuse(Fault::EntryFactNeeded { fact: ModeName::Plane }, at, out))
     }
 
     /// The units where they must be known: in a subprogram, the only ones of the text.
     pub(super) fn known_units(&mut self, at: Span, out: &mut Batch) -> Option<Units> {
-        match self.units(at, out) {
-            Fact::Known(units) => Some(units),
-            Fact::Entry => match self.only_units.rely(None, at) {
-                Some(units) => Some(units),
-                None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
-            },
-        }
+        let units = self.units(at, out).known().or_else(|| self.only_units.rely(None, at));
+        units.or_else(|| self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out))
     }
 
     /// The unit of a feed. Under G70 and G71 it is that of the machine's basic system.
