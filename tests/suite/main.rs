@@ -6,6 +6,7 @@
 mod anywhere;
 mod beside;
 mod check;
+mod circles;
 mod computing;
 mod computing_pages;
 mod controls;
