@@ -72,7 +72,7 @@ pub(crate) fn tenths(digits: Digits) -> Option<u32> {
 
 impl Word {
     /// The whole number of a word that has one, written without a point.
-    pub(crate) fn to_whole(&self) -> Option<u32> {
+    pub(crate) fn to_whole(self) -> Option<u32> {
         match self.value {
             Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
             Value::Number(_) | Value::Computed(_) | Value::None => None,
