@@ -23,7 +23,7 @@ pub(crate) struct Corners {
 
 impl Corners {
     /// As the options of a dialect have it; `None` if nothing is stated.
-    pub(crate) fn of(settings: &Settings) -> Option<Corners> {
+    pub(crate) fn from_settings(settings: &Settings) -> Option<Corners> {
         let within = settings.length(PATH_TOLERANCE).filter(|within| within.mantissa > 0)?;
         let at_start = settings.dialect.starts_rounding();
         Some(Corners { within, at_start, inch: false })

@@ -9,111 +9,25 @@
 //!
 //! Not here: file access, formatting, printing, anything of back-ends.
 
-mod begins;
+mod batch;
 pub mod canon;
 mod common;
 mod corners;
+mod initial_modes;
 pub mod ir;
+mod outline;
 pub mod pieces;
 pub mod recognise;
 pub mod siemens;
 pub mod word;
 
+pub use batch::{BareNumber, Batch, REFUSED};
 use corners::Corners;
 use ncc_dialects::{Dialect, Family, Settings};
-use ncc_ir::canon::Modes;
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
-use ncc_ir::program::{Op, Procedure, ProgramName, Stmt};
 use ncc_ir::source::Span;
-
-/// What reading a piece of text gave. The vectors are drained by the caller between pieces and
-/// their memory is used again.
-#[derive(Debug, Default)]
-pub struct Batch {
-    /// Further statements of the main procedure.
-    pub stmts: Vec<Stmt>,
-    /// Subprograms that are complete.
-    pub procedures: Vec<Procedure>,
-    /// The program's own name, as far as read.
-    pub name: ProgramName,
-    /// Every fact that the program has relied on so far without having said it, with the value
-    /// taken for granted; grows, and is not to be drained.
-    pub assumed: Modes,
-    /// Set with the first call, label, jump or loop: from there on the program must be kept whole.
-    pub whole: bool,
-    /// What was found.
-    pub diagnostics: Vec<Diagnostic>,
-    /// Numbers without a point that count increments; only after [`Reader::watch`].
-    pub bare: Vec<BareNumber>,
-    /// Whether a length has been met that is written with a point and is not zero; only after
-    /// [`Reader::watch`], and of dialects where the point matters.
-    pub pointed: bool,
-    /// Whether the text has been found to be a subprogram without its main program.
-    pub subprogram: bool,
-    /// What the main procedure says of itself, where that is more than its name: a subprogram that is read alone has
-    /// parameters, which are given their values from elsewhere. Its body is empty.
-    pub heading: Option<Box<Procedure>>,
-}
-
-impl Batch {
-    /// The main procedure with these statements, and what it says of itself.
-    pub fn main(&mut self, body: Vec<Stmt>) -> Procedure {
-        let heading = self.heading.take().map(|heading| *heading).unwrap_or_default();
-        Procedure { body, ..heading }
-    }
-
-    /// Where further statements go: into the subprogram that is being read, else into the main procedure.
-    #[inline]
-    pub(crate) fn body<'o>(&'o mut self, sub: &'o mut Option<Procedure>) -> &'o mut Vec<Stmt> {
-        match sub {
-            Some(procedure) => &mut procedure.body,
-            None => &mut self.stmts,
-        }
-    }
-}
-
-/// A number that stands without a decimal point where the dialect's rule makes that another value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BareNumber {
-    /// Its word.
-    pub span: Span,
-    /// The value by the dialect's rule.
-    pub read: Num,
-    /// What the same digits are with a point after them.
-    pub with_point: Num,
-    /// Whether it is a feed.
-    pub feed: bool,
-}
-
-/// A piece of a text, as far as it says where a program can go.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Flow {
-    /// A program or subprogram begins: numbers and labels are its own.
-    Program,
-    /// A block.
-    Block {
-        /// Its number or label, as jumps name it: `N40`, `AGAIN`.
-        label: Option<String>,
-        /// All of it.
-        at: Span,
-        /// Whether it says anything that is executed.
-        says: bool,
-        /// Whether it is part of a structure (a loop, an alternative) that may lead to it by itself.
-        frames: bool,
-    },
-    /// A jump, in the block that was told last.
-    Jump {
-        /// Where to; `None` is computed.
-        to: Option<String>,
-        /// Its place.
-        at: Span,
-        /// Whether it is always made.
-        always: bool,
-        /// Whether the control goes on where there is no such block.
-        quiet: bool,
-    },
-}
+pub use outline::{Flow, Word};
 
 /// Tells the blocks and jumps of a whole text, translated or not. Texts of families without jumps have
 /// none.
@@ -123,22 +37,6 @@ pub fn flow(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
         Family::Sinumerik => siemens::text::jumps::jumps(text, found),
         Family::Canon | Family::Ir => {}
     }
-}
-
-/// A word of a text, as its dictionary may have a row for it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Word<'t> {
-    /// A letter with a number, in tenths where it has them: `G43`, `G5.1`, `X10.`.
-    Numbered {
-        /// The letter, a capital.
-        letter: u8,
-        /// Ten times the number, if that is a whole number; `None` for what no code has.
-        tenths: Option<u32>,
-    },
-    /// A letter with another value, or none.
-    Letter(u8),
-    /// A word of several letters, as written.
-    Name(&'t [u8]),
 }
 
 /// Tells the words of one line by the dialect's own lexer, comments left out, whether they make sense or
@@ -154,31 +52,6 @@ pub fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
 /// A literal for people: `0.1 mm`.
 pub fn spell(num: Num) -> String {
     common::number::spell(num)
-}
-
-/// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after
-/// [`Reader::watch`].
-pub const REFUSED: &str = "";
-
-/// A statement for a block that was refused.
-pub(crate) fn refused(span: Span) -> Stmt {
-    Stmt::new(span, Op::NoEffect(REFUSED.into()))
-}
-
-impl Batch {
-    /// Reports something at a place.
-    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
-        self.diagnostics.push(Diagnostic::new(fault, span));
-    }
-
-    /// Whether the last thing reported is an error of a word of this block.
-    pub(crate) fn refused_within(&self, block: Span) -> bool {
-        self.diagnostics.last().is_some_and(|last| {
-            last.fault.gravity() == ncc_ir::diag::Gravity::Error
-                && block.start <= last.span.start
-                && last.span.end <= block.end
-        })
-    }
 }
 
 /// The reader of one text, of whichever family its dialect is.
@@ -204,7 +77,7 @@ impl Reader {
     /// and never says is taken from the dictionary, recorded in [`Batch::assumed`] and reported
     /// once; without (text that ncc wrote), it stays open.
     pub fn new(settings: Settings, assume: bool) -> Reader {
-        let corners = Corners::of(&settings).filter(|_| assume);
+        let corners = Corners::from_settings(&settings).filter(|_| assume);
         let family = match settings.dialect.family {
             Family::Word => OfFamily::Word(Box::new(word::Reader::new(settings, assume))),
             Family::Canon => OfFamily::Canon(Box::new(canon::Reader::new(settings, assume))),

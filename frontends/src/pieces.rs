@@ -7,65 +7,8 @@
 
 use ncc_dialects::{Family, Settings};
 
+pub use crate::outline::{LineIs, Piece, PieceKind};
 use crate::{siemens, word};
-
-/// What a piece is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PieceKind {
-    /// The letter that begins a word of the block: `X` of `X10.`, `N` of `N40`.
-    Address,
-    /// A letter anywhere else: in an expression, or an argument.
-    Letter,
-    /// An unsigned number.
-    Number,
-    /// A word of the language: `IF`, `GOTO`, `AND`, `SIN`.
-    Key,
-    /// Any other word of several letters.
-    Name,
-    /// An operator, a bracket, a comma; one or two characters.
-    Sign,
-    /// The mark of a block that can be skipped, with its level if that is part of the mark.
-    Skip,
-    /// What is to stay byte for byte: a string, a name in angle brackets, output of text.
-    Kept,
-    /// A comment with the signs that open and close it.
-    Comment,
-    /// A sign that ends a block before the line does.
-    End,
-}
-
-/// A piece of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Piece {
-    /// What it is.
-    pub kind: PieceKind,
-    /// Its first byte in the line.
-    pub start: usize,
-    /// The byte after it.
-    pub end: usize,
-    /// Open brackets around it.
-    pub depth: u32,
-}
-
-impl Piece {
-    /// Its text.
-    pub fn text<'l>(&self, line: &'l [u8]) -> &'l [u8] {
-        line.get(self.start..self.end).unwrap_or_default()
-    }
-}
-
-/// What a line is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LineIs {
-    /// One or more blocks, or nothing: it is all in the pieces.
-    Blocks,
-    /// It frames the program or a unit: `%`, `%_N_NAME_MPF`. To be kept.
-    Frame,
-    /// It does not belong to the program: after its closing mark, or in a unit that is none.
-    Outside,
-    /// The lexer cannot take it apart.
-    Unread,
-}
 
 /// Takes the lines of one text apart.
 #[derive(Clone, Debug)]

@@ -84,36 +84,38 @@ fn crates_know_only_those_below_them() {
     failures.finish();
 }
 
+/// The paths of a `use` tree, each with `before` in front; other code ends it.
+pub(crate) fn leaves(tree: &str, before: &str, found: &mut BTreeSet<String>) {
+    let path_end = tree.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == ':'));
+    let (path, rest) = tree.split_at(path_end.unwrap_or(tree.len()));
+    let path = format!("{before}{path}");
+    let Some(inner) = rest.strip_prefix('{') else {
+        found.insert(path.trim_end_matches(':').to_owned());
+        return;
+    };
+    let (mut open, mut from) = (0, 0);
+    for (at, c) in inner.char_indices() {
+        match c {
+            '{' => open += 1,
+            ',' | '}' if open == 0 => {
+                let leaf = inner[from..at].trim();
+                if !leaf.is_empty() {
+                    leaves(leaf, &path, found);
+                }
+                from = at + 1;
+                if c == '}' {
+                    return;
+                }
+            }
+            '}' => open -= 1,
+            _ => {}
+        }
+    }
+}
+
 /// Paths from a crate's root that code of a module names, those of `use` trees one by one. `depth` is how many
 /// times `super` leads from the module to the root.
 fn from_root(code: &str, depth: usize) -> BTreeSet<String> {
-    fn leaves(tree: &str, before: &str, found: &mut BTreeSet<String>) {
-        let path_end = tree.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == ':'));
-        let (path, rest) = tree.split_at(path_end.unwrap_or(tree.len()));
-        let path = format!("{before}{path}");
-        let Some(inner) = rest.strip_prefix('{') else {
-            found.insert(path.trim_end_matches(':').to_owned());
-            return;
-        };
-        let (mut open, mut from) = (0, 0);
-        for (at, c) in inner.char_indices() {
-            match c {
-                '{' => open += 1,
-                ',' | '}' if open == 0 => {
-                    let leaf = inner[from..at].trim();
-                    if !leaf.is_empty() {
-                        leaves(leaf, &path, found);
-                    }
-                    from = at + 1;
-                    if c == '}' {
-                        return;
-                    }
-                }
-                '}' => open -= 1,
-                _ => {}
-            }
-        }
-    }
     let mut found = BTreeSet::new();
     let supers = "super::".repeat(depth);
     for root in ["crate::", supers.as_str()] {

@@ -7,8 +7,9 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Move, Op, PathControl, Point, Text};
 
+use super::call::{Call, Placed};
+use super::canon_state::{CanonState, Selected};
 use super::lexer::Argument;
-use super::{Call, Placed, Selected, State};
 
 /// A fault and its place in the line.
 type Refused = (Fault, usize, usize);
@@ -110,7 +111,7 @@ impl Arguments<'_> {
 }
 
 /// The statement of a call.
-pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) -> Result<Op, Refused> {
+pub(super) fn lower(call: Call, text: &str, state: &mut CanonState, skipped: bool) -> Result<Op, Refused> {
     let name = &text[call.name.l..call.name.r];
     let mut args = Arguments { rest: call.arguments.into_iter(), text, call: name, close: call.close };
     let length = state.length();
@@ -227,7 +228,7 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
 }
 
 /// `ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point, a, b, c)`
-fn arc(args: &mut Arguments<'_>, length: Unit, state: &State) -> Result<Arc, Refused> {
+fn arc(args: &mut Arguments<'_>, length: Unit, state: &CanonState) -> Result<Arc, Refused> {
     // After a change of plane that may be skipped the axes cannot be told.
     let plane =
         state.plane.ok_or_else(|| (Fault::EntryFactNeeded { fact: ModeName::Plane }, 0, args.close + 1))?;
@@ -258,7 +259,7 @@ fn arc(args: &mut Arguments<'_>, length: Unit, state: &State) -> Result<Arc, Ref
     // An axis outside of the plane that ends where it stands makes no helix.
     for axis in Axis::ALL {
         let in_plane = axis == first || axis == second;
-        if !in_plane && to.get(axis).is_some() && state.stands_at(axis, to.get(axis)) {
+        if !in_plane && to.get(axis).is_some() && state.is_at(axis, to.get(axis)) {
             to.axes[axis as usize] = None;
         }
     }

@@ -32,6 +32,8 @@
 //! Lines are read one by one, straight moves by a recogniser of their own. After a fault the next
 //! line is read. Not here: whether the stream makes sense.
 
+mod call;
+mod canon_state;
 mod lexer;
 mod lower;
 mod straight;
@@ -39,14 +41,16 @@ mod straight;
 use lalrpop_util::ParseError;
 use logos::Logos;
 use ncc_dialects::Settings;
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, SpindleMode, Units};
+use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, SpindleMode, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
+use ncc_ir::expr::num::Num;
+use ncc_ir::program::{Move, Op, Stmt};
 use ncc_ir::source::Span;
 
-use self::lexer::{Argument, LexFault, Token};
-use crate::Batch;
+use self::call::Placed;
+use self::canon_state::{CanonState, Selected};
+use self::lexer::{LexFault, Token};
+use crate::batch::Batch;
 
 lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused, private_interfaces)]
@@ -57,192 +61,12 @@ lalrpop_util::lalrpop_mod!(
 /// Most words of a line.
 const WORDS: usize = 64;
 
-/// Something with its place in the line.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Placed<T> {
-    /// What.
-    pub(crate) is: T,
-    /// First byte.
-    pub(crate) l: usize,
-    /// One past the last.
-    pub(crate) r: usize,
-}
-
-/// A call as written.
-#[derive(Debug)]
-pub(crate) struct Call {
-    /// The skip mark, with its level if that is written.
-    pub(crate) skip: Option<Placed<Option<Num>>>,
-    /// Place of the name.
-    pub(crate) name: Placed<()>,
-    /// What stands between the brackets.
-    pub(crate) arguments: Vec<Placed<Argument>>,
-    /// Place of the closing bracket.
-    pub(crate) close: usize,
-}
-
-/// The selected tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Selected {
-    None,
-    Tool(i64),
-    /// Its selection may have been skipped.
-    Unsure,
-}
-
-/// What the text has said so far.
-#[derive(Debug)]
-struct State {
-    units: Option<Units>,
-    plane: Option<Plane>,
-    feed_mode: Option<FeedMode>,
-    selected: Selected,
-    /// Where the axes stand, as far as their words say.
-    stands: [Option<Num>; AXES],
-}
-
-impl State {
-    /// The unit of lengths.
-    #[inline]
-    fn length(&self) -> Unit {
-        match self.units {
-            Some(Units::Mm) => Unit::Mm,
-            Some(Units::Inch) => Unit::Inch,
-            None => Unit::Entry,
-        }
-    }
-
-    fn select(&mut self, tool: i64, skipped: bool) {
-        self.selected = if skipped { Selected::Unsure } else { Selected::Tool(tool) };
-    }
-
-    fn check_tool(&self, tool: i64) -> Result<(), Fault> {
-        match self.selected {
-            Selected::None => Err(Fault::NoToolSelected),
-            Selected::Tool(selected) if selected != tool => Err(Fault::CodesExclude {
-                first: format!("SELECT_TOOL({selected})").into(),
-                second: format!("CHANGE_TOOL({tool})").into(),
-            }),
-            Selected::Tool(_) | Selected::Unsure => Ok(()),
-        }
-    }
-
-    /// Whether an axis is known to stand where a word sends it.
-    fn stands_at(&self, axis: Axis, to: Option<&Coord>) -> bool {
-        let to = to.and_then(|coord| coord.value.literal());
-        let same = |a: Num, b: Num| {
-            (a.trimmed().mantissa, a.trimmed().scale) == (b.trimmed().mantissa, b.trimmed().scale)
-        };
-        to.zip(self.stands[axis as usize]).is_some_and(|(a, b)| a.unit == b.unit && same(a, b))
-    }
-
-    /// Takes note of what a statement leaves in force.
-    fn after(&mut self, op: &Op, skipped: bool) {
-        fn set<T: PartialEq>(fact: &mut Option<T>, value: T, skipped: bool) {
-            let value = Some(value);
-            *fact = if skipped && *fact != value { None } else { value };
-        }
-        match op {
-            Op::StraightTraverse(Move { to, .. }) | Op::StraightFeed(Move { to, .. }) => self.go(to, skipped),
-            Op::ArcFeed(arc) => self.go(&arc.to, skipped),
-            Op::UseLengthUnits(units) => {
-                set(&mut self.units, *units, skipped);
-                self.stands = [None; AXES];
-            }
-            Op::SetFeedMode(mode) => set(&mut self.feed_mode, *mode, skipped),
-            Op::SelectPlane(plane) => set(&mut self.plane, *plane, skipped),
-            Op::SetOriginOffsets(_)
-            | Op::ClearFrame(_)
-            | Op::SetFrame(_)
-            | Op::SetSlot(_)
-            | Op::SetPosition(_)
-            | Op::UseOriginShift(_)
-            | Op::UseMachineCoordinates { .. }
-            | Op::Probe(_)
-            | Op::Detour(_)
-            | Op::GoToReference(_)
-            | Op::SetData(_)
-            | Op::UseToolLength(_)
-            | Op::UseToolEdge { .. }
-            | Op::ArcForm(_)
-            | Op::SynchronisedFeed(_)
-            | Op::SetPole(_)
-            | Op::Polar(_)
-            | Op::UseToolLengthOffset(_) => {
-                self.stands = [None; AXES];
-            }
-            Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::SetDistanceMode(_)
-            | Op::SetReturnLevel(_)
-            | Op::StartCutterRadiusCompensation { .. }
-            | Op::StopCutterRadiusCompensation
-            | Op::UseToolCentrePoint(_)
-            | Op::OrientToolAxis(_)
-            | Op::SetFeedRate(_)
-            | Op::SetSpindleSpeed(_)
-            | Op::SelectTool(_)
-            | Op::ChangeTool
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::SetMotionControlMode(_)
-            | Op::ExactStop
-            | Op::TurnRotaryAxes(_)
-            | Op::Corner { .. }
-            | Op::Advise(_)
-            | Op::SetSpindleMode(_)
-            | Op::LimitSpindleSpeed(_)
-            | Op::OrientSpindle(_)
-            | Op::SelectToolByName(_)
-            | Op::MachineFunction(_)
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
-            | Op::Position(_)
-            | Op::StartCycle(_)
-            | Op::Hole(_)
-            | Op::Pattern(_)
-            | Op::EndCycle
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
-            | Op::ProgramEnd
-            | Op::BeginAgain
-            | Op::Message(_)
-            | Op::MessageOf(_)
-            | Op::Output(_)
-            | Op::Alarm(_)
-            | Op::Declare(_)
-            | Op::Leave
-            | Op::NextTurn
-            | Op::Call(_)
-            | Op::Return
-            | Op::RepeatBlocks(_)
-            | Op::Assign(..)
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_) => {}
-        }
-    }
-
-    #[inline]
-    fn go(&mut self, to: &Point, skipped: bool) {
-        for (stands, word) in self.stands.iter_mut().zip(&to.axes) {
-            if let Some(coord) = word {
-                *stands = coord.value.literal().filter(|_| !skipped);
-            }
-        }
-    }
-}
-
 /// Reads the canonical stream.
 pub struct Reader {
     settings: Settings,
     /// Whether facts that the text relies on are taken from the dictionary.
     assume: bool,
-    state: State,
+    state: CanonState,
     /// Facts that the text has said or that were taken for granted; for a user's text only.
     said: Modes,
     moved: bool,
@@ -260,12 +84,12 @@ impl Reader {
         Reader {
             settings,
             assume,
-            state: State {
+            state: CanonState {
                 units: Some(Units::Mm),
                 plane: Some(Plane::Xy),
                 feed_mode: Some(FeedMode::PerMinute),
                 selected: Selected::None,
-                stands: [None; AXES],
+                positions: [None; AXES],
             },
             said: Modes::default(),
             moved: !assume,
@@ -281,7 +105,7 @@ impl Reader {
         let mut rest = text;
         let mut at = base;
         while !rest.is_empty() {
-            let length = if self.moved && !self.ended && self.fast(rest, at, out) {
+            let length = if self.moved && !self.ended && self.fast_lower(rest, at, out) {
                 self.end.wrapping_sub(at) as usize
             } else {
                 let newline = rest.iter().position(|&b| b == b'\n');
@@ -311,7 +135,7 @@ impl Reader {
     /// Reads a straight move at the start of the text, if there is one that the recogniser takes;
     /// `end` is then the end of its line.
     #[inline]
-    fn fast(&mut self, text: &[u8], at: u32, out: &mut Batch) -> bool {
+    fn fast_lower(&mut self, text: &[u8], at: u32, out: &mut Batch) -> bool {
         let Some(found) = straight::straight(text, self.state.length()) else { return false };
         self.state.go(&found.to, false);
         let m = Move { to: found.to, said: false };

@@ -46,6 +46,13 @@ impl<T: Copy> Know<T> {
 }
 
 impl<T> Know<T> {
+    /// A refused block may have said it: it is not reported as missing.
+    pub(crate) fn forgive(&mut self) {
+        if matches!(self, Know::Unsaid) {
+            *self = Know::Lost;
+        }
+    }
+
     /// What is known where control may come from elsewhere.
     pub(crate) fn lost(self) -> Know<T> {
         match self {

@@ -2,16 +2,18 @@
 //! facts that a program sets; and quoted texts of the two text forms.
 //!
 //! ```text
-//! N10 G1 X10.5 F200      plain::read    four words with their digits and spans
-//! X10.5 Y3.              fast::line     the statement of a plain move, without words
+//! N10 G1 X10.5 F200      fast_parse::read    four words with their digits and spans
+//! X10.5 Y3.              fast_lower::line     the statement of a plain move, without words
 //! ```
 //!
 //! Not here: what a word means, and what one reader alone needs.
 
-pub(crate) mod fast;
+pub(crate) mod fast_lower;
+pub(crate) mod fast_parse;
 pub(crate) mod known;
+pub(crate) mod modal_state;
 pub(crate) mod number;
-pub(crate) mod plain;
+pub(crate) mod only_value;
 pub(crate) mod quoted;
 pub(crate) mod saved;
 pub(crate) mod setting;

@@ -19,3 +19,16 @@ pub(crate) fn first_char(bytes: &[u8]) -> (char, usize) {
     }
     (bytes.first().map_or(' ', |&b| char::from(b)), 1)
 }
+
+/// Where the rest of a comment begins that begins with a word, blanks and the size of letters apart.
+pub(crate) fn begins(text: &[u8], word: impl AsRef<[u8]>) -> Option<usize> {
+    let mut at = 0;
+    for byte in word.as_ref() {
+        at += text[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
+        if !text.get(at)?.eq_ignore_ascii_case(byte) {
+            return None;
+        }
+        at += 1;
+    }
+    Some(at)
+}

@@ -32,7 +32,7 @@ impl Digits {
     }
 
     /// As a whole number without a point.
-    pub(crate) fn whole(self) -> Option<u32> {
+    pub(crate) fn to_whole(self) -> Option<u32> {
         u32::try_from(self.mantissa).ok().filter(|_| !self.point)
     }
 }
@@ -68,4 +68,14 @@ pub(crate) fn tenths(digits: Digits) -> Option<u32> {
         _ => None,
     }
     .and_then(|tenths| u32::try_from(tenths).ok())
+}
+
+impl Word {
+    /// The whole number of a word that has one, written without a point.
+    pub(crate) fn to_whole(self) -> Option<u32> {
+        match self.value {
+            Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
+            Value::Number(_) | Value::Computed(_) | Value::None => None,
+        }
+    }
 }

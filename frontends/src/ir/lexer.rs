@@ -58,13 +58,13 @@ pub(crate) enum Token {
     #[token(">=")]
     GreaterOrEqual,
 
-    #[regex(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)(mm|in|deg|s|u)?", number)]
+    #[regex(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)(mm|in|deg|s|u)?", |lexer| number(lexer.slice()))]
     Number(Literal),
-    #[regex(r#""([^"\\\n]|\\[^\n])*""#, quoted)]
+    #[regex(r#""([^"\\\n]|\\[^\n])*""#, |lexer| quoted(lexer.slice()))]
     Text(Text),
-    #[regex(r"N[0-9]+", block_number)]
+    #[regex(r"N[0-9]+", |lexer| block_number(lexer.slice()))]
     BlockNumber(u32),
-    #[regex(r#"(local|common|retentive|system):([A-Za-z0-9_.$]+|"([^"\\\n]|\\[^\n])*")"#, variable)]
+    #[regex(r#"(local|common|retentive|system):([A-Za-z0-9_.$]+|"([^"\\\n]|\\[^\n])*")"#, |lexer| variable(lexer.slice()))]
     Var(Var),
 
     #[token("X")]

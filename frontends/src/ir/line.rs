@@ -87,7 +87,7 @@ pub(crate) fn number(n: Literal, negative: bool, l: usize, r: usize) -> Parsed<N
 }
 
 /// A whole number without unit.
-pub(crate) fn whole<T: TryFrom<u64>>(n: Literal, l: usize, r: usize) -> Parsed<T> {
+pub(crate) fn whole_number<T: TryFrom<u64>>(n: Literal, l: usize, r: usize) -> Parsed<T> {
     match n.plain().and_then(|n| T::try_from(n).ok()) {
         Some(n) => Ok(n),
         None => refuse(l, r, Fault::OutOfRange { word: "whole number".into() }),
@@ -287,7 +287,7 @@ pub(crate) fn rotary_ways(
     l: usize,
     r: usize,
 ) -> Parsed<Op> {
-    let mut ways = [None; 3];
+    let mut directions = [None; 3];
     for (axis, way) in std::iter::once(first).chain(rest) {
         let place = match axis {
             Axis::A => 0,
@@ -298,11 +298,11 @@ pub(crate) fn rotary_ways(
                 return refuse(l, r, Fault::Syntax { found, expected: "a rotary axis".into() });
             }
         };
-        if ways[place].replace(way).is_some() {
+        if directions[place].replace(way).is_some() {
             return refuse(l, r, Fault::WordTwice { letter: axis.letter() as char });
         }
     }
-    Ok(Op::TurnRotaryAxes(ways))
+    Ok(Op::TurnRotaryAxes(directions))
 }
 
 /// A move that can be said by its angle.

@@ -44,7 +44,7 @@ use ncc_ir::source::Span;
 use self::lexer::Token;
 use self::line::{Line, Refusal};
 use self::word::LexFault;
-use crate::Batch;
+use crate::batch::Batch;
 
 lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused, private_interfaces)]

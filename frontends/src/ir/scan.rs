@@ -1,18 +1,15 @@
 //! Words of the text form that are more than themselves: numbers, texts, variables.
 
-use logos::Lexer;
 use ncc_ir::expr::Var;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::expr::system::System;
 use ncc_ir::program::Text;
 
-use super::lexer::Token;
 use super::word::{LexFault, Literal};
 use crate::common::quoted::unquote;
 
 /// A number with its unit.
-pub(super) fn number(lexer: &mut Lexer<'_, Token>) -> Result<Literal, LexFault> {
-    let text = lexer.slice();
+pub(super) fn number(text: &str) -> Result<Literal, LexFault> {
     let digits_end = text.find(|c: char| c.is_ascii_lowercase()).unwrap_or(text.len());
     let unit = match &text[digits_end..] {
         "mm" => Unit::Mm,
@@ -42,18 +39,18 @@ pub(super) fn number(lexer: &mut Lexer<'_, Token>) -> Result<Literal, LexFault> 
 }
 
 /// A text.
-pub(super) fn quoted(lexer: &mut Lexer<'_, Token>) -> Result<Text, LexFault> {
-    unquote(lexer.slice()).ok_or(LexFault::Escape)
+pub(super) fn quoted(text: &str) -> Result<Text, LexFault> {
+    unquote(text).ok_or(LexFault::Escape)
 }
 
 /// The number of a block.
-pub(super) fn block_number(lexer: &mut Lexer<'_, Token>) -> Result<u32, LexFault> {
-    lexer.slice()[1..].parse().map_err(|_| LexFault::Number)
+pub(super) fn block_number(text: &str) -> Result<u32, LexFault> {
+    text[1..].parse().map_err(|_| LexFault::Number)
 }
 
 /// A variable by its kind and name.
-pub(super) fn variable(lexer: &mut Lexer<'_, Token>) -> Result<Var, LexFault> {
-    let (kind, name) = lexer.slice().split_once(':').unwrap_or_default();
+pub(super) fn variable(text: &str) -> Result<Var, LexFault> {
+    let (kind, name) = text.split_once(':').unwrap_or_default();
     let name = match name.starts_with('"') {
         true => unquote(name).ok_or(LexFault::Escape)?,
         false => Box::from(name),

@@ -65,7 +65,7 @@ pub(crate) enum Valued {
 
 impl Valued {
     /// The function of a number.
-    pub(super) fn of(self, value: Expr) -> Op {
+    pub(super) fn with_argument(self, value: Expr) -> Op {
         match self {
             Valued::SetFeedRate => Op::SetFeedRate(value),
             Valued::SetSpindleSpeed => Op::SetSpindleSpeed(value),
@@ -95,7 +95,7 @@ pub(crate) enum Worded {
 
 impl Worded {
     /// The function of a text.
-    pub(super) fn of(self, text: Text) -> Op {
+    pub(super) fn with_argument(self, text: Text) -> Op {
         match self {
             Worded::Comment => Op::Comment(text),
             Worded::NoEffect => Op::NoEffect(text),

@@ -416,7 +416,7 @@ impl Course {
             return;
         }
         self.lines += 1;
-        match Line::of(block) {
+        match Line::from_block(block) {
             Line::Block => self.blocks += 1,
             Line::Sentence => {
                 self.sentences += 1;
@@ -440,7 +440,7 @@ pub(super) enum Line {
 
 impl Line {
     /// Of a line that is more than a comment.
-    pub(super) fn of(block: &Block) -> Line {
+    pub(super) fn from_block(block: &Block) -> Line {
         let foreign = block.code.iter().any(|b| FOREIGN.contains(b));
         if foreign && !block.names.is_empty() && !block.code.contains(&b'#') {
             return Line::Sentence;

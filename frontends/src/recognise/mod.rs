@@ -67,7 +67,7 @@ pub fn recognise(text: &[u8]) -> Option<Finding> {
         text = &text[..text.iter().rposition(|b| *b == b'\n').unwrap_or(text.len())];
     }
     let skipped = if text.starts_with(MARK) { MARK.len() } else { 0 };
-    let weighed = Weighed::of(&text[skipped..], skipped);
+    let weighed = Weighed::weigh(&text[skipped..], skipped);
     weighed.judge()
 }
 
@@ -78,7 +78,7 @@ struct Weighed {
 }
 
 impl Weighed {
-    fn of(text: &[u8], base: usize) -> Weighed {
+    fn weigh(text: &[u8], base: usize) -> Weighed {
         let mut shown: Vec<Option<Range<usize>>> = vec![None; SIGNS.len()];
         let shapes = signs::shapes();
         let mut course = Course::default();
@@ -87,7 +87,7 @@ impl Weighed {
         for line in text.split_inclusive(|b| *b == b'\n') {
             block.read(line, at);
             at += line.len();
-            let sentence = Line::of(&block) == Line::Sentence;
+            let sentence = Line::from_block(&block) == Line::Sentence;
             for (found, shape) in shown.iter_mut().zip(shapes) {
                 // The words of a sentence are no codes, but it may name a control.
                 let weighed = !sentence || !matches!(shape, Shape::Block { .. });

@@ -361,12 +361,12 @@ pub(super) enum Shape {
 /// The patterns of the table, in its order.
 pub(super) fn shapes() -> &'static [Shape] {
     static SHAPES: LazyLock<Vec<Shape>> =
-        LazyLock::new(|| SIGNS.iter().map(|sign| Shape::of(sign.shape)).collect());
+        LazyLock::new(|| SIGNS.iter().map(|sign| Shape::from_pattern(sign.shape)).collect());
     &SHAPES
 }
 
 impl Shape {
-    fn of(pattern: Pattern) -> Shape {
+    fn from_pattern(pattern: Pattern) -> Shape {
         let words = match pattern {
             Pattern::Block(words) => words,
             Pattern::Name(name) => return Shape::Name(name),

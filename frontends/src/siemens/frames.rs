@@ -9,9 +9,9 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Frame, FrameSlot, FrameStep, Op};
 
+use super::block_words::{Code, Given, Words};
 use super::lower::Lower;
-use super::sort::{Code, Given, Words};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 
 impl Lower {

@@ -10,12 +10,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
 
-use super::facts::{InForce, Motion};
+use super::block_words::{Code, Words};
 use super::lower::{Head, Lower};
-use super::program::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
-use super::sort::{Code, Words};
+use super::program::repeated_blocks::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
+use super::siemens_state::{ModalCall, Motion};
 use super::text::unit::Kind;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::unit_of;
@@ -175,8 +175,8 @@ impl Lower {
     /// Sets a mode; also for a block that is refused.
     pub(super) fn set_mode(&mut self, code: Code, out: &mut Batch) {
         if let Some(motion) = motion_of(code.meaning) {
-            self.state.motion = Know::Said(motion);
-            self.again.say(MOTION);
+            self.state.modes.motion = Know::Said(motion);
+            self.repeated_blocks.say(MOTION);
         }
         let NameMeaning::Code(meaning) = code.meaning else {
             return;
@@ -184,18 +184,18 @@ impl Lower {
         match meaning {
             Meaning::UseLengthUnits(units) => self.set_units(code, units, out),
             Meaning::SelectPlane(plane) => {
-                if self.state.plane.value() != Some(plane) {
+                if self.state.modes.plane.value() != Some(plane) {
                     self.state.pole.lose();
                 }
-                self.state.plane = Know::Said(plane);
-                self.again.say(PLANE);
+                self.state.modes.plane = Know::Said(plane);
+                self.repeated_blocks.say(PLANE);
                 if let Some(at) = self.only_plane.see(plane) {
                     out.report(Fault::EntryFactNeeded { fact: ModeName::Plane }, at);
                 }
             }
             Meaning::SetDistanceMode(distance) => {
-                self.state.distance = Know::Said(distance);
-                self.again.say(DISTANCE);
+                self.state.modes.distance = Know::Said(distance);
+                self.repeated_blocks.say(DISTANCE);
             }
             Meaning::SetFeedMode(mode) => {
                 self.count_feed(mode);
@@ -206,7 +206,7 @@ impl Lower {
                 self.state.surface = Know::Said(mode == SpindleMode::Surface);
             }
             Meaning::SetOriginOffsets(offset) => {
-                self.state.work_offset = Know::Said(offset);
+                self.state.modes.work_offset = Know::Said(offset);
                 self.stale = false;
                 self.state.pole.lose();
                 self.stand.forget();
@@ -217,11 +217,11 @@ impl Lower {
 
     fn count_feed(&mut self, mode: FeedMode) {
         // A feed that was said before does not count any more.
-        let other = self.state.feed_mode.value().is_some_and(|before| before != mode);
+        let other = self.state.modes.feed_mode.value().is_some_and(|before| before != mode);
         if other || mode == FeedMode::InverseTime {
-            (self.state.feed, self.state.spent) = (Know::Unsaid, true);
+            (self.state.modes.feed, self.state.spent) = (Know::Unsaid, true);
         }
-        self.state.feed_mode = Know::Said(mode);
+        self.state.modes.feed_mode = Know::Said(mode);
     }
 
     fn set_units(&mut self, code: Code, units: Units, out: &mut Batch) {
@@ -231,17 +231,17 @@ impl Lower {
             (Know::Lost, _) => None,
             _ => Some(Unit::One),
         };
-        let before = counts(self.state.scaled, self.state.units);
+        let before = counts(self.state.scaled, self.state.modes.units);
         let basic = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
-        self.state.units = Know::Said(units);
+        self.state.modes.units = Know::Said(units);
         self.state.scaled = Know::Said(scaled);
-        self.again.say(UNITS);
-        self.again.say(SCALED);
-        let after = counts(self.state.scaled, self.state.units);
+        self.repeated_blocks.say(UNITS);
+        self.repeated_blocks.say(SCALED);
+        let after = counts(self.state.scaled, self.state.modes.units);
         let real = |unit: Option<Unit>| unit.map(|u| if u == Unit::One { basic } else { u });
-        if before.is_some() && real(before) != real(after) && self.state.feed == Know::Said(()) {
+        if before.is_some() && real(before) != real(after) && self.state.modes.feed == Know::Said(()) {
             // What a feed counts that was said before is not known.
-            self.state.feed = Know::Unsaid;
+            self.state.modes.feed = Know::Unsaid;
         }
         let relied = [self.only_units.see(units), self.only_scaled.see(scaled)];
         for at in relied.into_iter().flatten() {
@@ -250,7 +250,7 @@ impl Lower {
     }
 
     fn setting(&mut self, code: &Code, meaning: Meaning, has_speed: bool, out: &mut Batch) {
-        if let (Meaning::SelectPlane(plane), InForce::Active(cycle)) = (meaning, &self.state.cycle)
+        if let (Meaning::SelectPlane(plane), ModalCall::Active(cycle)) = (meaning, &self.state.cycle)
             && cycle.plane.known() != Some(plane)
         {
             let name = "change of the plane while a cycle is in force";
@@ -315,10 +315,10 @@ impl Lower {
     }
 
     fn feed_and_speed(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
-        let by_time = self.state.feed_mode.value() == Some(FeedMode::InverseTime);
+        let by_time = self.state.modes.feed_mode.value() == Some(FeedMode::InverseTime);
         if by_time {
             // A time counts for the move of its own block.
-            self.state.feed = Know::Unsaid;
+            self.state.modes.feed = Know::Unsaid;
         }
         if let Some(given) = words.take(self.role_letter(Role::Feed)) {
             self.rely_on_feed_mode(given.span, out);
@@ -327,19 +327,19 @@ impl Lower {
                     num.unit = Unit::One;
                 }
                 if !feed.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
-                    (self.state.feed, self.state.spent) = (Know::Said(()), false);
+                    (self.state.modes.feed, self.state.spent) = (Know::Said(()), false);
                 }
                 match &self.state.cycle {
-                    InForce::Active(cycle) => self.recall |= cycle.feed.is_some(),
-                    InForce::Inherited { own_feed: true } | InForce::Lost { own_feed: true } => {
+                    ModalCall::Active(cycle) => self.recall |= cycle.feed.is_some(),
+                    ModalCall::Inherited { own_feed: true } | ModalCall::Lost { own_feed: true } => {
                         let name = "feed under the cycle of a caller that may have its own";
                         self.not_supported(&src.text(given.span), name, given.span, out);
                     }
-                    InForce::None
-                    | InForce::Refused
-                    | InForce::Subprogram(_)
-                    | InForce::Inherited { .. }
-                    | InForce::Lost { .. } => {}
+                    ModalCall::None
+                    | ModalCall::Refused
+                    | ModalCall::Subprogram(_)
+                    | ModalCall::Inherited { .. }
+                    | ModalCall::Lost { .. } => {}
                 }
                 self.push(given.span, Op::SetFeedRate(feed), out);
             }
@@ -347,7 +347,7 @@ impl Lower {
         if let Some(given) = words.take(self.role_letter(Role::Speed))
             && let Some(speed) = self.amount(given, Quantity::Speed, src, out)
         {
-            if matches!(&self.state.cycle, InForce::Active(c) if c.kind.name() == "tap-rigid") {
+            if matches!(&self.state.cycle, ModalCall::Active(c) if c.kind.name() == "tap-rigid") {
                 let name = "speed while a tapping cycle is modal";
                 self.not_supported(&src.text(given.span), name, given.span, out);
             }
@@ -359,12 +359,12 @@ impl Lower {
     /// Tool word.
     fn select_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(given) = words.take(self.role_letter(Role::Tool)) {
-            self.state.tool = Know::Said(());
+            self.state.modes.tool = Know::Said(None);
             if given.computed.is_some() {
                 if let Some(tool) = self.amount(given, Quantity::Integer, src, out) {
                     self.push(given.span, Op::SelectTool(tool), out);
                 }
-            } else if let Some(tool) = self.whole(given, src, out) {
+            } else if let Some(tool) = self.read_whole(given, src, out) {
                 self.push(given.span, Op::SelectTool(Expr::int(tool.into())), out);
             }
         }
@@ -376,7 +376,7 @@ impl Lower {
     /// Tool change and edge.
     fn change_tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(change) = change {
-            if self.state.tool == Know::Unsaid {
+            if self.state.modes.tool == Know::Unsaid {
                 self.fault(Fault::NoToolSelected, change.span, out);
             }
             self.push(change.span, Op::ChangeTool, out);
@@ -384,7 +384,7 @@ impl Lower {
         let edge = words.take(self.role_letter(Role::ToolEdge));
         let (edge, said, span) = match (edge, change) {
             (Some(given), _) => {
-                let Some(edge) = self.whole(given, src, out) else {
+                let Some(edge) = self.read_whole(given, src, out) else {
                     return;
                 };
                 if edge > 9 {
@@ -400,7 +400,7 @@ impl Lower {
             }
             (None, None) => return,
         };
-        self.state.length = Know::Said(edge > 0);
+        self.state.modes.length = Know::Said(edge > 0);
         self.push(span, Op::UseToolEdge { edge: Expr::int(edge.into()), said }, out);
     }
 

@@ -10,7 +10,7 @@
 //! the functions, moves, frames, cycles, patterns and calls of a block mean; they have files of their own beside
 //! this one.
 
-mod plain;
+mod fast_lower;
 
 use std::collections::HashSet;
 
@@ -20,24 +20,24 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::facts::{InForce, Motion, Only, Stand, State};
-use super::program::again::Again;
-use super::program::flow::{Closes, Flow};
-use super::program::parameters::Handed;
-use super::sort::Words;
-use super::speed::Surfaces;
+use super::block_words::Words;
+use super::program::repeated_blocks::RepeatedBlocks;
+use super::siemens_state::{ModalCall, Motion, SiemensState, Stand};
 use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
 use super::text::unit::Kind;
-use super::values::computing::Variables;
-use super::values::formula::Typed;
-use crate::begins::Inherited;
+use super::text_facts::Surfaces;
+use super::values::typed::Typed;
+use crate::batch::{Batch, refused};
 use crate::common::Source;
-use crate::common::fast::Fast;
-use crate::common::known::Know;
+use crate::common::fast_lower::FastLower;
+use crate::common::only_value::OnlyValue;
 use crate::common::saved::Saved;
 use crate::common::switched::Met;
 use crate::common::text::decode;
-use crate::{Batch, refused};
+use crate::initial_modes::Inherited;
+use crate::siemens::program::handed::Handed;
+use crate::siemens::program::open_structures::{Closes, Flow};
+use crate::siemens::values::variables::Variables;
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]
@@ -53,17 +53,17 @@ pub(super) struct Lower {
     pub(super) watch: bool,
     /// Whether what is taken for granted of the control is told: its modes are by `assume` alone.
     pub(super) reports: bool,
-    pub(super) state: State,
-    pub(super) only_units: Only<Units>,
-    pub(super) only_scaled: Only<bool>,
-    pub(super) only_plane: Only<Plane>,
-    pub(super) again: Again,
+    pub(super) state: SiemensState,
+    pub(super) only_units: OnlyValue<Units>,
+    pub(super) only_scaled: OnlyValue<bool>,
+    pub(super) only_plane: OnlyValue<Plane>,
+    pub(super) repeated_blocks: RepeatedBlocks,
     /// Where the tool stands, as far as words have said it.
     pub(super) stand: Stand,
     /// What the statements have put in force last, as a subprogram's position would find it.
     pub(super) moved: Option<Motion>,
     /// Whether no move has followed the code of the motion in force.
-    pub(super) unmoved: bool,
+    pub(super) motion_without_move: bool,
     /// Whether a cycle was called up where the motion in force is not known: it is not known after
     /// it either.
     pub(super) cycled: bool,
@@ -84,7 +84,7 @@ pub(super) struct Lower {
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
     /// What `MCALL` had put in force where the subprogram was called.
-    pub(super) entry: InForce,
+    pub(super) entry: ModalCall,
     /// What the text that begins is, where something says so: its header, its heading, or its file's name.
     pub(super) unit: Option<Kind>,
     /// Where the text first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
@@ -92,7 +92,7 @@ pub(super) struct Lower {
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     /// What plain moves need; `None` if a block must be looked at.
-    pub(super) fast: Option<Fast>,
+    pub(super) fast_lower: Option<FastLower>,
     pub(super) now: Now,
     words: Words,
     stretch: Option<Stretch>,
@@ -118,10 +118,10 @@ pub(super) struct Lower {
 struct Stretch {
     level: u8,
     /// What was in force before the first of them.
-    before: State,
+    before: SiemensState,
     moved: Option<Motion>,
     /// What is in force if they are not skipped.
-    inside: State,
+    inside: SiemensState,
     moved_inside: Option<Motion>,
 }
 
@@ -159,7 +159,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    fn of(block: &Block) -> Head {
+    fn from_block(block: &Block) -> Head {
         let number = block.number.map(|BlockNumber { value, .. }| value);
         let Block { skip, label, comment, span, .. } = *block;
         Head { skip, number, label, comment, span }
@@ -175,14 +175,14 @@ impl Lower {
             inherited: Inherited::default(),
             watch: false,
             reports: assume,
-            state: State::default(),
-            only_units: Only::default(),
-            only_scaled: Only::default(),
-            only_plane: Only::default(),
-            again: Again::default(),
+            state: SiemensState::default(),
+            only_units: OnlyValue::default(),
+            only_scaled: OnlyValue::default(),
+            only_plane: OnlyValue::default(),
+            repeated_blocks: RepeatedBlocks::default(),
             stand: Stand::default(),
             moved: None,
-            unmoved: false,
+            motion_without_move: false,
             cycled: false,
             recall: false,
             idle_tap: false,
@@ -190,11 +190,11 @@ impl Lower {
             rapid_taken: None,
             reported: HashSet::new(),
             sub: None,
-            entry: InForce::None,
+            entry: ModalCall::None,
             unit: None,
             callers_feed: None,
             ended: false,
-            fast: None,
+            fast_lower: None,
             now: Now::default(),
             words: Words::default(),
             stretch: None,
@@ -214,19 +214,19 @@ impl Lower {
 
     /// Lowers a block that the grammar has read.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
-        let head = Head::of(block);
+        let head = Head::from_block(block);
         let before = self.enter_stretch(&head, out);
         self.begin(&head, src, out);
         self.statement(&block.statement, &head, src, out);
-        if before.as_ref().is_some_and(|(before, _)| before.motion != self.state.motion) {
+        if before.as_ref().is_some_and(|(before, _)| before.modes.motion != self.state.modes.motion) {
             self.leave_motion(head.span, out);
         }
         self.close(&head, src, out);
         if let (Some((before, moved)), Some((level, _))) = (before, head.skip) {
             let (inside, moved_inside) = (self.state.clone(), self.moved);
             self.state.join(&before);
-            if self.state.motion.value().is_none() {
-                self.motion_goes_on(&[before.motion, inside.motion], out);
+            if self.state.modes.motion.value().is_none() {
+                self.motion_goes_on(&[before.modes.motion, inside.modes.motion], out);
             }
             self.stand.forget();
             if self.moved != moved {
@@ -235,7 +235,7 @@ impl Lower {
             self.stretch = Some(Stretch { level, before, moved, inside, moved_inside });
         }
         if head.label.is_some() {
-            self.again.label_over(&self.state);
+            self.repeated_blocks.label_over(&self.state);
         }
         let definition = matches!(
             block.statement,
@@ -247,7 +247,7 @@ impl Lower {
 
     /// What was in force before a block that may be skipped, or before the first of several that are
     /// skipped together.
-    fn enter_stretch(&mut self, head: &Head, out: &mut Batch) -> Option<(State, Option<Motion>)> {
+    fn enter_stretch(&mut self, head: &Head, out: &mut Batch) -> Option<(SiemensState, Option<Motion>)> {
         let stretch = self.stretch.take();
         let (level, _) = head.skip?;
         match stretch {
@@ -293,15 +293,15 @@ impl Lower {
             let row = self.settings.dialect.name_row(&name);
             let end = row.is_some_and(|row| row.means == Some(NameMeaning::EndOfRepeat));
             if end {
-                name = self.again.end_name();
+                name = self.repeated_blocks.end_name();
             } else if let Some(row) = row {
                 let refuse = row.refuse.as_deref().unwrap_or("word of the language as a label");
                 self.not_supported(&name, refuse, label, out);
             }
             self.arrive(Some(&name), head.number, label, src, out);
-            self.again.label(name.clone(), &self.state);
+            self.repeated_blocks.label(name.clone(), &self.state);
             if end {
-                self.again.is_end();
+                self.repeated_blocks.is_end();
             }
             out.whole = true;
             self.push(label, Op::Label(name), out);
@@ -366,7 +366,7 @@ impl Lower {
 
     /// Words, assignments and calls of a block.
     fn items(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) {
-        if self.alone(items, head, src, out) {
+        if self.standalone_item(items, head, src, out) {
             return;
         }
         let mut words = std::mem::take(&mut self.words);
@@ -379,7 +379,7 @@ impl Lower {
 
     /// Items that stand alone in their block: calls by name or number, cycles, patterns, messages.
     /// `false` if the block has none.
-    fn alone(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) -> bool {
+    fn standalone_item(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) -> bool {
         let is_call = |item: &Item| match item {
             Item::Word(word) => word.letter == b'L',
             Item::Set { .. } => false,
@@ -517,14 +517,7 @@ impl Lower {
 
     /// After a refused block, what it may have said is not asked for again.
     pub(super) fn forgive(&mut self) {
-        for said in [&mut self.state.feed, &mut self.state.tool] {
-            if *said == Know::Unsaid {
-                *said = Know::Lost;
-            }
-        }
-        if self.state.motion == Know::Unsaid {
-            self.state.motion = Know::Lost;
-        }
+        self.state.modes.forgive();
         self.stand.forget();
         self.moved = None;
     }

@@ -13,8 +13,8 @@ use ncc_ir::source::Span;
 
 use super::lower::Lower;
 use super::text::tree::{Binary, Called, Expr as Tree, Unary};
-use super::values::formula::Kind;
-use crate::Batch;
+use super::values::typed::Kind;
+use crate::batch::Batch;
 use crate::common::Source;
 
 /// Digits of a real number in a message.

@@ -14,17 +14,17 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::facts::InForce;
 use super::lower::Lower;
-use super::parse;
 use super::program::calls::procedure_name;
+use super::siemens_state::ModalCall;
 use super::text::letters::letter_for_zero;
+use super::text::parse::parse;
 use super::text::tree::{Block, Statement};
 use super::text::unit;
 use super::text::unit::{Header, Kind, Line};
+use crate::batch::{Batch, refused};
 use crate::common::words::{Value, Word};
-use crate::common::{Source, plain};
-use crate::{Batch, refused};
+use crate::common::{Source, fast_parse};
 
 /// Longest block of a dictionary that sets no limit, in bytes.
 const LONGEST: usize = 60_000;
@@ -150,10 +150,10 @@ impl Reader {
                 continue;
             }
             if open
-                && let Some(end) = plain::read(text, at, base, &mut self.words)
+                && let Some(end) = fast_parse::read(text, at, base, &mut self.words)
                 && end - at <= self.longest
                 && !negative_number(&self.words, src)
-                && self.plain(src, out)
+                && self.fast_parsed_block(src, out)
             {
                 at = end + 1;
                 continue;
@@ -198,7 +198,7 @@ impl Reader {
         self.lower.give_back(out);
         self.lower.saved.check(out);
         self.lower.inherited.settle(self.lower.settings.dialect, out);
-        for (name, at) in self.lower.again.unknown() {
+        for (name, at) in self.lower.repeated_blocks.unknown() {
             out.report(Fault::CallUnknown { name }, at);
         }
         if !self.blocks && !self.faulty {
@@ -207,7 +207,7 @@ impl Reader {
     }
 
     /// A block that the recogniser has read; `false` if it is the grammar's after all.
-    fn plain(&mut self, src: Source, out: &mut Batch) -> bool {
+    fn fast_parsed_block(&mut self, src: Source, out: &mut Batch) -> bool {
         let is_number = |word: &Word| match word.value {
             Value::Number(d) => !d.point && d.mantissa >= 0 && u32::try_from(d.mantissa).is_ok(),
             Value::None | Value::Computed(_) => false,
@@ -230,7 +230,7 @@ impl Reader {
         self.blocks = true;
         self.after_header = false;
         self.end = span.end;
-        self.lower.plain(&words, span, src, out);
+        self.lower.lower_fast_parsed(&words, span, src, out);
         self.words = words;
         self.faulty |= self.lower.now.failed;
         true
@@ -304,7 +304,7 @@ impl Reader {
         // What follows is not blamed for having no cycle.
         let text = src.text(line).to_ascii_uppercase();
         if text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == "MCALL") {
-            self.lower.state.cycle = InForce::Refused;
+            self.lower.state.cycle = ModalCall::Refused;
         }
     }
 

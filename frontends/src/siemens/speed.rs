@@ -7,23 +7,14 @@ use ncc_ir::canon::SpindleMode;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 
 /// The option that says whose coordinate is the radius of a surface speed.
 const AXIS: &str = "surface_axis";
-
-/// What the text has said of surface speeds.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Surfaces {
-    /// Whether any was in force so far.
-    met: bool,
-    /// Whether a code of the feed stood where it is not known what a speed counts, before the first one.
-    doubted: bool,
-}
 
 impl Lower {
     /// Before a code that says what a speed counts, or may end a surface speed. Gives whether it ends one, as

@@ -11,10 +11,10 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Advice, Op, Text};
 use ncc_ir::source::Span;
 
+use super::block_words::Words;
 use super::lower::Lower;
-use super::sort::Words;
 use super::text::tree::{Address, Called, Expr, Place, Value};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::unit_of;
@@ -60,7 +60,7 @@ impl Lower {
 
     /// A tool by its name.
     pub(super) fn select_by_name(&mut self, text: Span, src: Source, out: &mut Batch) {
-        self.state.tool = Know::Said(());
+        self.state.modes.tool = Know::Said(None);
         let bytes = src.bytes(text);
         let name: Text = decode(bytes.get(1..bytes.len() - 1).unwrap_or_default());
         self.push(text, Op::SelectToolByName(name), out);

@@ -13,9 +13,9 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
+use super::block_words::{Code, Words, motion_of};
 use super::lower::Lower;
-use super::sort::{Code, Words, motion_of};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Value;
 

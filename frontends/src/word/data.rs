@@ -12,10 +12,10 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
 
-use super::facts::InForce;
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
-use crate::Batch;
+use super::word_state::CycleState;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
@@ -37,12 +37,12 @@ impl Lower {
             let code_text = code.row.code.as_str().into();
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
-        let Some(which) = self.whole(&word, src, out) else { return };
+        let Some(which) = self.read_whole(&word, src, out) else { return };
         let count = u32::from(code.row.count.unwrap_or(0));
         let Some(offset) = (1..=count).contains(&which).then(|| first + (which - 1) as u16) else {
             return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
         };
-        self.state.work_offset = Know::Said(offset);
+        self.state.modes.work_offset = Know::Said(offset);
         self.push(code.span.to(word.span), Op::SetOriginOffsets(offset), out);
     }
 
@@ -56,7 +56,7 @@ impl Lower {
             let word = char::from(letter).to_string().into();
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
-        let Some(number) = self.whole(&word, src, out) else { return };
+        let Some(number) = self.read_whole(&word, src, out) else { return };
         let Some((row, _)) = rows().find(|(_, (.., own))| *own == number) else {
             // What the other words are for is another table's matter.
             words.left = 0;
@@ -70,8 +70,8 @@ impl Lower {
     fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
         let row_name = || Box::<str>::from(row.name.as_str());
         // Execution looks at what is not known here: where a caller, or a block that may be skipped, has a cycle in force.
-        let in_force = matches!(self.state.cycle, InForce::Active(_));
-        if in_force {
+        let active = matches!(self.state.cycle, CycleState::Active(_));
+        if active {
             let name = "data input while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
         }
@@ -97,7 +97,7 @@ impl Lower {
                 };
                 Some(known)
             }
-            _ => self.whole(&entry, src, out),
+            _ => self.read_whole(&entry, src, out),
         };
         let Some(number) = found.and_then(|number| self.existing(number, code, row, &entry, src, out)) else {
             return;
@@ -156,10 +156,10 @@ impl Lower {
         };
         let Some(computed) = computed else { return self.push(code.span, input(number), out) };
         out.whole = true;
-        let ways = (1..=u32::from(row.count)).map(|number| (i64::from(number), input(number)));
+        let cases = (1..=u32::from(row.count)).map(|number| (i64::from(number), input(number)));
         self.computes.saved.entry(code.span, &row.name);
-        self.push(code.span, of_number(&computed, ways.collect(), code.span), out);
-        self.stands_alone();
+        self.push(code.span, of_number(&computed, cases.collect(), code.span), out);
+        self.end_block_here();
     }
 
     /// The number of an entry that the table has; 0 may be the one in force.
@@ -174,7 +174,7 @@ impl Lower {
     ) -> Option<u32> {
         if number == 0 && row.zero_current {
             self.rely_on_frames(false, code.span, out);
-            let own = self.state.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
+            let own = self.state.modes.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
             let Some(own) = own.filter(|own| (1..=row.count).contains(own)) else {
                 let code = format!("{} {}", row.name, src.text(entry.span)).into();
                 let name = "data input for the offset in force where that is not known".into();
@@ -197,7 +197,7 @@ impl Lower {
     fn known_number(&self, number: &Expr) -> Option<u32> {
         match number {
             Expr::Num(n) => n.whole_number().and_then(|n| u32::try_from(n).ok()),
-            Expr::Node(node) => match (&**node, self.state.tool) {
+            Expr::Node(node) => match (&**node, self.state.modes.tool) {
                 (Node::Var(Var::System(System::SelectedTool)), Know::Said(tool)) => tool,
                 _ => None,
             },
@@ -208,7 +208,7 @@ impl Lower {
     /// known when it runs.
     fn unknown_entry(&self, number: &Expr) -> &'static str {
         let asked = |node: &Node| match node {
-            Node::Var(Var::System(System::SelectedTool)) => self.state.tool == Know::Unsaid,
+            Node::Var(Var::System(System::SelectedTool)) => self.state.modes.tool == Know::Unsaid,
             Node::Var(Var::System(System::LengthEntry)) => self.state.length_entry == Know::Unsaid,
             _ => false,
         };
@@ -249,7 +249,7 @@ impl Lower {
                     let word = char::from(letter).to_string().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
-                let Some(tool) = self.whole(&word, src, out) else { return };
+                let Some(tool) = self.read_whole(&word, src, out) else { return };
                 Data::ToolInSpindle(Expr::int(i64::from(tool)))
             }
         };
@@ -279,9 +279,9 @@ impl Lower {
         }
         let [x, y, z, ..] = by;
         let length = match (entry, &along[..], z) {
-            (Some(word), ..) => {
-                self.whole(&word, src, out).map(|entry| ToolLength::AddedEntry(Expr::int(i64::from(entry))))
-            }
+            (Some(word), ..) => self
+                .read_whole(&word, src, out)
+                .map(|entry| ToolLength::AddedEntry(Expr::int(i64::from(entry)))),
             (None, [], _) if self.now.failed => None,
             (None, [], _) => {
                 return self.fault(Fault::WordMissing { code: code_text, word: "Z".into() }, code.span, out);
@@ -299,8 +299,7 @@ impl Lower {
             self.rely_on_frames(true, code.span, out);
         }
         self.end_tip(code.span, out);
-        self.state.length_offset = Know::Said(());
-        self.state.level_open = true;
+        self.state.length_open(true);
         self.push(code.span, Op::UseToolLength(Box::new(length)), out);
     }
 

@@ -13,41 +13,18 @@ use ncc_dialects::{CYCLE_BESIDE_MOTION, CycleRow, MOTION_CANCELS, Meaning, RETUR
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::source::Span;
 
-use super::in_force::AtStart;
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
 use super::text::block::Block;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word};
-
-/// Tools as the text names them, from block to block.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ToolsNamed {
-    /// The tool that an earlier block selects, and that no change has put in since.
-    waits: Option<u32>,
-    /// The same before the block at hand, and the T of that block.
-    now: Option<(Option<u32>, u32, Span)>,
-    /// The last change: the tool that its block names, and the other one that waited.
-    doubt: Option<(u32, u32, Span)>,
-    /// What the user has stated of the start, and what the text says itself.
-    pub(super) at_start: AtStart,
-}
-
-/// The number of a word that has one.
-pub(super) fn number(word: &Word) -> Option<u32> {
-    match word.value {
-        Value::Number(digits) if digits.scale == 0 => u32::try_from(digits.mantissa).ok(),
-        Value::Number(_) | Value::Computed(_) | Value::None => None,
-    }
-}
 
 impl Lower {
     /// A block selects a tool.
     pub(super) fn tool_named(&mut self, word: &Word) {
-        let (before, now) = (self.tools.waits, number(word));
+        let (before, now) = (self.tools.waits, word.to_whole());
         self.tools.waits = now;
         self.tools.now = now.map(|now| (before, now, word.span));
     }
@@ -70,7 +47,7 @@ impl Lower {
     /// A length is called up: with the number of the tool that waited, it contradicts the T beside M06.
     pub(super) fn length_named(&mut self, word: &Word, out: &mut Batch) {
         let Some((named, waiting, span)) = self.tools.doubt.take() else { return };
-        let contradicts = number(word) == Some(waiting);
+        let contradicts = word.to_whole() == Some(waiting);
         let behaviours = self.settings.behaviours();
         let with_change = Behaviour::ToolWithChange;
         let open = behaviours.is_open(with_change) && !behaviours.does(with_change);

@@ -12,10 +12,10 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, FrameSlot, Op, Point, Slot};
 use ncc_ir::source::Span;
 
-use super::facts::{InForce, Kept};
+use super::block_words::{Code, Words, motion_of};
 use super::lower::Lower;
-use super::sort::{Code, Words, motion_of};
-use crate::Batch;
+use super::word_state::{CycleState, KeptShift};
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Value;
 
@@ -66,10 +66,10 @@ impl Lower {
                 .into_iter()
                 .filter_map(|axis| words.get(axis.letter()))
                 .all(|word| matches!(word.value, Value::Number(digits) if digits.mantissa == 0));
-        if by_mode && !takes_back && self.state.distance.value() == Some(Distance::Incremental) {
+        if by_mode && !takes_back && self.state.modes.distance.value() == Some(Distance::Incremental) {
             return self.no_frame(code, "under incremental coordinates", out);
         }
-        if matches!(self.state.cycle, InForce::Active(_)) {
+        if matches!(self.state.cycle, CycleState::Active(_)) {
             return self.no_frame(code, "while a cycle is in force", out);
         }
         let op = match code.meaning {
@@ -84,7 +84,7 @@ impl Lower {
                 if words.get(b'Z').is_some() && self.level_open() {
                     self.refuse_level(code.span, out);
                 }
-                self.state.shift_kept = Kept::InForce;
+                self.state.shift_kept = KeptShift::Active;
                 let axes = self.frame_axes(code, words, src, out);
                 axes.map(|axes| Op::SetPosition(Box::new(axes)))
             }
@@ -127,7 +127,7 @@ impl Lower {
 
     /// Whether factors are in force, or a mirror of the drilling axis.
     pub(super) fn drills_scaled(&self) -> bool {
-        let normal = self.state.plane.value().unwrap_or(Plane::Xy).axes().2;
+        let normal = self.state.modes.plane.value().unwrap_or(Plane::Xy).axes().2;
         self.state.turned & (SCALE | MIRROR << normal as u8) != 0
     }
 
@@ -145,7 +145,7 @@ impl Lower {
             FrameSlot::Rotation => {
                 if self.state.turned & ROTATION != 0 {
                     // The plane may be another by now: whichever two axes it has.
-                    self.state.unplaced = self.plane_axes(self.state.plane.fact());
+                    self.state.unplaced = self.plane_axes(self.state.modes.plane.fact());
                 }
                 self.state.turned &= !ROTATION;
             }

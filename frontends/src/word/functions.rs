@@ -10,12 +10,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
 
-use super::facts::{InForce, Kept};
+use super::block_words::{Code, Words, motion_of};
 use super::frames::is_frame;
 use super::lower::Lower;
-use super::sort::{Code, Words, motion_of};
 use super::text::block::Block;
-use crate::Batch;
+use super::word_state::{CycleState, KeptShift};
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::setting::setting;
@@ -72,7 +72,7 @@ impl Lower {
         }
         // A plane belongs to the cycle in force: that ends first, so that either can stand in a block of its own.
         let plane = |c: &Code| matches!(c.meaning, Meaning::SelectPlane(_));
-        if matches!(self.state.cycle, InForce::Active(_))
+        if matches!(self.state.cycle, CycleState::Active(_))
             && settings.iter().any(plane)
             && let Some(end) = motion.iter().find(|c| c.meaning == Meaning::EndCycle)
         {
@@ -161,32 +161,32 @@ impl Lower {
     pub(super) fn set_mode(&mut self, meaning: Meaning, out: &mut Batch) {
         match meaning {
             Meaning::UseLengthUnits(units) => {
-                self.state.units = Know::Said(units);
+                self.state.modes.units = Know::Said(units);
                 self.see_units(units, out);
             }
-            Meaning::SelectPlane(plane) => self.state.plane = Know::Said(plane),
-            Meaning::SetDistanceMode(distance) => self.state.distance = Know::Said(distance),
+            Meaning::SelectPlane(plane) => self.state.modes.plane = Know::Said(plane),
+            Meaning::SetDistanceMode(distance) => self.state.modes.distance = Know::Said(distance),
             Meaning::SetFeedMode(mode) => {
                 // A feed that was said before does not count any more.
-                if self.state.feed_mode.value().is_some_and(|before| before != mode) {
-                    self.state.feed = Know::Unsaid;
+                if self.state.modes.feed_mode.value().is_some_and(|before| before != mode) {
+                    self.state.modes.feed = Know::Unsaid;
                 }
-                self.state.feed_mode = Know::Said(mode);
+                self.state.modes.feed_mode = Know::Said(mode);
             }
             Meaning::SetReturnLevel(level) => {
                 self.now.recall |= self.state.return_level.value() != Some(level);
                 self.state.return_level = Know::Said(level);
-                self.state.level_changed |= self.state.cycle == InForce::Lost;
+                self.state.level_changed |= self.state.cycle == CycleState::Lost;
             }
             Meaning::SetCentreMode(from) => self.set_centre_mode(from, out),
-            Meaning::SetOriginOffsets(offset) => self.state.work_offset = Know::Said(offset),
+            Meaning::SetOriginOffsets(offset) => self.state.modes.work_offset = Know::Said(offset),
             Meaning::ClearFrame(FrameSlot::Shift) => {
-                self.state.no_shift = Know::Said(true);
-                self.state.shift_kept = Kept::InForce;
+                self.state.modes.no_shift = Know::Said(true);
+                self.state.shift_kept = KeptShift::Active;
             }
             Meaning::UseOriginShift(on) => {
                 if !on {
-                    self.state.no_shift = Know::Said(true);
+                    self.state.modes.no_shift = Know::Said(true);
                 }
                 self.state.shift_kept = self.state.shift_kept.used(on);
             }
@@ -198,9 +198,9 @@ impl Lower {
             }
             Meaning::StopCutterRadiusCompensation => self.state.compensated = Know::Said(false),
             Meaning::UseToolCentrePoint(on) => self.state.tip = Know::Said(on),
-            Meaning::SetTilt => self.state.tilt = Know::Said(true),
+            Meaning::SetTilt => self.state.modes.tilt = Know::Said(true),
             Meaning::EndCycle => {
-                self.state.cycle = InForce::None;
+                self.state.cycle = CycleState::None;
                 self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
             }
             _ => {}
@@ -208,7 +208,7 @@ impl Lower {
     }
 
     pub(super) fn set_motion(&mut self, motion: Motion) {
-        self.state.motion = Know::Said(motion);
+        self.state.modes.motion = Know::Said(motion);
         (self.state.thread, self.state.lead) = (None, None);
         self.state.no_motion = false;
     }
@@ -223,11 +223,11 @@ impl Lower {
         if let (Meaning::SetOriginOffsets(_), false) = (code.meaning, self.now.failed) {
             self.check_shut(code, out);
         }
-        if let (Meaning::UseOriginShift(true), Kept::Unknown) = (code.meaning, self.state.shift_kept) {
+        if let (Meaning::UseOriginShift(true), KeptShift::Unknown) = (code.meaning, self.state.shift_kept) {
             let name = "an origin shift of an earlier program taken up again".into();
             self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
         }
-        if let (Meaning::SelectPlane(plane), InForce::Active(active)) = (code.meaning, &self.state.cycle)
+        if let (Meaning::SelectPlane(plane), CycleState::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
             // Of a text that was emitted, the plane at the start is what was taken for granted.
             && (self.assume || active.plane.known().is_some())
@@ -309,7 +309,7 @@ impl Lower {
             let name = "advice to the control in a block with axis words".into();
             return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
         }
-        let value = match self.whole(&word, src, out) {
+        let value = match self.read_whole(&word, src, out) {
             None => return,
             Some(0) => 0,
             // However many blocks it is limited to.
@@ -339,7 +339,7 @@ impl Lower {
             self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
-            self.tool_in_force(&word);
+            self.note_tool_code(&word);
             self.tool_named(&word);
             if let Some(value) = self.entry(&word, words, src, out) {
                 self.push(word.span, Op::SelectTool(value), out);
@@ -349,7 +349,7 @@ impl Lower {
 
     /// Between the code for rigid tapping and its cycle no axis moves and no speed is said: a control alarms.
     fn nothing_before_the_tap(&mut self, codes: &[Code], block: Span, words: &Words, out: &mut Batch) {
-        let waits = self.state.rigid.is_some() && self.state.cycle == InForce::None;
+        let waits = self.state.rigid.is_some() && self.state.cycle == CycleState::None;
         let settled =
             |c: &Code| matches!(c.meaning, Meaning::StartCycle | Meaning::EndCycle | Meaning::Dwell);
         let words = || self.has_axis_word(words) || words.get(self.roles.speed).is_some();
@@ -364,18 +364,18 @@ impl Lower {
         if let Value::Computed(_) = word.value {
             return self.amount(word, Quantity::Integer, words, src, out);
         }
-        let whole = self.whole(word, src, out)?;
+        let whole = self.read_whole(word, src, out)?;
         Some(Expr::int(i64::from(whole)))
     }
 
     /// A tool change where the program has selected no tool: the one that the user states to wait.
     fn tool_waits(&mut self, at: Span, out: &mut Batch) {
-        if self.state.tool != Know::Unsaid {
+        if self.state.modes.tool != Know::Unsaid {
             return;
         }
         match self.settings.get(FIRST_TOOL).parse().ok().filter(|first| *first > 0) {
             Some(first) => {
-                self.state.tool = Know::Said(Some(first));
+                self.state.modes.tool = Know::Said(Some(first));
                 self.push(at, Op::SelectTool(Expr::int(first.into())), out);
                 let (parameter, value) = (WAITING_TOOL.into(), first.to_string().into());
                 out.report(Fault::AssumedParameter { parameter, value }, at);
@@ -440,8 +440,7 @@ impl Lower {
                 self.end_tip(code.span, out);
                 let word = words.take(self.roles.length_entry);
                 if word.is_none() && code.row.own_tool {
-                    self.state.length_offset = Know::Said(());
-                    self.state.level_open = true;
+                    self.state.length_open(true);
                     let edge = Expr::int(1);
                     return self.push(code.span, Op::UseToolEdge { edge, said: true }, out);
                 }
@@ -453,8 +452,7 @@ impl Lower {
             Meaning::OrientToolAxis => return self.upright(code, words, out),
             Meaning::CancelToolLengthOffset => {
                 self.end_tip(code.span, out);
-                self.state.length_offset = Know::Said(());
-                self.state.level_open = true;
+                self.state.length_open(false);
                 Op::UseToolLengthOffset(Expr::int(0))
             }
             Meaning::SetData => return self.data(code, words, src, out),
@@ -463,7 +461,7 @@ impl Lower {
             Meaning::OptionalProgramStop => Op::OptionalProgramStop,
             Meaning::ProgramEnd => {
                 self.ended |= self.now.skip.is_none();
-                self.alone.ends |= self.sub.is_none();
+                self.main_ending.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
             Meaning::BeginAgain => return self.begin_again(code, out),
@@ -496,8 +494,8 @@ impl Lower {
             return;
         };
         if self.option("o_word", word.span, out) == "ignore" {
-            let _ = self.whole(&word, src, out);
-            self.state.length_offset = Know::Said(());
+            let _ = self.read_whole(&word, src, out);
+            self.state.modes.length = Know::Said(true);
             return;
         }
         let zero = matches!(word.value, Value::Number(d) if d.mantissa == 0);
@@ -517,17 +515,17 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        self.entry_in_force(word);
+        self.note_length_code(word);
         self.length_named(word, out);
         match self.entry(word, words, src, out) {
             Some(entry) => self.use_entry(entry, span, words, out),
-            None => self.state.length_open(),
+            None => self.state.length_open(true),
         }
     }
 
     /// Takes up a length by its entry, with the next Z.
     pub(super) fn use_entry(&mut self, entry: Expr, span: Span, words: &Words, out: &mut Batch) {
-        self.state.length_open();
+        self.state.length_open(true);
         let with_z = words.get(b'Z').is_some();
         if self.assume && !with_z && !std::mem::replace(&mut self.reported.offset_with_z, true) {
             out.report(Fault::AssumedOffsetWithZ, span);

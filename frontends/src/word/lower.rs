@@ -9,34 +9,31 @@
 
 mod message;
 
-use std::collections::BTreeSet;
-
 use ncc_dialects::{
     Address, Bare, CALCULATOR, CodeRow, DECIMAL_POINT, INTEGER_FEED, NumberRules, Quantity, Role, Settings,
 };
-use ncc_ir::canon::{Axis, Distance, FeedMode};
+use ncc_ir::canon::{Axis, Distance, FeedMode, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::cycles::no_cycle::CyclesMet;
-use super::doubts::ToolsNamed;
-use super::facts::{InForce, State};
-use super::macros::computing::Computes;
-use super::moves::compensation::RadiusNamed;
-use super::moves::unmoved::Unmoved;
-use super::number::{CentreSeen, UnitsSeen};
-use super::o_code::o_words::ODecides;
-use super::sort::{Code, Roles, Words};
+use super::block_words::{Code, Roles, Words};
 use super::text::block::Block;
-use crate::begins::Inherited;
+use super::text_facts::{
+    CentreSeen, CyclesMet, Dwells, MainEnding, MotionWithoutMove, RadiusNamed, Reported, ToolsNamed,
+};
+use super::word_state::{CycleState, WordState};
+use crate::batch::{Batch, refused};
 use crate::common::Source;
-use crate::common::fast::Fast;
+use crate::common::fast_lower::FastLower;
 use crate::common::known::Know;
+use crate::common::only_value::OnlyValue;
 use crate::common::switched::Met;
-use crate::common::text::decode;
-use crate::{Batch, refused};
+use crate::common::text::{begins, decode};
+use crate::initial_modes::Inherited;
+use crate::word::macros::computes::Computes;
+use crate::word::o_code::o_state::OWordState;
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]
@@ -58,8 +55,9 @@ pub(super) struct Lower {
     /// Rows of the address letters.
     pub(super) letters: [Option<&'static Address>; 26],
     pub(super) roles: Roles,
-    pub(super) state: State,
-    pub(super) units_seen: UnitsSeen,
+    pub(super) state: WordState,
+    /// The units that the text says, for numbers whose unit is open.
+    pub(super) only_units: OnlyValue<Units>,
     pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
     pub(super) dwells: Dwells,
@@ -70,12 +68,12 @@ pub(super) struct Lower {
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     pub(super) computes: Computes,
-    pub(super) alone: Alone,
-    pub(super) o: ODecides,
-    pub(super) unmoved: Unmoved,
+    pub(super) main_ending: MainEnding,
+    pub(super) o: OWordState,
+    pub(super) motion_without_move: MotionWithoutMove,
     pub(super) cycles: CyclesMet,
     /// What plain moves need; `None` if a block must be looked at.
-    pub(super) fast: Option<Fast>,
+    pub(super) fast_lower: Option<FastLower>,
     pub(super) now: Now,
     codes: Vec<Code>,
     /// What the text has said of control of the tool's tip, and of tilted planes.
@@ -85,64 +83,6 @@ pub(super) struct Lower {
     pub(super) radius: RadiusNamed,
     /// Letters of rotary axes that the text has named so far, a bit each.
     pub(super) rotary_named: u32,
-}
-
-/// Dwells of cycles in the whole text, where they stay in force for other cycles.
-#[derive(Debug, Default)]
-pub(super) struct Dwells {
-    /// Whether any was said so far.
-    pub(super) said: bool,
-    /// Where it was first relied on that none was said, in blocks that others call or come back to.
-    pub(super) relied: Option<Span>,
-    /// Whether control went elsewhere so far while a cycle with a dwell was in force.
-    pub(super) carried: bool,
-    /// Where a cycle was first called up without one while it is not known which is in force before it.
-    pub(super) over_unknown: Option<(Span, &'static str)>,
-}
-
-/// What has been reported and is not to be reported again.
-#[derive(Debug, Default)]
-pub(super) struct Reported {
-    /// Quantities of numbers without a point, a bit each.
-    pub(super) bare: u8,
-    /// That computed lengths and angles are rounded to an increment.
-    pub(super) increment: bool,
-    pub(super) after_cycle: bool,
-    pub(super) offset_with_z: bool,
-    pub(super) skip: bool,
-    /// How the block-skip switch stands, as the user states it.
-    pub(super) switch: bool,
-    /// That a T beside M06 is taken for the tool that is put in.
-    pub(super) tool_change: bool,
-    /// By which of two codes of distance the words of a return are read.
-    pub(super) return_distance: bool,
-    /// Programs whose calls are left out, by their places among those that the user states.
-    pub(super) calls_left_out: BTreeSet<usize>,
-    /// That a cycle drills beside a code of motion.
-    pub(super) cycle_beside_motion: bool,
-    /// Rows of codes.
-    codes: Vec<bool>,
-    /// Address letters, a bit each.
-    pub(super) letters: u32,
-    /// That entry 0 is no length offset.
-    pub(super) no_length: bool,
-    /// Options of the dictionary, by place.
-    options: u32,
-    /// What is taken for granted of the control's own values.
-    pub(super) values: Vec<&'static str>,
-}
-
-/// How the main program ends.
-#[derive(Debug, Default)]
-pub(super) struct Alone {
-    /// Where it first goes back to another.
-    pub(super) returns: Option<Span>,
-    /// Where it first begins anew.
-    pub(super) begins_again: Option<Span>,
-    /// Whether it ends by itself.
-    pub(super) ends: bool,
-    /// Where it first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
-    pub(super) feed: Option<Span>,
 }
 
 /// State of the block that is being lowered.
@@ -185,7 +125,7 @@ pub(super) struct Now {
     /// A program's name, until a call takes it.
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
-    pub(super) again: Option<crate::word::calls::again::Asked>,
+    pub(super) repetition: Option<crate::word::calls::repetition::Repetition>,
     /// From what the words of a return count, where that is not the distance in force after the block.
     pub(super) return_distance: Option<Distance>,
 }
@@ -242,17 +182,17 @@ impl Lower {
             assume,
             inherited: Inherited::default(),
             watch: false,
-            state: State::default(),
-            units_seen: UnitsSeen::default(),
+            state: WordState::default(),
+            only_units: OnlyValue::default(),
             centre_seen: CentreSeen::default(),
             sub: None,
             ended: false,
             computes: Computes::default(),
-            alone: Alone::default(),
-            o: ODecides::default(),
-            unmoved: Unmoved::default(),
+            main_ending: MainEnding::default(),
+            o: OWordState::default(),
+            motion_without_move: MotionWithoutMove::default(),
             cycles: CyclesMet::default(),
-            fast: None,
+            fast_lower: None,
             now: Now::default(),
             codes: Vec::new(),
             tip: Met::default(),
@@ -284,9 +224,9 @@ impl Lower {
             name: block.names.first().map(|&span| (src.text(span), span)),
             ..Now::default()
         };
-        if self.state.feed_mode.value() == Some(FeedMode::InverseTime) {
+        if self.state.modes.feed_mode.value() == Some(FeedMode::InverseTime) {
             // A time counts for the move of its own block.
-            self.state.feed = Know::Unsaid;
+            self.state.modes.feed = Know::Unsaid;
         }
         for (fault, span) in &block.faults {
             out.report(fault.clone(), *span);
@@ -358,7 +298,7 @@ impl Lower {
         self.tool_block_over();
         self.close(block, src, out);
         if let (Some(before), None) = (before, block.tail) {
-            if self.state.motion != before.motion {
+            if self.state.modes.motion != before.modes.motion {
                 self.leave_motion(self.now.skip, out);
             }
             self.state.join(&before);
@@ -440,11 +380,11 @@ impl Lower {
     /// Adds a statement to the block.
     #[inline]
     pub(super) fn push(&mut self, span: Span, op: Op, out: &mut Batch) {
-        if self.unmoved() {
+        if self.has_motion_without_move() {
             self.moved(&op);
         }
         if let Op::Call(call) = &op {
-            let name = (*call.name != *crate::word::calls::call_of::COMPUTED).then(|| call.name.clone());
+            let name = (*call.name != *crate::word::macros::computes::COMPUTED).then(|| call.name.clone());
             self.inherited.call(name, self.state.unsaid());
         }
         let now = &mut self.now;
@@ -462,7 +402,7 @@ impl Lower {
     }
 
     /// What was pushed is a block of its own, as if what follows stood in another; a label says the number.
-    pub(super) fn stands_alone(&mut self) {
+    pub(super) fn end_block_here(&mut self) {
         self.now.pushed = false;
         self.now.silent = true;
         self.now.number = None;
@@ -529,17 +469,9 @@ impl Lower {
 
     /// After a refused block, what it may have said is not asked for again.
     pub(super) fn forgive(&mut self) {
-        if self.state.feed == Know::Unsaid {
-            self.state.feed = Know::Lost;
-        }
-        if self.state.tool == Know::Unsaid {
-            self.state.tool = Know::Lost;
-        }
-        if self.state.motion == Know::Unsaid {
-            self.state.motion = Know::Lost;
-        }
+        self.state.modes.forgive();
         if self.now.cycle_refused {
-            self.state.cycle = InForce::Lost;
+            self.state.cycle = CycleState::Lost;
         }
     }
 
@@ -547,19 +479,6 @@ impl Lower {
     pub(super) fn axis_row(&self, axis: Axis) -> Option<&'static Address> {
         self.letters[usize::from(axis.letter() - b'A')].filter(|row| row.role == Role::Axis)
     }
-}
-
-/// Where the rest of a comment begins that begins with a word, blanks and the size of letters apart.
-pub(crate) fn begins(text: &[u8], word: impl AsRef<[u8]>) -> Option<usize> {
-    let mut at = 0;
-    for byte in word.as_ref() {
-        at += text[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
-        if !text.get(at)?.eq_ignore_ascii_case(byte) {
-            return None;
-        }
-        at += 1;
-    }
-    Some(at)
 }
 
 /// Comments of one block as one text.

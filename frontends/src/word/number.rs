@@ -13,40 +13,12 @@ use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
+use super::text_facts::OwnCentre;
+use crate::batch::{BareNumber, Batch};
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::{spell, unit_of};
 use crate::common::words::{Digits, Value, Word};
-use crate::{BareNumber, Batch};
-
-/// Units of a program as far as they matter to numbers whose unit is open.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct UnitsSeen {
-    /// The units that the program has said.
-    pub(super) only: Option<Units>,
-    /// Whether it has said both.
-    pub(super) mixed: bool,
-    /// The first number that was scaled by `only` though the units in force there are open.
-    pub(super) relied: Option<Span>,
-}
-
-/// From where the text says that centres are measured.
-#[derive(Clone, Debug, Default)]
-pub(super) struct CentreSeen {
-    said: Vec<CentreFrom>,
-    /// What the subprogram at hand says, where every path has come by it.
-    own: Option<OwnCentre>,
-    /// For a way of measuring, the first arc that relies on the text's saying no other.
-    relied: Vec<(CentreFrom, Span)>,
-}
-
-/// From where the subprogram at hand says that centres are measured.
-#[derive(Clone, Copy, Debug)]
-struct OwnCentre {
-    from: CentreFrom,
-    /// The first arc in a loop or a decision that relies on the subprogram's saying no other.
-    relied: Option<Span>,
-}
 
 fn centre_open() -> Fault {
     let name = "centre of an arc that is measured as other blocks say".into();
@@ -252,7 +224,7 @@ impl Lower {
     }
 
     /// A whole number of a word, not negative.
-    pub(super) fn whole(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<u32> {
+    pub(super) fn read_whole(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<u32> {
         let num = self.number(word, Quantity::Integer, src, out)?.trimmed();
         match u32::try_from(num.mantissa) {
             Ok(whole) => Some(whole),
@@ -276,27 +248,15 @@ impl Lower {
         at: Span,
         out: &mut Batch,
     ) -> Option<Units> {
-        if let Fact::Known(units) = units {
-            return Some(units);
-        }
         // Open here, but if the whole text says only one kind of units, it is that one.
-        match self.units_seen.only {
-            Some(units) if !self.units_seen.mixed => {
-                self.units_seen.relied.get_or_insert(at);
-                Some(units)
-            }
-            Some(_) | None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
-        }
+        let units = units.known().or_else(|| self.only_units.rely(None, at));
+        units.or_else(|| self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out))
     }
 
     /// The program says units.
     pub(super) fn see_units(&mut self, units: Units, out: &mut Batch) {
-        let seen = &mut self.units_seen;
-        if *seen.only.get_or_insert(units) != units {
-            seen.mixed = true;
-            if let Some(at) = seen.relied.take() {
-                out.report(Fault::EntryFactNeeded { fact: ModeName::Units }, at);
-            }
+        if let Some(at) = self.only_units.see(units) {
+            out.report(Fault::EntryFactNeeded { fact: ModeName::Units }, at);
         }
     }
 }

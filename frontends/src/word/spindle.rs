@@ -7,9 +7,9 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::Op;
 
+use super::block_words::{Code, Words};
 use super::lower::Lower;
-use super::sort::{Code, Words};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 
 /// The option that says whose coordinate is the radius of a surface speed.
@@ -127,7 +127,7 @@ impl Lower {
         }
         if let Some(turn) = rule.turn
             && let Some(word) = words.take(turn as u8)
-            && self.whole(&word, src, out)? != 0
+            && self.read_whole(&word, src, out)? != 0
         {
             let name = "sense in which the spindle turns to its angle".into();
             return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);

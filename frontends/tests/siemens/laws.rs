@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::common::plain;
+use crate::common::fast_parse;
 use crate::siemens::text::tree::{Item, Statement};
 
 /// Pieces of lines.
@@ -58,7 +58,7 @@ proptest! {
     #[test]
     fn recogniser_and_grammar_agree(line in plain_line()) {
         let mut words = Vec::new();
-        let Some(end) = plain::read(line.as_bytes(), 0, 7, &mut words) else {
+        let Some(end) = fast_parse::read(line.as_bytes(), 0, 7, &mut words) else {
             return Ok(());
         };
         let block = parse(line.trim_end_matches(['\r', '\n']).as_bytes(), 7).expect("a block");

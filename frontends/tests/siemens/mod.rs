@@ -10,7 +10,7 @@ mod pitfalls;
 mod show;
 mod statements;
 
-use super::parse;
+use super::text::parse::parse;
 use super::text::unit;
 
 /// What a line says, or its fault with the very text that it points at.

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::common::plain;
+use crate::common::fast_parse;
 use crate::word::text::block;
 use crate::word::text::block::Block;
 use crate::word::text::token::Signs;
@@ -64,7 +64,7 @@ proptest! {
         for id in ["mach9", "fanuc"] {
             let signs = Signs::new(settings(id).dialect);
             let mut words = Vec::new();
-            let Some(end) = plain::read(text.as_bytes(), 0, 7, &mut words) else {
+            let Some(end) = fast_parse::read(text.as_bytes(), 0, 7, &mut words) else {
                 continue;
             };
             let line = text.split('\n').next().unwrap().trim_end_matches('\r');
@@ -93,7 +93,7 @@ proptest! {
             let mut second = Reader::new(settings(id), assume);
             let mut at = 0;
             for line in text.split_inclusive('\n') {
-                second.lower.fast = None;
+                second.lower.fast_lower = None;
                 second.read(line.as_bytes(), at, &mut long);
                 at += line.len() as u32;
             }
@@ -138,12 +138,12 @@ fn deep_brackets_are_no_danger() {
 fn the_recogniser_takes_what_it_is_for() {
     let mut words = Vec::new();
     for plain in ["N120 X12.345 Y-0.5 Z3.21\n", "G1X1.F500", "x1 y2\t\r\n"] {
-        assert!(plain::read(plain.as_bytes(), 0, 0, &mut words).is_some(), "{plain}");
+        assert!(fast_parse::read(plain.as_bytes(), 0, 0, &mut words).is_some(), "{plain}");
     }
     for other in
         ["X1.(A)\n", "/X1.\n", "GXY\n", "\n", "X+1.\n", "X1.2.3\n", "X1.\rY2.\n", "X1234567890123456789\n"]
     {
-        assert!(plain::read(other.as_bytes(), 0, 0, &mut words).is_none(), "{other}");
+        assert!(fast_parse::read(other.as_bytes(), 0, 0, &mut words).is_none(), "{other}");
     }
 }
 

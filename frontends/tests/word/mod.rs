@@ -3,7 +3,6 @@
 //! Statements are compared in a short rendering of their own, so that a test reads like a page of
 //! a manual; diagnostics with the very text that they point at.
 
-mod again;
 mod calls;
 mod cycles;
 mod facts;
@@ -11,6 +10,7 @@ mod faults;
 mod frame;
 mod laws;
 mod motion;
+mod repeated_blocks;
 mod show;
 
 use ncc_dialects::{Settings, builtin};

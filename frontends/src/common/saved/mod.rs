@@ -1,7 +1,7 @@
 //! Codes in force that a text saves in variables and puts back, and numbers that it computes codes and
 //! places of tables from.
 //!
-//! Each reader notes them as it goes (`rows`, `numbers`, `back`). [`ways`] looks at the whole text when it
+//! Each reader notes them as it goes (`rows`, `numbers`, `back`). [`paths`] looks at the whole text when it
 //! has been read.
 //!
 //! ```text
@@ -10,7 +10,7 @@
 //!
 //! Not here: what a text computes besides (`values` of each reader).
 
-pub(crate) mod ways;
+pub(crate) mod paths;
 
 use ncc_dialects::SystemRow;
 use ncc_ir::expr::Var;
@@ -25,7 +25,7 @@ pub(crate) struct Saved {
     /// Variables that are given a whole number, in the same way.
     pub(crate) numbers: Vec<(Text, Var, i64)>,
     /// Where such codes are, and what tells the group.
-    pub(crate) back: Vec<(Span, Told)>,
+    pub(crate) back: Vec<(Span, GroupSource)>,
     /// Variables that are set anywhere, each in its program, where values at the start are stated; `None` is one whose
     /// number is computed.
     pub(crate) set: Vec<(Text, Option<Var>)>,
@@ -35,7 +35,7 @@ pub(crate) struct Saved {
 
 /// What tells which group a code is of.
 #[derive(Debug)]
-pub(crate) enum Told {
+pub(crate) enum GroupSource {
     /// A variable that has the code in force of it.
     Saved(&'static SystemRow, Var),
     /// The range of its number.
@@ -47,7 +47,7 @@ pub(crate) enum Told {
 impl Saved {
     /// A place of a table has a computed number.
     pub(crate) fn entry(&mut self, at: Span, name: &'static str) {
-        self.back.push((at, Told::Entry(name)));
+        self.back.push((at, GroupSource::Entry(name)));
     }
 }
 

@@ -14,7 +14,7 @@ use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute, clearance_by
 use ncc_ir::program::{Alarm, Control, Op, Stmt};
 
 use super::drilling::Arguments;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::siemens::lower::Lower;

@@ -14,14 +14,14 @@ use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::number::spell;
-use crate::siemens::facts::InForce;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
-use crate::siemens::program::again::CYCLE;
-use crate::siemens::sort::Given;
+use crate::siemens::program::repeated_blocks::CYCLE;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::{Called, Expr as Argument};
 
 /// Arguments of a call by the places of its parameters.
@@ -229,12 +229,12 @@ impl Lower {
         self.no_idle_tap(block, src, out);
         let cycle = self.arguments(row, called, src, out).and_then(|a| self.cycle_of(&a, src, out));
         if modal {
-            self.again.say(CYCLE);
+            self.repeated_blocks.say(CYCLE);
         }
         let says_speed = std::mem::take(&mut self.idle_tap);
         let Some(cycle) = cycle.filter(|_| !self.now.failed) else {
             if modal {
-                self.state.cycle = InForce::Refused;
+                self.state.cycle = ModalCall::Refused;
             }
             return;
         };
@@ -243,7 +243,7 @@ impl Lower {
         self.recall = false;
         let cycle = Box::new(cycle);
         if modal {
-            if matches!(self.state.cycle, InForce::Subprogram(_)) && self.skipped() {
+            if matches!(self.state.cycle, ModalCall::Subprogram(_)) && self.skipped() {
                 let name = "end of a call after each move that a switch may skip";
                 return self.not_supported(&row.name, name, block, out);
             }
@@ -251,11 +251,11 @@ impl Lower {
             self.idle_tap = says_speed;
             // Whether it has made a hole or not: which feed is in force behind it must be said.
             self.hole_made(&cycle);
-            self.state.cycle = InForce::Active(cycle);
+            self.state.cycle = ModalCall::Active(cycle);
             return;
         }
-        self.again.use_fact(CYCLE);
-        if !matches!(self.state.cycle, InForce::None | InForce::Refused) {
+        self.repeated_blocks.use_fact(CYCLE);
+        if !matches!(self.state.cycle, ModalCall::None | ModalCall::Refused) {
             let name = "cycle called while another is modal";
             return self.not_supported(&row.name, name, block, out);
         }
@@ -285,20 +285,20 @@ impl Lower {
     /// `MCALL` alone.
     pub(in crate::siemens) fn end_cycle(&mut self, at: Span, src: Source, out: &mut Batch) {
         self.no_idle_tap(at, src, out);
-        self.again.say(CYCLE);
-        if matches!(self.state.cycle, InForce::Subprogram(_)) {
+        self.repeated_blocks.say(CYCLE);
+        if matches!(self.state.cycle, ModalCall::Subprogram(_)) {
             if self.skipped() {
                 let name = "end of a call after each move that a switch may skip";
                 return self.not_supported("MCALL", name, at, out);
             }
             self.now.heading = true;
-            self.state.cycle = InForce::None;
+            self.state.cycle = ModalCall::None;
             return;
         }
-        if self.state.cycle != InForce::None {
+        if self.state.cycle != ModalCall::None {
             self.moved = None;
         }
-        self.state.cycle = InForce::None;
+        self.state.cycle = ModalCall::None;
         self.push(at, Op::EndCycle, out);
     }
 
@@ -313,7 +313,7 @@ impl Lower {
     /// Which feed is in force after a cycle that has its own is not known.
     pub(in crate::siemens) fn hole_made(&mut self, cycle: &Cycle) {
         if cycle.feed.is_some() {
-            (self.state.feed, self.state.spent) = (Know::Unsaid, false);
+            (self.state.modes.feed, self.state.spent) = (Know::Unsaid, false);
         }
     }
 

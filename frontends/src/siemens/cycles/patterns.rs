@@ -14,13 +14,13 @@ use ncc_ir::program::cycle::{Along, First, Pattern, Row, absolute};
 use ncc_ir::program::{Coord, Op, Point};
 
 use super::drilling::Arguments;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
-use crate::siemens::facts::InForce;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
-use crate::siemens::program::again::CYCLE;
-use crate::siemens::sort::Given;
+use crate::siemens::program::repeated_blocks::CYCLE;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::Called;
 
 /// Most holes of a pattern, along one direction.
@@ -38,11 +38,11 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        self.again.use_fact(CYCLE);
-        if self.state.cycle == InForce::None {
+        self.repeated_blocks.use_fact(CYCLE);
+        if self.state.cycle == ModalCall::None {
             self.fault(Fault::NoCycle, called.span, out);
         }
-        if matches!(self.state.cycle, InForce::Subprogram(_)) {
+        if matches!(self.state.cycle, ModalCall::Subprogram(_)) {
             let name = "pattern of a subprogram called after each move";
             return self.not_supported(&row.name, name, called.span, out);
         }
@@ -63,7 +63,7 @@ impl Lower {
             out.report(Fault::AssumedHoleOrder { pattern }, called.span);
         }
         self.rely_on_frames(true, called.span, out);
-        if let InForce::Active(cycle) = &self.state.cycle {
+        if let ModalCall::Active(cycle) = &self.state.cycle {
             let cycle = cycle.clone();
             if cycle.relies_on_feed() {
                 self.rely_on_feed(called.span, out);

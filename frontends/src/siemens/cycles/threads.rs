@@ -12,10 +12,10 @@ use ncc_ir::program::{Op, Pitch};
 use ncc_ir::source::Span;
 
 use super::drilling::Arguments;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::siemens::facts::InForce;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::ModalCall;
 
 /// Nominal sizes of the coarse metric series and their pitches in hundredths of a millimetre (ISO 261).
 const COARSE: [(i64, i64); 21] = [
@@ -95,18 +95,18 @@ impl Lower {
     }
 
     /// The unit of a pitch that has none of its own: the machine's, or that in force.
-    fn pitch_unit(&mut self, in_force: Unit, at: Span, out: &mut Batch) -> Unit {
+    fn pitch_unit(&mut self, active: Unit, at: Span, out: &mut Batch) -> Unit {
         let machine = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
-        let known = match (in_force, self.state.units.value()) {
+        let known = match (active, self.state.modes.units.value()) {
             (Unit::Entry, Some(Units::Inch)) => Unit::Inch,
             (Unit::Entry, Some(Units::Mm)) => Unit::Mm,
             (unit, _) => unit,
         };
         if known == machine {
-            return in_force;
+            return active;
         }
         match self.option("pitch_unit", at, out) {
-            "in-force" => in_force,
+            "in-force" => active,
             _ => machine,
         }
     }
@@ -148,7 +148,7 @@ impl Lower {
     pub(in crate::siemens) fn speed_of_tap(&mut self, speed: Option<Num>, at: Span, out: &mut Batch) {
         let Some(speed) = speed else { return };
         // The cycle that was modal is over before that: its own speed is what it was called up with.
-        if matches!(self.state.cycle, InForce::Active(_)) {
+        if matches!(self.state.cycle, ModalCall::Active(_)) {
             self.push(at, Op::EndCycle, out);
         }
         self.push(at, Op::SetSpindleSpeed(Expr::Num(speed)), out);

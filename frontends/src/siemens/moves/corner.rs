@@ -10,10 +10,10 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
+use crate::siemens::block_words::Words;
 use crate::siemens::lower::Lower;
-use crate::siemens::sort::Words;
 
 const CORNERS: [(NameRole, CornerShape); 3] = [
     (NameRole::RoundCorner, CornerShape::Round),

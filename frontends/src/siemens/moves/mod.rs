@@ -9,7 +9,7 @@
 
 pub(super) mod corner;
 pub(super) mod motion;
+pub(super) mod motion_without_move;
 pub(super) mod polar;
 pub(super) mod synchronised;
 pub(super) mod tilt;
-pub(super) mod unmoved;

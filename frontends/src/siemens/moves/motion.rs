@@ -15,13 +15,13 @@ use ncc_ir::expr::num::ONE;
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape, Turns};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
-use crate::siemens::facts::{InForce, Motion};
+use crate::siemens::block_words::{Code, Given, Words};
 use crate::siemens::lower::Lower;
-use crate::siemens::program::again::{CYCLE, MOTION};
-use crate::siemens::sort::{Code, Given, Words};
+use crate::siemens::program::repeated_blocks::{CYCLE, MOTION};
+use crate::siemens::siemens_state::{ModalCall, Motion};
 
 const CENTRE: &[u8] = b"IJK";
 
@@ -52,49 +52,49 @@ impl Lower {
         out: &mut Batch,
     ) {
         if let Some((code, motion)) = motion {
-            self.state.motion = Know::Said(motion);
-            self.again.say(MOTION);
-            let foreign = matches!(self.state.cycle, InForce::Inherited { .. } | InForce::Lost { .. });
+            self.state.modes.motion = Know::Said(motion);
+            self.repeated_blocks.say(MOTION);
+            let foreign = matches!(self.state.cycle, ModalCall::Inherited { .. } | ModalCall::Lost { .. });
             if foreign && motion != Motion::Traverse {
                 let name = "motion at feed while a cycle of the caller may be in force";
                 self.not_supported(code.name, name, code.span, out);
             }
         }
         let line = |m| matches!(m, Motion::Traverse | Motion::Feed | Motion::Thread(_));
-        let arc_now = self.state.motion.value().is_some_and(|m| !line(m));
+        let arc_now = self.state.modes.motion.value().is_some_and(|m| !line(m));
         let arc_words = words.has_any(CENTRE) || NAMED.iter().any(|&role| words.named(role).is_some());
         if !(words.has_point() || arc_now && arc_words) {
-            self.unmoved |= motion.is_some();
+            self.motion_without_move |= motion.is_some();
             if let Some(code) = machine {
                 // Without a move it does nothing.
                 self.push(code.span, Op::NoEffect(code.name.into()), out);
             }
             return;
         }
-        self.unmoved = false;
-        self.again.use_fact(CYCLE);
-        self.again.use_fact(MOTION);
-        if let Some(Motion::Thread(thread)) = self.state.motion.value() {
+        self.motion_without_move = false;
+        self.repeated_blocks.use_fact(CYCLE);
+        self.repeated_blocks.use_fact(MOTION);
+        if let Some(Motion::Thread(thread)) = self.state.modes.motion.value() {
             self.moved = None;
             return self.thread(thread, machine, block, words, src, out);
         }
         match std::mem::take(&mut self.state.cycle) {
-            cycle @ (InForce::None | InForce::Refused) => {
+            cycle @ (ModalCall::None | ModalCall::Refused) => {
                 self.state.cycle = cycle;
                 let made = self.path(motion.is_some(), machine, block, words, src, out);
                 self.moved = made;
             }
-            InForce::Subprogram(after) => {
+            ModalCall::Subprogram(after) => {
                 self.moved = self.path(motion.is_some(), machine, block, words, src, out);
                 if !self.now.failed {
                     self.call_after_move(&after, block, src, out);
                 }
-                self.state.cycle = InForce::Subprogram(after);
+                self.state.cycle = ModalCall::Subprogram(after);
             }
-            InForce::Active(cycle) => {
-                self.state.cycle = InForce::Active(cycle.clone());
+            ModalCall::Active(cycle) => {
+                self.state.cycle = ModalCall::Active(cycle.clone());
                 self.moved = None;
-                if self.state.motion.value().is_none() {
+                if self.state.modes.motion.value().is_none() {
                     self.take_rapid(block, out);
                 }
                 if cycle.relies_on_feed() {
@@ -105,7 +105,7 @@ impl Lower {
                     let Ok(polar) = self.polar_words(words, src, out) else { return };
                     let to = self.point(true, None, words, src, out);
                     self.push_to(polar, block, Op::Hole(Move { to, said: false }), out);
-                } else if cycle.feed.is_some() && self.state.motion.value() != Some(Motion::Traverse) {
+                } else if cycle.feed.is_some() && self.state.modes.motion.value() != Some(Motion::Traverse) {
                     // The way there has the program's feed; the cycle's is taken up in the hole.
                     let name = "position reached at feed under a cycle with a feed of its own";
                     self.not_supported(&src.text(block), name, block, out);
@@ -124,8 +124,8 @@ impl Lower {
                 }
                 self.hole_made(&cycle);
             }
-            InForce::Inherited { own_feed } => {
-                self.state.cycle = InForce::Inherited { own_feed };
+            ModalCall::Inherited { own_feed } => {
+                self.state.cycle = ModalCall::Inherited { own_feed };
                 if self.is_position(machine, block, words, out) {
                     self.position(words, block, src, out);
                 } else if !self.now.failed {
@@ -133,9 +133,9 @@ impl Lower {
                     self.not_supported(&src.text(block), name, block, out);
                 }
             }
-            InForce::Lost { own_feed } => {
-                self.state.cycle = InForce::Lost { own_feed };
-                match (self.state.motion.value(), machine) {
+            ModalCall::Lost { own_feed } => {
+                self.state.cycle = ModalCall::Lost { own_feed };
+                match (self.state.modes.motion.value(), machine) {
                     (None, None) => self.position(words, block, src, out),
                     _ => self.fault(Fault::EntryFactNeeded { fact: ModeName::Motion }, block, out),
                 }
@@ -145,7 +145,7 @@ impl Lower {
 
     /// Whether the words are a position of a hole: at G0, and of the plane alone.
     fn is_position(&mut self, machine: Option<Code>, block: Span, words: &Words, out: &mut Batch) -> bool {
-        let rapid = self.state.motion.value().is_none_or(|m| m == Motion::Traverse);
+        let rapid = self.state.modes.motion.value().is_none_or(|m| m == Motion::Traverse);
         if !rapid || machine.is_some() {
             return false;
         }
@@ -227,7 +227,7 @@ impl Lower {
     /// Coordinates of the machine. Whether the tool's length counts in them is a setting of the control.
     fn in_machine(&mut self, code: Code, to: &Point, out: &mut Batch) {
         let counts = |length| NameMeaning::Code(Meaning::UseMachineCoordinates { length, rapid: false });
-        if to.get(Axis::Z).is_some() && self.state.length.value() != Some(false) {
+        if to.get(Axis::Z).is_some() && self.state.modes.length.value() != Some(false) {
             self.option(MACHINE_LENGTH, code.span, out);
         }
         self.push(code.span, Op::UseMachineCoordinates { length: code.meaning == counts(true) }, out);
@@ -273,9 +273,9 @@ impl Lower {
 
     /// Which way round rotary axes go in a line.
     fn rotary_ways(&mut self, machine: Option<Code>, words: &mut Words, src: Source, out: &mut Batch) {
-        let mut ways = [None; 3];
+        let mut directions = [None; 3];
         let mut at: Option<Span> = None;
-        for (way, letter) in ways.iter_mut().zip(b"ABC") {
+        for (way, letter) in directions.iter_mut().zip(b"ABC") {
             let Some((said, span)) = words.take_way(*letter) else { continue };
             let angle = words.get(*letter).map(|given| given.digits);
             if machine.is_some() || words.has_polar() {
@@ -289,7 +289,7 @@ impl Lower {
             at = Some(at.map_or(span, |at| at.to(span)));
         }
         if let Some(at) = at {
-            self.push(at, Op::TurnRotaryAxes(ways), out);
+            self.push(at, Op::TurnRotaryAxes(directions), out);
         }
     }
 
@@ -363,7 +363,7 @@ impl Lower {
         let angle = words.take_named(NameRole::OpeningAngle);
         let turns = match words.take_named(NameRole::Turns) {
             None => 0,
-            Some(given) => match self.whole(given, src, out) {
+            Some(given) => match self.read_whole(given, src, out) {
                 Some(turns @ 0..=MOST_TURNS) => turns,
                 Some(_) => {
                     return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);

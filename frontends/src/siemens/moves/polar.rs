@@ -12,40 +12,13 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
+use crate::siemens::block_words::{Code, Given, Words};
 use crate::siemens::lower::Lower;
-use crate::siemens::sort::{Code, Given, Words};
+use crate::siemens::siemens_state::Pole;
 
 const ROLES: [NameRole; 2] = [NameRole::PolarRadius, NameRole::PolarAngle];
-
-/// What is known of the pole in force.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::siemens) enum Pole {
-    /// None was set: it is at zero.
-    #[default]
-    Unsaid,
-    /// One of a plane; the place in it, if words have said it from zero.
-    Said(Plane, Option<[Num; 2]>),
-    /// It is known only when the program runs.
-    Lost,
-}
-
-impl Pole {
-    /// After other frames or another plane, nobody says where it is.
-    pub(in crate::siemens) fn lose(&mut self) {
-        if *self != Pole::Unsaid {
-            *self = Pole::Lost;
-        }
-    }
-
-    /// What is known after a block that may have been skipped.
-    pub(in crate::siemens) fn join(&mut self, before: Pole) {
-        if *self != before {
-            *self = Pole::Lost;
-        }
-    }
-}
 
 /// The polar words of a block.
 #[derive(Debug)]

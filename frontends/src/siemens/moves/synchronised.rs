@@ -11,11 +11,11 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Pitch, Point, Synchronised};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::siemens::facts::InForce;
+use crate::siemens::block_words::{Code, Words};
 use crate::siemens::lower::Lower;
-use crate::siemens::sort::{Code, Words};
+use crate::siemens::siemens_state::ModalCall;
 
 /// Letters of leads along X, Y and Z.
 const LEADS: [u8; 3] = *b"IJK";
@@ -88,11 +88,11 @@ impl Lower {
     ) -> Option<(Axis, Point)> {
         let name = match &self.state.cycle {
             _ if other => Some("thread beside another motion or in machine coordinates"),
-            InForce::None | InForce::Refused => None,
-            InForce::Active(_)
-            | InForce::Subprogram(_)
-            | InForce::Inherited { .. }
-            | InForce::Lost { .. } => Some("thread while a cycle or a subprogram may be modal"),
+            ModalCall::None | ModalCall::Refused => None,
+            ModalCall::Active(_)
+            | ModalCall::Subprogram(_)
+            | ModalCall::Inherited { .. }
+            | ModalCall::Lost { .. } => Some("thread while a cycle or a subprogram may be modal"),
         };
         let to = self.point(false, None, words, src, out);
         let along: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| to.get(*axis).is_some()).collect();

@@ -13,13 +13,13 @@ use ncc_ir::expr::Expr as Value;
 use ncc_ir::program::{FrameSlot, Op, Point, Reference, ReferencePoint, Slot, Tilt, Toward};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::text::decode;
-use crate::siemens::facts::InForce;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
-use crate::siemens::sort::Given;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::spindles::number;
 use crate::siemens::text::tree::Expr;
 
@@ -64,14 +64,14 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        if !matches!(self.state.cycle, InForce::None) {
+        if !matches!(self.state.cycle, ModalCall::None) {
             return self.not_supported(name, "swivelled plane while a cycle is in force", span, out);
         }
         self.stand.forget();
         self.state.pole.lose();
         if arguments.iter().all(Option::is_none) {
-            self.tilt.ends(self.state.tilt);
-            self.state.tilt = Know::Said(false);
+            self.tilt.ends(self.state.modes.tilt);
+            self.state.modes.tilt = Know::Said(false);
             return self.push(span, Op::ClearFrame(FrameSlot::Tilt), out);
         }
         if let Some(what) = refused(arguments) {
@@ -122,13 +122,13 @@ impl Lower {
         let origin = ZERO.map(|place| self.swivel_value(arguments, place, Quantity::Length, src, out));
         let angles = ANGLES.map(|place| self.swivel_value(arguments, place, Quantity::Angle, src, out));
         let ([Some(x), Some(y), Some(z)], [Some(a), Some(b), Some(c)]) = (origin, angles) else { return };
-        if self.tilt.ends(self.state.tilt) {
+        if self.tilt.ends(self.state.modes.tilt) {
             self.push(span, Op::ClearFrame(FrameSlot::Tilt), out);
         }
         if !self.tilt.starts() {
             return self.not_supported(name, "swivelled plane where one may be in force already", span, out);
         }
-        self.state.tilt = Know::Said(true);
+        self.state.modes.tilt = Know::Said(true);
         if !retracts.is_empty() && self.option("swivel_retract", span, out) == "elsewhere" {
             let what = "swivelled plane that retracts to another place than the machine's zero";
             return self.not_supported(name, what, span, out);

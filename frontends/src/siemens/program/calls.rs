@@ -16,18 +16,18 @@ use ncc_ir::expr::{Expr as Value, Many, Node, Var};
 use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
 
-use super::again::{NotAgain, Under};
-use crate::Batch;
-use crate::begins::report;
+use super::repeated_blocks::{NotRepeatable, Under};
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Digits, Value as Number, Word};
+use crate::initial_modes::report;
 use crate::siemens::cycles::drilling::is_cycle;
-use crate::siemens::facts::{AfterMove, InForce, Motion, State};
 use crate::siemens::lower::{Head, Lower};
+use crate::siemens::siemens_state::{AfterMove, ModalCall, Motion, SiemensState};
 use crate::siemens::text::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Written};
 use crate::siemens::text::unit::Kind;
-use crate::siemens::values::formula::{Kind as Formed, Typed};
+use crate::siemens::values::typed::{Kind as Formed, Typed};
 
 /// What a call hands over.
 #[derive(Clone, Copy, Debug)]
@@ -194,13 +194,13 @@ impl Lower {
             (None, Some(row)) => {
                 let refuse = row.refuse.as_deref().unwrap_or("modal call");
                 self.not_supported(&name, refuse, called.span, out);
-                self.state.cycle = InForce::Refused;
+                self.state.cycle = ModalCall::Refused;
             }
             (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
             // A name begins with two letters, or an underline and one (PGsl, subprogram names); `L` alone has a number.
             (None, None) if is_word(&name) => {
                 self.not_supported("MCALL", "another word in its block", called.span, out);
-                self.state.cycle = InForce::Refused;
+                self.state.cycle = ModalCall::Refused;
             }
             (None, None) => self.call_modal_program(&name, called, src, out),
         }
@@ -215,7 +215,7 @@ impl Lower {
                 Some(argument) => match self.formula(argument, src, out) {
                     Some(typed) => Some(typed),
                     None => {
-                        self.state.cycle = InForce::Refused;
+                        self.state.cycle = ModalCall::Refused;
                         return;
                     }
                 },
@@ -225,24 +225,24 @@ impl Lower {
             Some("call after each move with what others may change")
         } else if self.skipped() {
             Some("call after each move that a switch may skip")
-        } else if matches!(self.state.cycle, InForce::Inherited { .. } | InForce::Lost { .. }) {
+        } else if matches!(self.state.cycle, ModalCall::Inherited { .. } | ModalCall::Lost { .. }) {
             Some("call after each move where a cycle of the caller may be in force")
         } else {
             None
         };
-        self.again.say(super::again::CYCLE);
+        self.repeated_blocks.say(super::repeated_blocks::CYCLE);
         if let Some(refuse) = refuse {
             self.not_supported(&src.text(called.span), refuse, called.span, out);
-            self.state.cycle = InForce::Refused;
+            self.state.cycle = ModalCall::Refused;
             return;
         }
         // A cycle that was in force is off; the call itself says nothing.
-        if matches!(self.state.cycle, InForce::Active(_)) {
+        if matches!(self.state.cycle, ModalCall::Active(_)) {
             self.moved = None;
             self.push(called.span, Op::EndCycle, out);
         }
         self.now.heading = true;
-        self.state.cycle = InForce::Subprogram(Box::new(AfterMove { name: name.into(), given }));
+        self.state.cycle = ModalCall::Subprogram(Box::new(AfterMove { name: name.into(), given }));
     }
 
     /// The call behind a block with motion, as a block of its own.
@@ -291,21 +291,21 @@ impl Lower {
         }
         let own_feed = self.state.cycle.own_feed();
         let under = match &self.state.cycle {
-            InForce::None | InForce::Refused => Under::Nothing,
-            InForce::Active(_) | InForce::Inherited { .. } => Under::Cycle { own_feed },
-            InForce::Lost { .. } => Under::Either { own_feed },
-            InForce::Subprogram(_) => {
+            ModalCall::None | ModalCall::Refused => Under::Nothing,
+            ModalCall::Active(_) | ModalCall::Inherited { .. } => Under::Cycle { own_feed },
+            ModalCall::Lost { .. } => Under::Either { own_feed },
+            ModalCall::Subprogram(_) => {
                 let name = "call while a subprogram is called after each move";
                 return self.not_supported(&src.text(at), name, at, out);
             }
         };
         let drills = matches!(under, Under::Cycle { .. });
-        self.again.use_fact(super::again::CYCLE);
+        self.repeated_blocks.use_fact(super::repeated_blocks::CYCLE);
         if drills {
-            self.again.use_fact(super::again::MOTION);
-            match self.state.motion.value() {
+            self.repeated_blocks.use_fact(super::repeated_blocks::MOTION);
+            match self.state.modes.motion.value() {
                 Some(Motion::Traverse) => {}
-                None if matches!(self.state.cycle, InForce::Inherited { .. }) => {}
+                None if matches!(self.state.cycle, ModalCall::Inherited { .. }) => {}
                 None => self.take_rapid(at, out),
                 Some(_) => {
                     let name = "call under a cycle with another motion than G0 in force";
@@ -315,7 +315,7 @@ impl Lower {
         } else {
             self.hand_motion_on(at, out);
         }
-        if !self.again.call(name, &written, at, under) {
+        if !self.repeated_blocks.call(name, &written, at, under) {
             let name = "call under another cycle than where the subprogram was called before";
             return self.not_supported(&src.text(at), name, at, out);
         }
@@ -325,18 +325,18 @@ impl Lower {
         let times = times as u32;
         self.no_stale_offset(at, out);
         let Some(arguments) = self.handed_over(name, given, at, src, out) else { return };
-        self.inherited.call(Some(name.into()), self.state.unsaid());
-        self.motion_goes_on(&[self.state.motion], out);
+        self.inherited.call(Some(name.into()), self.state.modes.unsaid());
+        self.motion_goes_on(&[self.state.modes.motion], out);
         self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments, shared: false })), out);
         // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
         let cycle = std::mem::take(&mut self.state.cycle);
-        let motion = self.state.motion;
-        self.state = self.state.behind_call(cycle);
+        let motion = self.state.modes.motion;
+        self.state = self.state.after_call(cycle);
         if drills {
-            self.state.motion = motion;
+            self.state.modes.motion = motion;
         }
         if own_feed {
-            self.state.feed = Know::Unsaid;
+            self.state.modes.feed = Know::Unsaid;
         }
         self.stand.forget();
         self.moved = None;
@@ -356,11 +356,11 @@ impl Lower {
     /// A subprogram's position finds the motion of the last move: one that was only said is made a
     /// statement.
     fn hand_motion_on(&mut self, at: Span, out: &mut Batch) {
-        let motion = self.state.motion.value();
+        let motion = self.state.modes.motion.value();
         if motion == self.moved {
             return;
         }
-        self.again.use_fact(super::again::MOTION);
+        self.repeated_blocks.use_fact(super::repeated_blocks::MOTION);
         let nowhere = Move { said: true, ..Move::default() };
         match motion {
             Some(Motion::Traverse) => self.push(at, Op::StraightTraverse(nowhere), out),
@@ -371,13 +371,13 @@ impl Lower {
 
     /// The subprogram that is read goes back to its caller.
     pub(in crate::siemens) fn leave(&mut self, at: Span, out: &mut Batch) {
-        self.motion_goes_on(&[self.state.motion], out);
-        if self.state.cycle != self.entry && self.state.cycle != InForce::Refused {
+        self.motion_goes_on(&[self.state.modes.motion], out);
+        if self.state.cycle != self.entry && self.state.cycle != ModalCall::Refused {
             let name = "cycle that its subprogram leaves in force or ends";
             return self.not_supported("MCALL", name, at, out);
         }
         // A caller's move that misses the feed of another way of counting is refused where it is executed.
-        let unsaid = self.state.feed == Know::Unsaid && !self.state.spent;
+        let unsaid = self.state.modes.feed == Know::Unsaid && !self.state.spent;
         if unsaid && !self.entry.own_feed() && !self.watch {
             self.fault(Fault::NoFeed, at, out);
         }
@@ -397,7 +397,7 @@ impl Lower {
         let times = match count {
             None => Some(Value::int(1)),
             Some(Expr::Number(digits, _)) => {
-                whole(*digits).filter(|t| (1..=MOST_TIMES).contains(t)).map(Value::int)
+                whole_digits(*digits).filter(|t| (1..=MOST_TIMES).contains(t)).map(Value::int)
             }
             Some(other) => {
                 let Some(typed) = self.formula(other, src, out) else { return };
@@ -415,20 +415,20 @@ impl Lower {
         };
         let (from, mut to) = (upper(first), last.map(upper));
         for (name, span) in [Some((&from, first)), to.as_ref().zip(last)].into_iter().flatten() {
-            if !self.again.has_label(name) {
+            if !self.repeated_blocks.has_label(name) {
                 return self.fault(Fault::LabelUnknown { name: name.clone() }, span, out);
             }
         }
         if to.is_none() {
-            to = self.again.end_behind(&from);
+            to = self.repeated_blocks.end_behind(&from);
         }
         let several = times != Value::int(1);
-        match self.again.repeat(&from, to.as_deref(), several, &mut self.state) {
+        match self.repeated_blocks.repeat(&from, to.as_deref(), several, &mut self.state) {
             Ok(()) => {}
-            Err(NotAgain::Unknown) => {
+            Err(NotRepeatable::Unknown) => {
                 return self.fault(Fault::LabelUnknown { name: to.unwrap_or(from) }, head.span, out);
             }
-            Err(NotAgain::Differs) => {
+            Err(NotRepeatable::Differs) => {
                 let name = "repetition of blocks that find other modes in force than the first time";
                 return self.not_supported("REPEAT", name, head.span, out);
             }
@@ -477,12 +477,12 @@ impl Lower {
 
     /// The text of a subprogram begins.
     pub(in crate::siemens) fn enter(&mut self, name: &Text, at: Span, out: &mut Batch) {
-        let entry = self.again.enter(name);
+        let entry = self.repeated_blocks.enter(name);
         if entry.is_none() {
             out.report(Fault::ProgramTwice { name: name.clone() }, at);
         }
         self.entry = entry.unwrap_or_default();
-        self.state = State::called(self.entry.clone());
+        self.state = SiemensState::called(self.entry.clone());
         self.inherited.enter(name.clone());
         self.variables.clear();
         self.executed = false;
@@ -497,41 +497,27 @@ impl Lower {
 
     /// What is called runs under what the text has not said: as the program begins, where that is taken for granted.
     fn as_it_begins(&mut self, out: &mut Batch) {
-        let begins = &self.settings.dialect.power_on;
-        let relied = [
-            match &begins.units {
-                _ if !self.state.units.unsaid() => None,
-                Some(units) if self.assume => self.only_units.see(units.value.into()),
-                _ => {
-                    self.only_units.open();
-                    None
-                }
-            }
-            .map(|at| (ModeName::Units, at)),
-            match &begins.plane {
-                _ if !self.state.plane.unsaid() => None,
-                Some(plane) if self.assume => self.only_plane.see(plane.value.into()),
-                _ => {
-                    self.only_plane.open();
-                    None
-                }
-            }
-            .map(|at| (ModeName::Plane, at)),
-        ];
-        for (fact, at) in relied.into_iter().flatten() {
+        let power_on = &self.settings.dialect.power_on;
+        let (units, plane) = (self.state.modes.units, self.state.modes.plane);
+        let unit = power_on.units.as_ref().map(|row| row.value.into()).filter(|_| self.assume);
+        let own = power_on.plane.as_ref().map(|row| row.value.into()).filter(|_| self.assume);
+        let units = units.unsaid().then(|| self.only_units.see_or_open(unit)).flatten();
+        let plane = plane.unsaid().then(|| self.only_plane.see_or_open(own)).flatten();
+        let relied = [(ModeName::Units, units), (ModeName::Plane, plane)];
+        for (fact, at) in relied.into_iter().filter_map(|(fact, at)| Some((fact, at?))) {
             out.report(Fault::EntryFactNeeded { fact }, at);
         }
     }
 
     /// Under a cycle, positions are taken for rapid where the motion in force is not known.
     pub(in crate::siemens) fn take_rapid(&mut self, at: Span, out: &mut Batch) {
-        if self.state.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
+        if self.state.modes.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
             return;
         }
-        if self.state.motion != Know::Unsaid {
+        if self.state.modes.motion != Know::Unsaid {
             if self.feed_away {
                 // It is told once.
-                self.state.motion = Know::Taken(Motion::Traverse);
+                self.state.modes.motion = Know::Taken(Motion::Traverse);
                 return self.refuse_rapid(at, out);
             }
             self.rapid_taken.get_or_insert(at);
@@ -539,7 +525,7 @@ impl Lower {
         if self.first_time("rapid under a cycle") {
             report(out, at, ModeName::Motion, Some("rapid"));
         }
-        self.state.motion = Know::Taken(Motion::Traverse);
+        self.state.modes.motion = Know::Taken(Motion::Traverse);
     }
 
     /// Control goes elsewhere with such a motion in force: what is taken for rapid there may be none.
@@ -561,17 +547,17 @@ impl Lower {
 /// The count of a call: `P3`, `P=3`.
 fn times(item: &Item) -> Option<i64> {
     match item {
-        Item::Word(Word { letter: b'P', value: Number::Number(digits), .. }) => whole(*digits),
+        Item::Word(Word { letter: b'P', value: Number::Number(digits), .. }) => whole_digits(*digits),
         Item::Set {
             place: Place { address: Address::Letter(b'P'), extension: None, index, .. },
             value: Written::Expr(Expr::Number(digits, _)),
             ..
-        } if index.is_empty() => whole(*digits),
+        } if index.is_empty() => whole_digits(*digits),
         Item::Word(_) | Item::Set { .. } | Item::Name(_) => None,
     }
 }
 
-fn whole(digits: Digits) -> Option<i64> {
+fn whole_digits(digits: Digits) -> Option<i64> {
     (digits.scale == 0).then_some(digits.mantissa)
 }
 

@@ -16,112 +16,19 @@ use std::collections::HashSet;
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::expr::{Binary, Expr, Function, Node, Var};
+use ncc_ir::expr::{Binary, Expr, Function, Node};
 use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::labels::{InPlace, Label, Pending, marked, resolve};
-use crate::Batch;
+use super::open_structures::Flow;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::common::known::Know;
-use crate::siemens::facts::{Motion, State};
 use crate::siemens::lower::Lower;
-use crate::siemens::text::tree;
+use crate::siemens::siemens_state::SiemensState;
 use crate::siemens::text::tree::{Expr as Tree, Jump, Place, Target};
-use crate::siemens::text::unit;
-use crate::siemens::values::formula::{Kind, Typed};
-
-/// What the text says of jumps, and the structures that are open.
-#[derive(Debug, Default)]
-pub(in crate::siemens) struct Flow {
-    /// Labels and block numbers that jumps name.
-    targets: HashSet<Text>,
-    labels: Vec<Label>,
-    jumps: Vec<Pending>,
-    open: Vec<Open>,
-    /// The first feed within them that relied on what feeds count in where a loop begins.
-    pub(in crate::siemens) relied: Option<Span>,
-    /// Whether what was read last cannot be left towards what follows.
-    pub(in crate::siemens) over: bool,
-    /// Whether an end of the program has been read.
-    pub(in crate::siemens) has_end: bool,
-}
-
-/// A structure that has not ended.
-#[derive(Debug)]
-struct Open {
-    what: What,
-    /// Where its body begins in the statements.
-    at: usize,
-    head: Span,
-    number: Option<u32>,
-    comment: Option<Box<Text>>,
-    found: InPlace,
-    /// Whether feeds count in the units in force, where it begins: so they do in every turn, if they do at its end.
-    scaled: Know<bool>,
-}
-
-#[derive(Debug)]
-enum What {
-    /// With its other branch, what was read before that, and what is in force where the branches begin or ended.
-    If {
-        condition: Expr,
-        then: Option<Vec<Stmt>>,
-        other: Box<(State, Option<Motion>)>,
-    },
-    Loop,
-    While(Expr),
-    For {
-        variable: Var,
-        from: Expr,
-        to: Expr,
-    },
-    Until,
-}
-
-/// Which structure a word closes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::siemens) enum Closes {
-    If,
-    Loop,
-    While,
-    For,
-    Until,
-}
-
-impl Closes {
-    const fn word(self) -> &'static str {
-        match self {
-            Closes::If => "ENDIF",
-            Closes::Loop => "ENDLOOP",
-            Closes::While => "ENDWHILE",
-            Closes::For => "ENDFOR",
-            Closes::Until => "UNTIL",
-        }
-    }
-}
-
-impl What {
-    const fn closed_by(&self) -> Closes {
-        match self {
-            What::If { .. } => Closes::If,
-            What::Loop => Closes::Loop,
-            What::While(_) => Closes::While,
-            What::For { .. } => Closes::For,
-            What::Until => Closes::Until,
-        }
-    }
-
-    const fn word(&self) -> &'static str {
-        match self {
-            What::If { .. } => "IF",
-            What::Loop => "LOOP",
-            What::While(_) => "WHILE",
-            What::For { .. } => "FOR",
-            What::Until => "REPEAT",
-        }
-    }
-}
+use crate::siemens::text::{tree, unit};
+use crate::siemens::values::typed::{Kind, Typed};
 
 /// The name by which jumps know a block number.
 fn numbered(number: u32) -> Text {
@@ -208,11 +115,11 @@ impl Lower {
         self.no_stale_offset(at, out);
         self.settle(at, out);
         self.leave_motion_before(at, out);
-        self.motion_goes_on(&[self.state.motion], out);
+        self.motion_goes_on(&[self.state.modes.motion], out);
         let cycle = std::mem::take(&mut self.state.cycle);
-        self.state = State::lost(cycle);
+        self.state = SiemensState::lost(cycle);
         self.stand.forget();
-        self.again.use_all();
+        self.repeated_blocks.use_all();
         self.forget_texts();
         // Behind a cycle, what was in force before it is still not known where it was not told.
         self.cycled &= self.moved.is_none();

@@ -10,13 +10,13 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::siemens::facts::InForce;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::Direction;
 
 /// What must be the same at a jump and where it goes.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::siemens) struct InPlace {
-    pub(in crate::siemens) cycle: InForce,
+    pub(in crate::siemens) cycle: ModalCall,
     pub(in crate::siemens) rounding: Option<Num>,
 }
 
@@ -38,14 +38,14 @@ pub(in crate::siemens) struct Pending {
     pub(in crate::siemens) found: InPlace,
 }
 
-/// Lets the jumps of a program go to their labels; what cannot is told. Gives whether anything was.
+/// Lets the jumps of a program go to their labels; what cannot is reported. Gives whether anything was.
 pub(in crate::siemens) fn resolve(
     labels: &[Label],
     jumps: &[Pending],
     body: &mut Vec<Stmt>,
-    told: &mut Vec<Diagnostic>,
+    reported: &mut Vec<Diagnostic>,
 ) -> bool {
-    let before = told.len();
+    let before = reported.len();
     let names = own_names(labels, jumps);
     let mut by_name: HashMap<&str, Vec<usize>> = HashMap::new();
     for (place, label) in labels.iter().enumerate() {
@@ -58,7 +58,7 @@ pub(in crate::siemens) fn resolve(
         let refuse = match to {
             None if quiet => None,
             None => {
-                told.push(Diagnostic::new(Fault::LabelUnknown { name: jump.name.clone() }, jump.span));
+                reported.push(Diagnostic::new(Fault::LabelUnknown { name: jump.name.clone() }, jump.span));
                 None
             }
             Some(to) => match &labels[to].found {
@@ -71,7 +71,7 @@ pub(in crate::siemens) fn resolve(
         };
         if let Some(refuse) = refuse {
             let fault = Fault::NotSupported { code: jump.name.clone(), name: refuse.into() };
-            told.push(Diagnostic::new(fault, jump.span));
+            reported.push(Diagnostic::new(fault, jump.span));
         }
         found.insert(marked(&jump.name, jump.span), to.map(|to| names[to].clone()));
     }
@@ -83,7 +83,7 @@ pub(in crate::siemens) fn resolve(
         .collect();
     let mut now: HashMap<Text, Text> = HashMap::new();
     join(body, &found, &renamed, &mut now);
-    told.len() > before
+    reported.len() > before
 }
 
 /// What a jump is called until its label is found, by its end: no label has such a name.

@@ -7,8 +7,10 @@
 //!
 //! Not here: expressions (`values`).
 
-pub(super) mod again;
 pub(super) mod calls;
 pub(super) mod flow;
+pub(super) mod handed;
 pub(super) mod labels;
+pub(super) mod open_structures;
 pub(super) mod parameters;
+pub(super) mod repeated_blocks;

@@ -24,33 +24,15 @@ use ncc_ir::track::Tracker;
 use ncc_passes::flow::restored_modes;
 
 use super::calls::Handing;
-use crate::Batch;
+use super::handed::{Argument, Call, Taken};
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::siemens::facts::Motion;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::Motion;
 use crate::siemens::text::tree::{Address, Expr as Tree, Parameter, Place, Value};
 use crate::siemens::values::computing::{array, stored};
-use crate::siemens::values::formula::{Kind, Typed, may_be_one, reads, several};
-
-/// What is known of calls with arguments and of parameters.
-#[derive(Debug, Default)]
-pub(in crate::siemens) struct Handed {
-    calls: Vec<Call>,
-    parameters: Vec<(Text, Vec<Taken>)>,
-    /// What holds where the part of the text begins that is kept whole.
-    stood: Tracker,
-}
-
-/// A call with arguments, by its place.
-#[derive(Debug)]
-struct Call {
-    name: Text,
-    at: Span,
-    /// What is handed over; `None` where nothing is.
-    given: Vec<Option<Argument>>,
-    /// Whether it is made after each move.
-    modal: bool,
-}
+use crate::siemens::values::formula::{may_be_one, reads, several};
+use crate::siemens::values::typed::{Kind, Typed};
 
 /// Where an element is kept of an array that is the caller's own.
 pub(super) fn element_of(reference: &Var, at: &[u32]) -> Var {
@@ -66,26 +48,6 @@ pub(super) fn all_indices(sizes: &[u32]) -> Vec<Vec<u32>> {
         all.into_iter().flat_map(with).collect()
     };
     sizes.iter().fold(vec![Vec::new()], more)
-}
-
-/// What a call hands over for one parameter.
-#[derive(Clone, Debug)]
-enum Argument {
-    /// A value.
-    One(Typed),
-    /// An array as a whole: its sizes, and its elements.
-    Array(Box<[u32]>, Vec<Typed>),
-}
-
-/// A parameter: its type, and its value where a call has none.
-#[derive(Clone, Debug)]
-struct Taken {
-    kind: Kind,
-    otherwise: Expr,
-    /// Where one is kept that is the caller's variable itself; of an array, what the names of its elements begin with.
-    reference: Option<Var>,
-    /// Of an array.
-    sizes: Box<[u32]>,
 }
 
 /// What a call hands over.
@@ -266,18 +228,18 @@ impl Lower {
         let framed = state.in_frame.contains(&true);
         self.handed.stood = Tracker {
             modes: Modes {
-                motion: match state.motion.value() {
+                motion: match state.modes.motion.value() {
                     Some(Motion::Traverse) => Some(canon::Motion::Traverse),
                     Some(Motion::Feed) => Some(canon::Motion::Feed),
                     Some(Motion::Arc(_) | Motion::Through | Motion::Tangent | Motion::Thread(_)) | None => {
                         None
                     }
                 },
-                distance: state.distance.value(),
-                units: state.units.value(),
-                plane: state.plane.value(),
-                feed_mode: state.feed_mode.value(),
-                work_offset: state.work_offset.value(),
+                distance: state.modes.distance.value(),
+                units: state.modes.units.value(),
+                plane: state.modes.plane.value(),
+                feed_mode: state.modes.feed_mode.value(),
+                work_offset: state.modes.work_offset.value(),
                 ..Modes::default()
             },
             framed,
@@ -317,7 +279,7 @@ impl Lower {
             let takes = takes.map_or(&[][..], |(_, takes)| takes);
             if call.given.len() > takes.len() {
                 // One that is not in the text is told as that.
-                if !self.again.has_met(&call.name) {
+                if !self.repeated_blocks.has_met(&call.name) {
                     continue;
                 }
                 let name = "call with more arguments than its subprogram has parameters".into();

@@ -28,7 +28,7 @@ pub(crate) fn word(letter: u8, digits: Digits, negative: bool, l: u32, r: u32) -
 }
 
 /// A whole number without a point.
-pub(crate) fn whole(digits: Digits, l: u32, r: u32) -> Parsed<u32> {
+pub(crate) fn whole_number(digits: Digits, l: u32, r: u32) -> Parsed<u32> {
     let span = Span::new(l, r);
     if digits.point {
         return refuse(Fault::PointNotAllowed { word: spelt(digits) }, span);
@@ -48,7 +48,7 @@ fn spelt(digits: Digits) -> Box<str> {
 }
 
 pub(crate) fn block_number(digits: Digits, main: bool, l: u32, r: u32) -> Parsed<BlockNumber> {
-    Ok(BlockNumber { value: whole(digits, l, r)?, main, span: Span::new(l, r) })
+    Ok(BlockNumber { value: whole_number(digits, l, r)?, main, span: Span::new(l, r) })
 }
 
 pub(crate) fn place(

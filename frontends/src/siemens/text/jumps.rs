@@ -1,11 +1,11 @@
 //! Jumps, labels and block numbers of a text, by its form alone: for somebody who looks where a program
 //! that is not translated can go. Not here: what any block means.
 
+use super::parse::parse;
 use super::tree::{Address, BlockNumber, Direction, Expr, Jump, Place, Statement, Target};
 use super::unit::{self, Line};
-use crate::Flow;
 use crate::common::Source;
-use crate::siemens::parse;
+use crate::outline::Flow;
 
 /// Tells every unit, block and jump of a text.
 pub(crate) fn jumps(text: &[u8], found: &mut dyn FnMut(Flow)) {

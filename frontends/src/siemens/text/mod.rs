@@ -10,6 +10,7 @@
 pub(super) mod build;
 pub(crate) mod jumps;
 pub(super) mod letters;
+pub(super) mod parse;
 pub(crate) mod pieces;
 pub(super) mod token;
 pub(super) mod tree;

@@ -2,7 +2,7 @@
 
 use super::token::{Token, Tokens};
 use super::unit::{self, Kind, Line};
-use crate::pieces::{LineIs, Piece, PieceKind};
+use crate::outline::{LineIs, Piece, PieceKind};
 
 /// Takes a line without its end apart; `outside` is whether it stands in a unit that is no program.
 pub(crate) fn line(line: &[u8], outside: &mut bool, into: &mut Vec<Piece>) -> LineIs {

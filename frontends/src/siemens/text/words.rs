@@ -3,8 +3,8 @@
 
 use super::token::{Token, Tokens};
 use super::unit::{self, Line};
-use crate::Word;
 use crate::common::words::tenths;
+use crate::outline::Word;
 
 /// Tells the words of a line, with or without its end.
 pub(crate) fn words(line: &[u8], found: &mut dyn FnMut(Word)) {

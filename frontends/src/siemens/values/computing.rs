@@ -11,8 +11,6 @@
 
 mod definitions;
 
-use std::collections::HashMap;
-
 use ncc_dialects::Quantity;
 use ncc_ir::canon::Fact;
 use ncc_ir::diag::Fault;
@@ -22,35 +20,19 @@ use ncc_ir::program::arguments;
 use ncc_ir::program::{Op, Type as Stored};
 use ncc_ir::source::Span;
 
-use super::formula::{ANY_R, Kind, Typed, is_r, may_be_one, r_parameter, reads};
-use super::texts::TextOf;
-use crate::Batch;
+use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};
+use super::typed::{Kind, Typed};
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::unit_of;
 use crate::common::words::Digits;
-use crate::siemens::facts::InForce;
+use crate::siemens::block_words::Given;
 use crate::siemens::lower::Lower;
-use crate::siemens::sort::Given;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};
 
 /// The last R parameter; how many a machine has is a matter of its data.
 pub(in crate::siemens) const LAST_R: u32 = 999;
-
-/// A variable of the program that is being read.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::siemens) struct Variable {
-    pub(in crate::siemens) kind: Kind,
-    /// Of an array.
-    pub(in crate::siemens) sizes: Box<[u32]>,
-    /// The text of a text variable.
-    pub(in crate::siemens) text: TextOf,
-    /// Of a parameter that is the caller's variable itself, where it is kept; of an array, what the names of its elements
-    /// begin with.
-    pub(in crate::siemens) reference: Option<Var>,
-}
-
-/// Variables of the program that is being read, by their names in capitals.
-pub(in crate::siemens) type Variables = HashMap<Box<str>, Variable>;
 
 /// A place in memory.
 struct Kept {
@@ -274,7 +256,7 @@ impl Lower {
         let mut found = false;
         let mut one = |expr: &Expr| reads(expr, &mut |read| found |= may_be_one(read, name));
         let refuse = match &self.state.cycle {
-            InForce::Active(cycle) => {
+            ModalCall::Active(cycle) => {
                 let op = &mut Op::StartCycle(cycle.clone());
                 arguments::each(op, &mut |argument, _| {
                     argument.expr().into_iter().for_each(&mut one);
@@ -283,11 +265,11 @@ impl Lower {
                 .unwrap_or_else(|never| match never {});
                 "assignment to what the arguments of the modal cycle were computed from"
             }
-            InForce::Subprogram(after) => {
+            ModalCall::Subprogram(after) => {
                 after.given.iter().flatten().for_each(|typed| one(&typed.expr));
                 "assignment to what is handed over after each move"
             }
-            InForce::None | InForce::Inherited { .. } | InForce::Lost { .. } | InForce::Refused => {
+            ModalCall::None | ModalCall::Inherited { .. } | ModalCall::Lost { .. } | ModalCall::Refused => {
                 return true;
             }
         };

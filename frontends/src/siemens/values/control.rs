@@ -12,11 +12,11 @@ use ncc_ir::expr::{Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
 
-use super::formula::{Kind, Typed};
-use crate::Batch;
+use super::typed::{Kind, Typed};
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::siemens::facts::InForce;
 use crate::siemens::lower::Lower;
+use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};
 
 impl Lower {
@@ -33,7 +33,7 @@ impl Lower {
         let rows = &self.settings.dialect.system;
         let found = rows
             .iter()
-            .find_map(|row| Some((row, entry_of(&row.name, row.count, &name, place, self.worth, src)?)));
+            .find_map(|row| Some((row, table_entry(&row.name, row.count, &name, place, self.worth, src)?)));
         let Some((row, (entry, axis))) = found else { return self.stated(place, src, out) };
         let entry = entry.map_or(String::new(), |entry| format!(".{entry}"));
         let along =
@@ -104,16 +104,16 @@ impl Lower {
         let name = src.text(name).to_ascii_uppercase();
         let rows = self.settings.dialect.data.iter().filter(|row| row.is_variable());
         let mut found = rows.filter_map(|row| {
-            Some((row, entry_of(&row.name, u32::from(row.count), &name, place, self.worth, src)?))
+            Some((row, table_entry(&row.name, u32::from(row.count), &name, place, self.worth, src)?))
         });
         let (Some((row, (Some(entry), axis))), Value::Expr(_)) = (found.next(), value) else {
             return self.not_supported(&name, "variable of the control that is set", span, out);
         };
-        if self.state.cycle != InForce::None {
+        if self.state.cycle != ModalCall::None {
             let name = "value of the control's tables while a cycle is in force";
             return self.not_supported(&src.text(span), name, span, out);
         }
-        if self.state.units.value() == Some(Units::Inch) {
+        if self.state.modes.units.value() == Some(Units::Inch) {
             let name = "value of the control's tables where lengths count in inches";
             return self.not_supported(&src.text(span), name, span, out);
         }
@@ -140,7 +140,8 @@ impl Lower {
         words[axis as usize] = Some(value);
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
         // The one in force counts as it was until it is called up again; by a computed number, it may be that one.
-        self.stale |= self.worth.is_some() || self.state.work_offset.value().is_none_or(|now| now == offset);
+        self.stale |=
+            self.worth.is_some() || self.state.modes.work_offset.value().is_none_or(|now| now == offset);
         self.stand.forget();
         self.push(span, Op::SetData(Box::new(data)), out);
     }
@@ -148,7 +149,7 @@ impl Lower {
 
 /// The entry and the axis of a variable, where it is the one that a row of the dictionary names: `$P_UIFR[#,@,TR]`.
 /// Where the number of the entry is computed, it is what `worth` says.
-pub(in crate::siemens) fn entry_of(
+pub(in crate::siemens) fn table_entry(
     row: &str,
     count: u32,
     name: &str,
@@ -169,7 +170,7 @@ pub(in crate::siemens) fn entry_of(
         match *index {
             "#" => {
                 let number = match given {
-                    Tree::Number(..) => whole(given),
+                    Tree::Number(..) => whole_literal(given),
                     _ => worth.map(i64::from),
                 };
                 let number = number.filter(|number| (1..=i64::from(count)).contains(number))?;
@@ -177,7 +178,7 @@ pub(in crate::siemens) fn entry_of(
             }
             "@" => axis = Some(axis_of(Some(given))?),
             index => match index.parse::<i64>() {
-                Ok(index) => drop(whole(given).filter(|number| *number == index)?),
+                Ok(index) => drop(whole_literal(given).filter(|number| *number == index)?),
                 Err(_) => match given {
                     Tree::Place(Place { address: Address::Name(what), .. })
                         if src.text(*what).eq_ignore_ascii_case(index) => {}
@@ -189,7 +190,7 @@ pub(in crate::siemens) fn entry_of(
     Some((entry, axis))
 }
 
-fn whole(index: &Tree) -> Option<i64> {
+fn whole_literal(index: &Tree) -> Option<i64> {
     match index {
         Tree::Number(number, _) => (number.scale == 0).then_some(number.mantissa),
         _ => None,

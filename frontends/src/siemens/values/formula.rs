@@ -14,7 +14,8 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use super::typed::{Kind, Typed};
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary as Sign};
@@ -25,40 +26,8 @@ const DEEPEST: u32 = 64;
 /// The circle's number, as `$PI` has it.
 const PI: Num = Num { mantissa: 3_141_592_653_589_793, scale: 15, point: true, unit: Unit::One };
 
-/// The type of a variable or an expression.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::siemens) enum Kind {
-    Real,
-    Int,
-    /// 1 where it holds, else 0.
-    Bool,
-    /// A text, which is never a value of an expression.
-    Text,
-}
-
-/// An expression and its type.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::siemens) struct Typed {
-    pub(in crate::siemens) expr: Expr,
-    pub(in crate::siemens) kind: Kind,
-}
-
-impl Typed {
-    pub(in crate::siemens) fn new(node: Node, kind: Kind) -> Typed {
-        Typed { expr: Expr::Node(Box::new(node)), kind }
-    }
-
-    fn literal(num: Num, kind: Kind) -> Typed {
-        Typed { expr: Expr::Num(num), kind }
-    }
-
-    fn is_zero(&self) -> bool {
-        self.expr.literal().is_some_and(Num::is_zero)
-    }
-}
-
 /// A function of one expression.
-pub(in crate::siemens) fn of(function: Function, a: Expr) -> Expr {
+pub(in crate::siemens) fn call_function(function: Function, a: Expr) -> Expr {
     Expr::Node(Box::new(Node::Call(function, vec![a])))
 }
 
@@ -179,7 +148,7 @@ impl Lower {
             Operator::Divide => plain(Binary::Divide, Kind::Real, a, b),
             Operator::IntegerDivide => {
                 let quotient = Expr::binary(Binary::Divide, a.expr, b.expr);
-                Typed { expr: of(Function::Truncate, quotient), kind: Kind::Int }
+                Typed { expr: call_function(Function::Truncate, quotient), kind: Kind::Int }
             }
             Operator::Modulo => plain(Binary::Modulo, number, a, b),
             Operator::And => plain(Binary::And, Kind::Bool, a, b),
@@ -274,7 +243,7 @@ impl Lower {
         let mut given = given.into_iter();
         let (a, b, c) = (given.next()?, given.next(), given.next());
         let kind = if a.kind == Kind::Real { Kind::Real } else { Kind::Int };
-        let real = |function| Some(Typed { expr: of(function, a.expr.clone()), kind: Kind::Real });
+        let real = |function| Some(Typed { expr: call_function(function, a.expr.clone()), kind: Kind::Real });
         match written.as_str() {
             "SIN" => real(Function::Sin),
             "COS" => real(Function::Cos),
@@ -284,9 +253,9 @@ impl Lower {
             "SQRT" => real(Function::Sqrt),
             "LN" => real(Function::Ln),
             "EXP" => real(Function::Exp),
-            "ABS" => Some(Typed { expr: of(Function::Abs, a.expr), kind }),
+            "ABS" => Some(Typed { expr: call_function(Function::Abs, a.expr), kind }),
             "POT" => Some(Typed { expr: Expr::binary(Binary::Multiply, a.expr.clone(), a.expr), kind }),
-            "TRUNC" => Some(Typed { expr: of(Function::Truncate, a.expr), kind: Kind::Int }),
+            "TRUNC" => Some(Typed { expr: call_function(Function::Truncate, a.expr), kind: Kind::Int }),
             "ROUND" => Some(Typed { expr: self.whole_number(a, span, out), kind: Kind::Int }),
             "ROUNDUP" => {
                 if self.first_time("ROUNDUP") {
@@ -295,7 +264,7 @@ impl Lower {
                     let value = "towards zero".into();
                     out.report(Fault::AssumedParameter { parameter, value }, span);
                 }
-                Some(Typed { expr: of(Function::Ceiling, a.expr), kind: Kind::Int })
+                Some(Typed { expr: call_function(Function::Ceiling, a.expr), kind: Kind::Int })
             }
             "ATAN2" => {
                 let node = Node::Call(Function::Atan2, vec![a.expr, b?.expr]);
@@ -322,7 +291,7 @@ impl Lower {
             let parameter = "half of a negative number, rounded".into();
             out.report(Fault::AssumedParameter { parameter, value: "away from zero".into() }, at);
         }
-        of(Function::Round, value.expr)
+        call_function(Function::Round, value.expr)
     }
 
     /// A value as a variable of a type takes it; `None` if it cannot (reported).

@@ -7,8 +7,10 @@
 //!
 //! Not here: jumps and loops (`program`).
 
+pub(super) mod computed_entry;
 pub(super) mod computing;
 pub(super) mod control;
-pub(super) mod entry_of;
 pub(super) mod formula;
 pub(super) mod texts;
+pub(super) mod typed;
+pub(super) mod variables;

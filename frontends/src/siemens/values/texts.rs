@@ -7,38 +7,15 @@
 //! Refused by name: texts that are not known where they are used, that are longer than their variable, and comparisons
 //! of texts that differ by small and capital letters alone.
 
-use std::cell::Cell;
-
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
-use super::computing::Variable;
-use super::formula::Kind;
-use crate::Batch;
+use super::typed::Kind;
+use super::variables::Variable;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary, Value};
-
-/// What is known of the text of a text variable.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::siemens) struct TextOf {
-    /// It, where it is known.
-    pub(in crate::siemens) now: Option<Text>,
-    /// The one that it has had since before any block that control may come to from elsewhere or go past.
-    pub(in crate::siemens) first: Option<Text>,
-    /// How many characters it can have.
-    longest: Option<usize>,
-    /// Whether control may have come from elsewhere, or gone past blocks, since; and whether the text was used there.
-    behind: bool,
-    relied: Cell<bool>,
-}
-
-impl TextOf {
-    /// A variable without a first text.
-    pub(in crate::siemens) fn empty(longest: Option<usize>) -> TextOf {
-        TextOf { now: Some("".into()), first: Some("".into()), longest, ..TextOf::default() }
-    }
-}
 
 impl Lower {
     /// The name of a text variable.

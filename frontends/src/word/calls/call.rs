@@ -7,11 +7,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 use crate::word::text::block::Block;
 use crate::word::text::frame::Called;
 
@@ -27,10 +27,10 @@ impl Lower {
             && let Some((name, span)) = self.now.name.take()
         {
             let times = match letters.next().and_then(|l| words.take(l)) {
-                Some(word) => self.whole(&word, src, out),
+                Some(word) => self.read_whole(&word, src, out),
                 None => Some(1),
             };
-            let (Some(times), Some(called)) = (times, Called::of(name.as_bytes())) else {
+            let (Some(times), Some(called)) = (times, Called::parse(name.as_bytes())) else {
                 return self.fault(Fault::OutOfRange { word: name }, span, out);
             };
             return self.call_program(called.text(), times, code.span.to(span), span, out);
@@ -53,12 +53,12 @@ impl Lower {
         if says && (computed(&word) || count.as_ref().is_some_and(computed)) {
             return self.computed_call(code, &word, count.as_ref(), words, src, out);
         }
-        let Some(mut number) = self.whole(&word, src, out) else {
+        let Some(mut number) = self.read_whole(&word, src, out) else {
             return;
         };
         let mut times = 1;
         if let Some(word) = count {
-            match self.whole(&word, src, out) {
+            match self.read_whole(&word, src, out) {
                 Some(n) => times = n,
                 None => return,
             }
@@ -123,20 +123,20 @@ impl Lower {
     }
 
     /// The end of the main program's text: what returns does not end by itself as well.
-    pub(in crate::word) fn alone_or_main(&mut self, out: &mut Batch) {
+    pub(in crate::word) fn settle_main_ending(&mut self, out: &mut Batch) {
         self.callers_feed(out);
-        if let Some(at) = self.alone.returns {
-            self.alone_or_again(at, out);
+        if let Some(at) = self.main_ending.returns {
+            self.settle_endless_main(at, out);
         }
         self.starts_again_alike(out);
     }
 
-    fn alone_or_again(&mut self, at: Span, out: &mut Batch) {
-        if self.alone.ends {
+    fn settle_endless_main(&mut self, at: Span, out: &mut Batch) {
+        if self.main_ending.ends {
             if out.subprogram {
                 self.began_again(at, out);
             }
-        } else if let Some(begins) = self.alone.begins_again {
+        } else if let Some(begins) = self.main_ending.begins_again {
             self.endless(begins, "M99".into(), out);
         } else if self.assume {
             let parameter = "M99 goes back to a program that calls this one".into();
@@ -146,8 +146,8 @@ impl Lower {
 
     /// A feed that the text has not stated is that of its caller, if it has one.
     fn callers_feed(&mut self, out: &mut Batch) {
-        match self.alone.feed.take() {
-            Some(at) if !out.subprogram || self.alone.ends => out.report(Fault::NoFeed, at),
+        match self.main_ending.feed.take() {
+            Some(at) if !out.subprogram || self.main_ending.ends => out.report(Fault::NoFeed, at),
             Some(at) if self.assume => {
                 let parameter = "F where the subprogram begins".into();
                 out.report(Fault::AssumedParameter { parameter, value: "that of its caller".into() }, at);
@@ -158,7 +158,7 @@ impl Lower {
 
     /// Blocks stand behind the return of a text that has no end of its own before: it is a main program.
     pub(in crate::word) fn goes_on_behind_return(&mut self, out: &mut Batch) {
-        if let Some(at) = self.alone.returns.take_if(|_| self.sub.is_none()) {
+        if let Some(at) = self.main_ending.returns.take_if(|_| self.sub.is_none()) {
             self.began_again(at, out);
         }
     }
@@ -173,7 +173,7 @@ impl Lower {
         if !self.settings.dialect.program.begins_again {
             return self.endless(at, "M99".into(), out);
         }
-        self.tools.at_start.begins_again(at);
+        self.tools.at_start.note_begin_again(at);
         out.subprogram = false;
         begin_again_there(&mut out.stmts);
     }
@@ -195,8 +195,8 @@ impl Lower {
         if name == "M99" && !self.settings.dialect.program.begins_again {
             return self.endless(code.span, name.into(), out);
         }
-        self.alone.begins_again.get_or_insert(code.span);
-        self.tools.at_start.begins_again(code.span);
+        self.main_ending.begins_again.get_or_insert(code.span);
+        self.tools.at_start.note_begin_again(code.span);
         self.ended |= self.now.skip.is_none();
         self.leave_motion(None, out);
         self.tap_elsewhere(out);
@@ -206,7 +206,7 @@ impl Lower {
     /// Whether a return at hand goes back to a caller, as far as the text has been read.
     pub(in crate::word) fn may_go_back(&self) -> bool {
         let alone = self.settings.dialect.program.macro_b && self.now.skip.is_none();
-        self.sub.is_some() || self.returns_from_blocks() || alone && !self.alone.ends
+        self.sub.is_some() || self.returns_from_blocks() || alone && !self.main_ending.ends
     }
 
     /// A return to the caller. A text that ends by it and by nothing else is a subprogram that stands alone; run by
@@ -216,7 +216,7 @@ impl Lower {
             if !self.may_go_back() {
                 return self.begin_again(code, out);
             }
-            self.alone.returns.get_or_insert(code.span);
+            self.main_ending.returns.get_or_insert(code.span);
             (out.subprogram, out.whole) = (true, true);
         }
         if self.in_o_sub() {

@@ -10,15 +10,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::macros::computing::{Computes, label};
-use crate::word::sort::{Code, Words};
-
-/// Calls of blocks of the main program: the block, the code, and where it stands.
-pub(in crate::word) type LocalCall = (u32, &'static str, Span);
+use crate::word::macros::computes::{Computes, LocalCall, label};
 
 const WITHIN: &str = "call of a block of a subprogram";
 const COMPUTED: &str = "call of a block whose number is computed";
@@ -74,7 +71,7 @@ impl Lower {
         if let Some(why) = why {
             return self.fault(refused(&code.row.code, why), code.span, out);
         }
-        let Some(number) = self.whole(block, src, out) else { return };
+        let Some(number) = self.read_whole(block, src, out) else { return };
         let times = match count {
             None => None,
             Some(count) => match self.amount(count, Quantity::Integer, words, src, out) {
@@ -106,7 +103,7 @@ impl Lower {
 
     /// Whether a return behind the end of the main program is that of blocks which it calls.
     pub(in crate::word) fn returns_from_blocks(&self) -> bool {
-        self.alone.ends && !self.computes.local_calls.is_empty()
+        self.main_ending.ends && !self.computes.local_calls.is_empty()
     }
 }
 
@@ -150,7 +147,7 @@ impl Computes {
         let mut starts: Vec<(usize, LocalCall)> = Vec::new();
         for &call in &self.local_calls {
             let (number, code, at) = call;
-            if !self.jumps_of.is_empty() {
+            if !self.computed_jumps.is_empty() {
                 return Err((code, BESIDE, at));
             }
             if starts.iter().any(|(_, (other, ..))| *other == number) {
@@ -175,15 +172,16 @@ impl Computes {
             let end = starts.get(k + 1).map_or(body.len(), |(next, _)| *next);
             let returns = (first..end).filter(|&i| body[i].op == Op::Return && body[i].skip.is_none());
             let closed = |last: usize| {
-                let (labels, jumps) = ways(&body[first..=last]);
+                let (labels, jumps) = labels_and_jumps(&body[first..=last]);
                 jumps.iter().all(|to| labels.contains(to))
             };
             let Some(last) = returns.into_iter().find(|&last| closed(last)) else {
                 return Err((code, NO_RETURN, at));
             };
             ranges.push((number, first, last));
-            let (labels, _) = ways(&body[first..=last]);
-            let outside = ways(&body[..first]).1.into_iter().chain(ways(&body[last + 1..]).1);
+            let (labels, _) = labels_and_jumps(&body[first..=last]);
+            let outside =
+                labels_and_jumps(&body[..first]).1.into_iter().chain(labels_and_jumps(&body[last + 1..]).1);
             if outside.into_iter().any(|to| labels.contains(&to)) {
                 return Err((code, JUMPED_INTO, at));
             }
@@ -198,7 +196,7 @@ fn leave_out(body: &mut [Stmt], calls: &[LocalCall]) {
         match &mut stmt.op {
             Op::Control(control) => control.bodies_mut().for_each(|body| leave_out(body, calls)),
             Op::Call(call) if calls.iter().any(|(number, ..)| label(*number) == call.name) => {
-                stmt.op = crate::refused(stmt.span).op;
+                stmt.op = crate::batch::refused(stmt.span).op;
             }
             _ => {}
         }
@@ -211,7 +209,7 @@ fn goes_nowhere_on(stmt: &Stmt) -> bool {
 }
 
 /// Labels of some statements, and where they jump.
-fn ways(body: &[Stmt]) -> (Vec<Text>, Vec<Text>) {
+fn labels_and_jumps(body: &[Stmt]) -> (Vec<Text>, Vec<Text>) {
     let (mut labels, mut jumps) = (Vec::new(), Vec::new());
     let mut left: Vec<&Stmt> = body.iter().collect();
     while let Some(stmt) = left.pop() {

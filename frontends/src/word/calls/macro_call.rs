@@ -8,15 +8,15 @@
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::expr::{Expr, Node, Var};
+use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Call, Op};
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word, tenths};
+use crate::word::block_words::Code;
 use crate::word::lower::Lower;
 use crate::word::macros::computing::has_round;
-use crate::word::sort::Code;
 use crate::word::text::block::Block;
 
 /// Local variables of a program.
@@ -104,15 +104,15 @@ impl Lower {
                 seen |= bit;
             }
             if word.letter == number_letter {
-                self.now.number = self.whole(word, src, out);
+                self.now.number = self.read_whole(word, src, out);
                 continue;
             }
             if word.letter == program {
-                name = self.whole(word, src, out);
+                name = self.read_whole(word, src, out);
                 continue;
             }
             if word.letter == count {
-                times = self.whole(word, src, out).unwrap_or(1);
+                times = self.read_whole(word, src, out).unwrap_or(1);
                 if !(1..=MOST_TIMES).contains(&times) {
                     self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
                 }
@@ -226,9 +226,4 @@ impl Lower {
             Value::None => None,
         }
     }
-}
-
-/// The local variables that so many arguments are given to.
-pub(in crate::word) fn parameters(count: usize) -> Vec<Var> {
-    (1..=count).map(|number| Var::Local(number.to_string().into())).collect()
 }

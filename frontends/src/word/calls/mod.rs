@@ -7,10 +7,11 @@
 //!
 //! Not here: the language of O words (`o_code`).
 
-pub(super) mod again;
 pub(super) mod call;
-pub(super) mod call_of;
+pub(super) mod computed_call;
 pub(super) mod local_call;
 pub(super) mod macro_call;
 pub(super) mod modal_call;
+pub(super) mod repeated_blocks;
+pub(super) mod repetition;
 pub(super) mod return_to;

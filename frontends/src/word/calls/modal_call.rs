@@ -16,50 +16,21 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::Batch;
-use crate::begins::Jumps;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::{Value, Word, tenths};
+use crate::initial_modes::Jumps;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::macros::computing::Computes;
-use crate::word::sort::{Code, Words};
+use crate::word::macros::computes::{AtMoves, Computes};
 use crate::word::text::block::Block;
-
-/// Calls that are in force.
-#[derive(Clone, Debug)]
-pub(in crate::word) struct AtMoves {
-    call: Call,
-    /// Which of the text's they are, from 1.
-    which: u32,
-    /// Whether arguments are computed.
-    computed: bool,
-    /// The code by which the words of every block are the arguments of one.
-    by_words: Option<Code>,
-}
 
 /// The option that says whether the block of such a code makes a call itself.
 const OWN_BLOCK: &str = "own_block_call";
 
-/// Which calls are in force where a program can be come to, and where it goes away from; 0 is none.
-#[derive(Debug, Default)]
-pub(in crate::word) struct Reach {
-    /// How many of them the text has had.
-    seen: u32,
-    /// The code that says them.
-    code: Text,
-    /// Blocks with numbers.
-    pub(in crate::word) labels: Vec<(u32, u32)>,
-    /// Jumps; of one without a number it is computed.
-    pub(in crate::word) jumps: Vec<(Option<u32>, u32, Span)>,
-    /// What the program has not said where it jumps.
-    pub(in crate::word) ways: Jumps,
-    /// Programs that are called behind moves, and those that have such calls; the main one has no name.
-    called: Vec<(Text, Text, Span)>,
-}
-
 impl Lower {
     /// Which calls at moves are in force; 0 is none.
-    pub(in crate::word) fn calls_in_force(&self) -> u32 {
+    pub(in crate::word) fn active_calls(&self) -> u32 {
         self.computes.at_moves.as_ref().map_or(0, |calls| calls.which)
     }
 
@@ -271,7 +242,7 @@ impl Lower {
     /// The end of a program: jumps lead from where the same calls are in force.
     pub(in crate::word) fn calls_over(&mut self, out: &mut Batch) {
         self.computes.at_moves = None;
-        self.computes.reach.ways = Jumps::default();
+        self.computes.reach.unsaid_at_jumps = Jumps::default();
         let labels = std::mem::take(&mut self.computes.reach.labels);
         let mut by_number: HashMap<u32, BTreeSet<u32>> = HashMap::new();
         for (number, calls) in &labels {

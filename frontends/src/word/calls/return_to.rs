@@ -11,20 +11,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::macros::computing::{Computes, label};
-use crate::word::sort::{Code, Words};
-
-/// A return, the subprogram that it stands in, and the block of the caller that it names.
-#[derive(Clone, Debug)]
-pub(in crate::word) struct ReturnTo {
-    own: Text,
-    block: Option<u32>,
-    code: &'static str,
-    at: Span,
-}
+use crate::word::macros::computes::{Computes, ReturnTo, label};
 
 /// Whether a text has a return that names a block: a code of that meaning, and behind it a letter that its row has.
 pub(in crate::word) fn has_returns_to(text: &[u8], dialect: &Dialect) -> bool {
@@ -51,7 +42,7 @@ impl Lower {
     ) -> bool {
         let letter = code.row.blocks.bytes().next().filter(|_| self.settings.dialect.program.returns_within);
         let Some(word) = letter.and_then(|letter| words.take(letter)) else { return false };
-        if let Some(number) = self.whole(&word, src, out)
+        if let Some(number) = self.read_whole(&word, src, out)
             && self.jumps_from(&code.row.code, Some(number), code.span, out)
         {
             self.push(code.span.to(word.span), Op::Goto(label(number)), out);
@@ -72,7 +63,7 @@ impl Lower {
         let letter = code.row.blocks.bytes().next();
         let block = match letter.and_then(|letter| words.take(letter)) {
             None => None,
-            Some(word) => match self.whole(&word, src, out) {
+            Some(word) => match self.read_whole(&word, src, out) {
                 Some(number) if self.now.skip.is_none() => Some(number),
                 Some(_) => {
                     self.fault(refused(&code.row.code, SEVERAL), code.span, out);

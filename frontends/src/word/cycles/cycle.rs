@@ -12,13 +12,13 @@ use ncc_ir::program::{Coord, Move, Op};
 use ncc_ir::source::Span;
 
 use super::kind::{Pecks, kind_of};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
-use crate::word::facts::{Active, InForce};
+use crate::word::block_words::{Code, Words, motion_of};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words, motion_of};
+use crate::word::word_state::{ActiveCycle, CycleState};
 
 /// Most repetitions of a cycle's block.
 const MOST_REPEATS: u32 = 9999;
@@ -46,7 +46,7 @@ impl Lower {
         let Some(mut num) = self.number(&word, Quantity::Feed, src, out) else {
             return;
         };
-        let mode = self.state.feed_mode.value().unwrap_or(FeedMode::PerMinute);
+        let mode = self.state.modes.feed_mode.value().unwrap_or(FeedMode::PerMinute);
         if mode != FeedMode::PerMinute {
             let bare = matches!(word.value, Value::Number(d) if !d.point && d.mantissa != 0);
             if bare
@@ -61,7 +61,7 @@ impl Lower {
             num.unit = Unit::One;
         }
         if !num.is_zero() {
-            self.state.feed = Know::Said(());
+            self.state.modes.feed = Know::Said(());
         }
         use ncc_dialects::Meaning::{EndCycle, StartCycle};
         if motion.iter().any(|c| c.meaning == StartCycle) {
@@ -69,7 +69,7 @@ impl Lower {
             return;
         }
         let ends = motion.iter().any(|c| c.meaning == EndCycle || motion_of(c.meaning).is_some());
-        if let (InForce::Active(active), false) = (&mut self.state.cycle, ends)
+        if let (CycleState::Active(active), false) = (&mut self.state.cycle, ends)
             && active.feed.is_some()
         {
             active.feed = Some(num);
@@ -84,11 +84,11 @@ impl Lower {
     /// A feed that is computed. That of a cycle's block is one as any other, which is in force from there on: the cycle
     /// itself would say it anew where its variables may be others.
     fn computed_feed(&mut self, word: &Word, words: &Words, src: Source, out: &mut Batch) {
-        if matches!(&self.state.cycle, InForce::Active(active) if active.feed.is_some()) {
+        if matches!(&self.state.cycle, CycleState::Active(active) if active.feed.is_some()) {
             return self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
         }
         let Some(value) = self.amount(word, Quantity::Feed, words, src, out) else { return };
-        self.state.feed = Know::Said(());
+        self.state.modes.feed = Know::Said(());
         self.state.cycle_feed = None;
         self.push(word.span, Op::SetFeedRate(value), out);
     }
@@ -131,7 +131,7 @@ impl Lower {
             self.fault(refuse("cycle with incremental words"), code.span, out);
         }
         let kept = match &self.state.cycle {
-            InForce::Active(active)
+            CycleState::Active(active)
                 if dialect.cycles.retained && (active.row == index || !dialect.cycles.retained_by_code) =>
             {
                 let mut kept = (**active).clone();
@@ -140,7 +140,7 @@ impl Lower {
                 }
                 Some(kept)
             }
-            InForce::Active(_) | InForce::None | InForce::Lost => None,
+            CycleState::Active(_) | CycleState::None | CycleState::Lost => None,
         };
         let has_hole_word = self.has_axis_word(words) || words.get(row.retract as u8).is_some();
         self.check_rotary(row, block, words, out);
@@ -187,15 +187,16 @@ impl Lower {
             self.rely_on_feed(block, out);
         }
         let (Some(depth), Some(retract), Some(kind)) = (depth, retract, kind) else {
-            self.state.cycle = InForce::Lost;
+            self.state.cycle = CycleState::Lost;
             return;
         };
         let called = match &mut self.state.cycle {
-            InForce::Active(before) => before.called.take(),
-            InForce::None | InForce::Lost => None,
+            CycleState::Active(before) => before.called.take(),
+            CycleState::None | CycleState::Lost => None,
         };
-        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed, called };
-        self.state.cycle = InForce::Active(Box::new(active));
+        let active =
+            ActiveCycle { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed, called };
+        self.state.cycle = CycleState::Active(Box::new(active));
         self.call_up(block, out);
         if dialect.cycles.hole_on_definition && has_hole_word {
             self.hole(true, depth_letter, block, words, src, out);
@@ -214,7 +215,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         let dialect = self.settings.dialect;
-        let InForce::Active(active) = &self.state.cycle else {
+        let CycleState::Active(active) = &self.state.cycle else {
             return;
         };
         let row = &dialect.cycle[active.row];
@@ -227,7 +228,7 @@ impl Lower {
                 self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
             }
             self.check_rotary(row, block, words, out);
-            if let (InForce::Active(active), true) = (&mut self.state.cycle, dialect.cycles.measured_anew)
+            if let (CycleState::Active(active), true) = (&mut self.state.cycle, dialect.cycles.measured_anew)
                 && (active.retract.distance, active.depth.distance) != (distance, distance)
             {
                 (active.retract.distance, active.depth.distance) = (distance, distance);
@@ -259,7 +260,7 @@ impl Lower {
     ) {
         let given = self.cycle_words(row, depth_letter, distance, words, src, out);
         self.note_dwell(row, given.dwell, out);
-        let InForce::Active(active) = &mut self.state.cycle else {
+        let CycleState::Active(active) = &mut self.state.cycle else {
             return;
         };
         let pecks = given.peck.is_some() || given.shrinking.is_some();
@@ -281,7 +282,7 @@ impl Lower {
         let bottom = self.dwells(row, [given.dwell, dwell], block, out);
         let bottom = self.tap_dwell(row, rigid, bottom, block, out);
         let pecks = self.pecks(row, peck, shrinking, block, out);
-        if let (Ok(kind), InForce::Active(active)) =
+        if let (Ok(kind), CycleState::Active(active)) =
             (kind_of(row, rigid, bottom, pecks), &mut self.state.cycle)
         {
             active.kind = kind;
@@ -293,7 +294,7 @@ impl Lower {
     pub(in crate::word) fn call_up(&mut self, block: Span, out: &mut Batch) {
         let return_level = self.return_level(block, out);
         let anew = self.start_anew(return_level, block, out);
-        let InForce::Active(active) = &self.state.cycle else {
+        let CycleState::Active(active) = &self.state.cycle else {
             return;
         };
         let mut kind = active.kind.clone();
@@ -363,7 +364,7 @@ impl Lower {
         let Some(word) = letter.and_then(|l| words.take(l as u8)) else {
             return 1;
         };
-        match self.whole(&word, src, out) {
+        match self.read_whole(&word, src, out) {
             Some(times)
                 if times <= MOST_REPEATS && (times > 0 || !self.settings.dialect.cycles.repeat_once) =>
             {

@@ -6,11 +6,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
-use crate::word::facts::InForce;
+use crate::word::block_words::Code;
 use crate::word::lower::Lower;
-use crate::word::sort::Code;
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// Takes note of a cycle's dwell where it stays in force for others.
@@ -42,7 +42,7 @@ impl Lower {
 
     /// Control goes elsewhere: a cycle that is called up there keeps the dwell of the one in force.
     pub(in crate::word) fn carry_dwell(&mut self, out: &mut Batch) {
-        let with_dwell = matches!(&self.state.cycle, InForce::Active(active) if active.dwell.is_some());
+        let with_dwell = matches!(&self.state.cycle, CycleState::Active(active) if active.dwell.is_some());
         if !(with_dwell && self.settings.dialect.cycles.retained_by_all()) {
             return;
         }
@@ -55,7 +55,7 @@ impl Lower {
     /// A cycle without a dwell of its own, called up where another may be in force whose dwell it would keep.
     pub(super) fn no_dwell_before(&mut self, row: &'static CycleRow, code: &Code, out: &mut Batch) {
         let takes = row.dwell.is_some() || row.dwell_by.is_some();
-        if self.state.cycle != InForce::Lost || !takes || !self.settings.dialect.cycles.retained_by_all() {
+        if self.state.cycle != CycleState::Lost || !takes || !self.settings.dialect.cycles.retained_by_all() {
             return;
         }
         match self.dwells.carried {

@@ -9,7 +9,7 @@ use ncc_ir::program::Pitch;
 use ncc_ir::program::cycle::{BoreStop, Clearance, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::word::lower::Lower;
 
 /// How deep pecks are.

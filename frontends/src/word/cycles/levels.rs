@@ -11,10 +11,10 @@ use ncc_ir::canon::{Distance, Fact, ReturnLevel};
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::known::Know;
-use crate::word::facts::InForce;
 use crate::word::lower::Lower;
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// Ends the cycle in force before it is called up again, on a control whose initial level is where the tool stands
@@ -23,7 +23,7 @@ impl Lower {
         if !self.settings.dialect.cycles.level_of_block {
             return false;
         }
-        let InForce::Active(active) = &mut self.state.cycle else { return false };
+        let CycleState::Active(active) = &mut self.state.cycle else { return false };
         let called = active.called.replace((level, active.retract.clone()));
         let Some((before, retract)) = called else { return false };
         let from_level = active.retract.distance != Fact::Known(Distance::Absolute);
@@ -41,7 +41,7 @@ impl Lower {
     /// every block while no motion is in force.
     pub(in crate::word) fn lose_level(&mut self, moves: bool) {
         let lost = self.settings.dialect.cycles.level_lost && (moves || self.state.no_motion);
-        if lost && !matches!(self.state.cycle, InForce::Active(_)) {
+        if lost && !matches!(self.state.cycle, CycleState::Active(_)) {
             self.state.return_level = match self.now.skip {
                 None => Know::Said(ReturnLevel::Initial),
                 Some(_) => self.state.return_level.lost(),

@@ -11,35 +11,24 @@ use ncc_ir::program::Procedure;
 use ncc_ir::source::Span;
 use ncc_passes::support::mode_analysis::ActiveCycles;
 
-use crate::Batch;
-use crate::word::facts::InForce;
+use crate::batch::Batch;
 use crate::word::lower::Lower;
-
-/// Blocks in which no cycle may be active.
-#[derive(Debug, Default)]
-pub(in crate::word) struct CyclesMet {
-    /// Whether the text calls a cycle up.
-    any: bool,
-    /// Whether one was active where the program began to be kept whole.
-    entered: bool,
-    /// Codes behind a call, a jump or a label: decided when the text has been read.
-    doubts: Vec<(Fault, Span)>,
-}
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// Refuses a code where a cycle is active. Behind a call, a jump or a label the end of the text decides.
     pub(in crate::word) fn without_cycle(&mut self, fault: Fault, span: Span, out: &mut Batch) {
         match self.state.cycle {
-            InForce::None => {}
-            InForce::Lost if out.whole => self.cycles.doubts.push((fault, span)),
-            InForce::Active(_) | InForce::Lost => self.fault(fault, span, out),
+            CycleState::None => {}
+            CycleState::Lost if out.whole => self.cycles.doubts.push((fault, span)),
+            CycleState::Active(_) | CycleState::Lost => self.fault(fault, span, out),
         }
     }
 
     /// Notes whether a cycle is active before a block, as long as the statements may be drained.
     pub(in crate::word) fn cycle_before(&mut self, out: &Batch) {
         if !out.whole {
-            self.cycles.entered = matches!(self.state.cycle, InForce::Active(_) | InForce::Lost);
+            self.cycles.entered = matches!(self.state.cycle, CycleState::Active(_) | CycleState::Lost);
         }
     }
 

@@ -12,12 +12,12 @@ use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
-use crate::word::facts::InForce;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// A pattern of holes.
@@ -32,7 +32,7 @@ impl Lower {
         let Some(row) = self.settings.dialect.pattern_row(&code.row.code) else {
             return;
         };
-        if self.state.cycle == InForce::None {
+        if self.state.cycle == CycleState::None {
             self.fault(Fault::NoCycle, code.span, out);
         }
         let distance = self.distance(code.span, out);
@@ -48,7 +48,7 @@ impl Lower {
                 self.grid(code, *pitch, *counts, *serpentine, words, src, out)
             }
         };
-        if self.now.recall && matches!(self.state.cycle, InForce::Active(_)) {
+        if self.now.recall && matches!(self.state.cycle, CycleState::Active(_)) {
             self.call_up(block, out);
         }
         if let Some(pattern) = pattern {
@@ -170,7 +170,7 @@ impl Lower {
             self.missing(code, letter, out);
             return None;
         };
-        match self.whole(&word, src, out)? {
+        match self.read_whole(&word, src, out)? {
             count @ 1..=9999 => Some(count),
             _ => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
         }

@@ -5,10 +5,10 @@ use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
 use super::super::text::block::Block;
-use super::{Lower, begins};
-use crate::Batch;
+use super::Lower;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::common::text::decode;
+use crate::common::text::{begins, decode};
 
 impl Lower {
     /// The last comment of a block may be a message, which comes before all that the block does, or
@@ -29,7 +29,7 @@ impl Lower {
         if let Some((name, at)) = rules.shown.iter().find_map(|name| Some((name, begins(bytes, name)?))) {
             if bytes.contains(&b'#') && self.settings.dialect.program.o_words {
                 self.now.message = true;
-                return self.shown(&bytes[at..], span, out);
+                return self.operator_text(&bytes[at..], span, out);
             }
             if bytes.contains(&b'#') {
                 let code = format!("{}{name}", rules.open).into();

@@ -7,101 +7,27 @@
 
 mod values;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::program::{Control, Op, Stmt};
 use ncc_ir::source::Span;
 
+use super::computes::{OpenLoop, label};
 use super::formula::{Statement, To};
-use super::jump_of::JumpOf;
 use super::named_blocks::{has_jumps, named_blocks};
-use crate::Batch;
-use crate::begins::Unsaid;
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::common::saved::Saved;
-use crate::word::calls::local_call::{LocalCall, has_local_calls};
-use crate::word::calls::macro_call::parameters;
-use crate::word::calls::modal_call::{AtMoves, Reach};
-use crate::word::calls::return_to::{ReturnTo, has_returns_to};
-use crate::word::facts::InForce;
+use crate::word::calls::local_call::has_local_calls;
+
+use crate::word::calls::return_to::has_returns_to;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
+use crate::word::word_state::CycleState;
 
 /// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
 const MOST_LOOPS: usize = 3;
-
-/// What the text computes, as far as read.
-#[derive(Debug, Default)]
-pub(in crate::word) struct Computes {
-    /// Whether it has variables.
-    variables: bool,
-    /// Whether blocks with numbers may be jumped to.
-    pub(in crate::word) jumps: bool,
-    /// Whether there were such blocks before that was known.
-    unnamed: bool,
-    /// Numbers of blocks that the text names; `None` if one is named by what is computed.
-    named: Option<BTreeSet<u32>>,
-    /// Numbers of blocks that were read as no jump's.
-    passed: BTreeSet<u32>,
-    loops: Vec<Open>,
-    /// How many arguments programs are called with, by their names.
-    called: BTreeMap<Text, usize>,
-    /// Jumps to blocks whose number is computed.
-    pub(in crate::word) jumps_of: Vec<JumpOf>,
-    /// Calls of blocks of the main program.
-    pub(in crate::word) local_calls: Vec<LocalCall>,
-    /// Returns of the subprograms.
-    pub(in crate::word) returns: Vec<ReturnTo>,
-    /// Whether programs are called whose number is computed.
-    pub(in crate::word) calls_of: bool,
-    /// The macro that is called behind each block that moves.
-    pub(in crate::word) at_moves: Option<AtMoves>,
-    /// Modes that are saved and put back.
-    pub(in crate::word) saved: Saved,
-    pub(in crate::word) reach: Reach,
-}
-
-/// A loop that has not ended.
-#[derive(Debug)]
-struct Open {
-    number: u32,
-    condition: Option<Expr>,
-    /// Where its body begins; `None` until a further block is read.
-    at: Option<usize>,
-    block: Span,
-    skip: Option<u8>,
-    label: Option<u32>,
-    /// The calls at moves that it began in.
-    calls: u32,
-    /// What was not said before it.
-    unsaid: Unsaid,
-}
-
-/// The name by which jumps know the block of a number.
-pub(in crate::word) fn label(number: u32) -> Text {
-    format!("N{number}").into()
-}
-
-impl Computes {
-    /// A program is called with so many arguments.
-    pub(in crate::word) fn calls(&mut self, name: &str, arguments: usize) {
-        match self.called.get_mut(name) {
-            Some(most) => *most = (*most).max(arguments),
-            None => _ = self.called.insert(name.into(), arguments),
-        }
-    }
-
-    /// The text is over: what is called with arguments has them as its first local variables.
-    pub(in crate::word) fn give_parameters(&self, procedures: &mut [Procedure]) {
-        for procedure in procedures {
-            if let Some(most) = self.called.get(&procedure.name) {
-                procedure.parameters = parameters(*most);
-            }
-        }
-    }
-}
 
 impl Lower {
     /// Looks through text that is to be read for what is computed in it.
@@ -175,8 +101,8 @@ impl Lower {
             self.computes.passed.insert(number);
             return;
         }
-        self.join_ways(self.computes.reach.ways.unsaid(number), block.span, out);
-        let calls = self.calls_in_force();
+        self.merge_paths(self.computes.reach.unsaid_at_jumps.unsaid(number), block.span, out);
+        let calls = self.active_calls();
         self.computes.reach.labels.push((number, calls));
         let skip = self.now.skip.take();
         self.push(block.span, Op::Label(label(number)), out);
@@ -223,7 +149,7 @@ impl Lower {
                     (To::Computed(to), condition) => {
                         let to = self.value(to, span, out);
                         let condition = condition.as_ref().map(|c| self.value(c, span, out));
-                        let mark = self.computes.jump_of(condition, to);
+                        let mark = self.computes.computed_jump(condition, to);
                         self.push(span, Op::Goto(mark), out);
                     }
                 }
@@ -263,22 +189,23 @@ impl Lower {
             self.fault(Fault::NotSupported { code: code.into(), name }, span, out);
             return false;
         }
-        let calls = self.calls_in_force();
+        let calls = self.active_calls();
         self.computes.reach.jumps.push((to, calls, span));
-        self.computes.reach.ways.jump(to, self.state.unsaid());
+        self.computes.reach.unsaid_at_jumps.jump(to, self.state.unsaid());
         self.leave_motion(None, out);
         true
     }
 
     fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
         let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
-        let (calls, unsaid) = (self.calls_in_force(), self.state.unsaid());
-        self.computes.loops.push(Open { number, condition, at: None, block, skip, label, calls, unsaid });
+        let (calls, unsaid) = (self.active_calls(), self.state.unsaid());
+        self.computes.loops.push(OpenLoop { number, condition, at: None, block, skip, label, calls, unsaid });
     }
 
     fn end_loop(&mut self, number: u32, span: Span, out: &mut Batch) {
         let found = self.computes.loops.pop();
-        let Some(Open { at: Some(at), number: own, condition, block, skip, label, calls, unsaid }) = found
+        let Some(OpenLoop { at: Some(at), number: own, condition, block, skip, label, calls, unsaid }) =
+            found
         else {
             let code = format!("END{number}").into();
             return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);
@@ -288,7 +215,7 @@ impl Lower {
             let name = format!("end of a loop within the loop {own}").into();
             return self.fault(Fault::NotSupported { code, name }, span, out);
         }
-        if calls != self.calls_in_force() {
+        if calls != self.active_calls() {
             return self.refuse_under("modal call that begins or ends within a loop", span, out);
         }
         if skip.is_some() || self.now.skip.is_some() {
@@ -311,7 +238,7 @@ impl Lower {
         self.push(block, Op::Control(Box::new(control)), out);
         self.now.number = own;
         self.separate(out);
-        self.join_ways(unsaid, span, out);
+        self.merge_paths(unsaid, span, out);
     }
 
     /// The end of a program: a loop that is still open has none.
@@ -402,7 +329,7 @@ impl Lower {
             None => value.literal().is_none(),
         };
         self.entry_changes(reads);
-        if let InForce::Active(active) = &self.state.cycle
+        if let CycleState::Active(active) = &self.state.cycle
             && ([&active.depth, &active.retract].iter().any(|word| reads(&word.value))
                 || active.peck.as_ref().is_some_and(reads))
         {
@@ -411,7 +338,7 @@ impl Lower {
                     "assignment between the call-up of a cycle with variables and its first hole".into();
                 self.fault(Fault::NotSupported { code: "#".into(), name }, span, out);
             }
-            self.state.cycle = InForce::Lost;
+            self.state.cycle = CycleState::Lost;
         }
     }
 }

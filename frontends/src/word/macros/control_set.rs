@@ -13,12 +13,12 @@ use ncc_ir::expr::{Expr, Function, Node, Var};
 use ncc_ir::program::{Alarm, Data, DataMode, Op, Text, ToolValue};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::text::decode;
-use crate::word::facts::InForce;
 use crate::word::lower::Lower;
 use crate::word::text::block::Block;
+use crate::word::word_state::CycleState;
 
 impl Lower {
     /// What setting a variable of the control's own does; nothing is refused by name.
@@ -131,7 +131,7 @@ impl Lower {
 
     /// No data goes in while a cycle is in force.
     fn check_no_cycle(&mut self, at: Span, out: &mut Batch) {
-        if let InForce::Active(_) = self.state.cycle {
+        if let CycleState::Active(_) = self.state.cycle {
             let name = "data input while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: "#".into(), name }, at, out);
         }

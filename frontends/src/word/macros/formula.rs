@@ -14,7 +14,6 @@ use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Var};
 use ncc_ir::program::Output;
 
 use crate::common::words::Digits;
-use crate::word::o_code::parameters::Index;
 
 /// Deepest nesting of an expression.
 const DEEPEST: u32 = 64;
@@ -105,7 +104,7 @@ impl Formula {
     /// B-63684EN, custom macro, variables).
     pub(crate) fn variable(index: Index) -> Option<Formula> {
         let (node, depth) = match index {
-            Index::Number(digits) => match digits.whole()? {
+            Index::Number(digits) => match digits.to_whole()? {
                 0 => (Node::Vacant, 0),
                 number => (Node::Var(variable(number)), 0),
             },
@@ -122,7 +121,7 @@ impl Formula {
     pub(crate) fn target(index: Index) -> Option<Target> {
         match index {
             Index::Number(digits) => {
-                digits.whole().filter(|number| *number > 0).map(|number| Target::Var(variable(number)))
+                digits.to_whole().filter(|number| *number > 0).map(|number| Target::Var(variable(number)))
             }
             Index::Computed(of) => indexed(of).map(|element| Target::Element(Box::new(element))),
             Index::Name(_) => None,
@@ -219,4 +218,13 @@ pub(crate) fn statement(pieces: Vec<Piece>) -> Option<Statement> {
         [Some(Piece::Output(output)), None, None] => Statement::Output(output),
         _ => return None,
     })
+}
+
+/// What stands behind `#`, or behind the letter of programs.
+#[derive(Clone, Debug)]
+pub(crate) enum Index {
+    Number(Digits),
+    /// In small letters, without blanks.
+    Name(Box<str>),
+    Computed(Formula),
 }

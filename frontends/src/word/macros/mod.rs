@@ -8,11 +8,12 @@
 //!
 //! Not here: the language of O words (`o_code`).
 
-pub(super) mod code_of;
+pub(super) mod computed_code;
+pub(super) mod computed_entry;
+pub(super) mod computed_jump;
+pub(super) mod computes;
 pub(super) mod computing;
 pub(super) mod control_set;
-pub(super) mod entry_of;
 pub(super) mod formula;
-pub(super) mod jump_of;
 pub(super) mod named_blocks;
 pub(super) mod output;

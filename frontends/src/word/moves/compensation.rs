@@ -12,22 +12,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
-
-/// Entries of radii in the whole text, for a control that goes without compensation where none is named.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::word) struct RadiusNamed {
-    /// Whether one was named so far.
-    named: bool,
-    /// Whether it was relied on that none is, in blocks that others call or come back to.
-    none_named: bool,
-    reported: bool,
-}
 
 impl Lower {
     /// Switches compensation on, and notes the entry that a word names.

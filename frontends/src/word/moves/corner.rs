@@ -8,12 +8,12 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::Op;
 
-use super::polar::Words as Polar;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
+use crate::word::block_words::Words;
 use crate::word::lower::Lower;
-use crate::word::sort::Words;
+use crate::word::word_state::AxisWords;
 
 impl Lower {
     /// A word behind a comma.
@@ -46,7 +46,7 @@ impl Lower {
             || dialect.corner.words().find(|(_, word)| !word.comma).map(|(_, word)| word.letter as u8);
         let word = self.now.corner.take().or_else(|| words.take(plain()?));
         let Some(word) = word else { return };
-        if matches!(self.state.words, Polar::Polar { .. }) {
+        if matches!(self.state.words, AxisWords::Polar { .. }) {
             let name = "corner beside a point by radius and angle".into();
             let code = src.text(word.span);
             return self.fault(Fault::NotSupported { code, name }, word.span, out);

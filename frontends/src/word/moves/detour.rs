@@ -9,11 +9,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Detour, Move, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 
 impl Lower {
     /// A block with the code of such a move.
@@ -44,15 +44,16 @@ impl Lower {
             let word = "X".into();
             return self.fault(Fault::WordMissing { code: text(), word }, code.span, out);
         }
-        if detour == Detour::Intermediate && self.state.distance.value() == Some(Distance::Incremental) {
+        if detour == Detour::Intermediate && self.state.modes.distance.value() == Some(Distance::Incremental)
+        {
             let name = "incremental words of a return by the intermediate point".into();
             return self.fault(Fault::NotSupported { code: text(), name }, code.span, out);
         }
         self.push(code.span, Op::Detour(detour), out);
         self.push(block, Op::StraightTraverse(Move { to, said: true }), out);
         // From one side it may stay in force. As the caller moves, no statement behind this one can say.
-        if detour == Detour::OneSide || self.state.motion.value().is_none() {
-            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        if detour == Detour::OneSide || self.state.modes.motion.value().is_none() {
+            (self.state.modes.motion, self.state.no_motion) = (Know::Unsaid, true);
         }
     }
 }

@@ -10,10 +10,10 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 
 impl Lower {
     /// A block with the code of such a move.
@@ -32,7 +32,7 @@ impl Lower {
         self.check_shut(code, out);
         let number = match code.row.words.chars().next() {
             Some(letter) => match words.take(letter as u8) {
-                Some(word) => self.whole(&word, src, out),
+                Some(word) => self.read_whole(&word, src, out),
                 None => Some(2),
             },
             None => None,

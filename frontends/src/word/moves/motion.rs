@@ -9,13 +9,13 @@ use ncc_ir::expr::{Expr, Function, Node, Unary};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Turns};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
-use crate::word::facts::InForce;
+use crate::word::block_words::{Code, Words, motion_of};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words, motion_of};
+use crate::word::word_state::CycleState;
 
 /// Most turns of one arc.
 const MOST_TURNS: u32 = 9999;
@@ -24,8 +24,8 @@ impl Lower {
     /// The code that ends a cycle.
     pub(in crate::word) fn end_cycle(&mut self, end: &Code, out: &mut Batch) {
         self.push(end.span, Op::EndCycle, out);
-        self.state.after_cycle |= self.state.cycle != InForce::None;
-        self.state.cycle = InForce::None;
+        self.state.after_cycle |= self.state.cycle != CycleState::None;
+        self.state.cycle = CycleState::None;
         self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
         self.state.rigid = None;
         self.now.cycle_ended = true;
@@ -60,14 +60,14 @@ impl Lower {
                 out.diagnostics.push(Diagnostic { fault, span: code.span, related: vec![other.span] });
             }
             if cycle.is_none() && pattern.is_none() {
-                if matches!(self.state.cycle, InForce::Active(_)) {
+                if matches!(self.state.cycle, CycleState::Active(_)) {
                     self.push(code.span, Op::EndCycle, out);
                 }
-                self.state.cycle = InForce::None;
+                self.state.cycle = CycleState::None;
                 self.state.rigid = None;
             }
             let lead = self.state.lead;
-            let before = self.state.motion;
+            let before = self.state.modes.motion;
             self.set_motion(motion);
             self.said_motion(motion, before, code.span);
             self.state.after_cycle = false;
@@ -118,10 +118,10 @@ impl Lower {
             (Some(code), _) => self.start_cycle(code, dwell, block, words, src, out),
             (None, Some(code)) => self.pattern(code, block, words, src, out),
             (None, None) => match &self.state.cycle {
-                InForce::Active(_) => self.in_cycle(dwell, block, words, src, out),
-                InForce::None | InForce::Lost if dwell && !self.moves_behind_dwell() => {}
-                InForce::Lost => self.position(block, words, src, out),
-                InForce::None => self.plain_motion(motion.is_some(), block, words, src, out),
+                CycleState::Active(_) => self.in_cycle(dwell, block, words, src, out),
+                CycleState::None | CycleState::Lost if dwell && !self.moves_behind_dwell() => {}
+                CycleState::Lost => self.position(block, words, src, out),
+                CycleState::None => self.plain_motion(motion.is_some(), block, words, src, out),
             },
         }
     }
@@ -145,7 +145,7 @@ impl Lower {
         if self.polar_line(said, block, words, src, out) {
             return;
         }
-        let arc_now = matches!(self.state.motion.value(), Some(Motion::Arc(_)));
+        let arc_now = matches!(self.state.modes.motion.value(), Some(Motion::Arc(_)));
         if !(self.has_axis_word(words) || arc_now && self.has_arc_word(words)) {
             return;
         }
@@ -202,8 +202,8 @@ impl Lower {
 
     /// Whether the block of a dwell can have a straight move, and one is in force.
     fn moves_behind_dwell(&self) -> bool {
-        let straight = matches!(self.state.motion.value(), Some(Motion::Traverse | Motion::Feed));
-        self.settings.dialect.block.dwell_before_move && straight && self.state.cycle == InForce::None
+        let straight = matches!(self.state.modes.motion.value(), Some(Motion::Traverse | Motion::Feed));
+        self.settings.dialect.block.dwell_before_move && straight && self.state.cycle == CycleState::None
     }
 
     fn has_arc_word(&self, words: &Words) -> bool {
@@ -216,13 +216,13 @@ impl Lower {
         if let Some(feed) = self.state.cycle_feed.take() {
             self.push(block, Op::SetFeedRate(Expr::Num(feed)), out);
         }
-        if self.state.feed == Know::Unsaid && !self.watch {
-            if self.sub.is_some() || self.alone.ends || !self.settings.dialect.program.macro_b {
+        if self.state.modes.feed == Know::Unsaid && !self.watch {
+            if self.sub.is_some() || self.main_ending.ends || !self.settings.dialect.program.macro_b {
                 return self.fault(Fault::NoFeed, block, out);
             }
             // The end of the text says whether it has a caller, which has stated a feed.
-            self.alone.feed = Some(block);
-            self.state.feed = Know::Callers;
+            self.main_ending.feed = Some(block);
+            self.state.modes.feed = Know::Callers;
         }
     }
 
@@ -383,7 +383,7 @@ impl Lower {
             let all = self.amount(&word, Quantity::Integer, words, src, out);
             return all.map_or(Turns::NONE, Turns::of_all);
         }
-        match self.whole(&word, src, out) {
+        match self.read_whole(&word, src, out) {
             Some(turns @ 1..=MOST_TURNS) => Turns::from(turns - 1),
             Some(_) => {
                 self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);

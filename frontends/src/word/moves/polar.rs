@@ -14,44 +14,22 @@ use ncc_ir::geometry::polar;
 use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::words::Word;
+use crate::word::block_words::Code;
 use crate::word::lower::Lower;
-use crate::word::sort::Code;
-
-/// What the words of the plane's axes are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::word) enum Words {
-    /// Coordinates.
-    #[default]
-    Cartesian,
-    /// Radius and angle.
-    Polar {
-        plane: Plane,
-        /// Whether the last thing that moved in the plane was a polar point.
-        follows: bool,
-    },
-}
-
-impl Words {
-    /// What is known after a block that may have been skipped.
-    pub(in crate::word) fn join(&mut self, before: Words) {
-        if let (Words::Polar { follows, .. }, Words::Polar { follows: other, .. }) = (self, before) {
-            *follows &= other;
-        }
-    }
-}
+use crate::word::word_state::AxisWords;
 
 impl Lower {
     /// The code of the mode, or of its end.
     pub(in crate::word) fn polar_words(&mut self, code: &Code, on: bool, out: &mut Batch) {
-        let is_on = matches!(self.state.words, Words::Polar { .. });
+        let is_on = matches!(self.state.words, AxisWords::Polar { .. });
         if on != is_on && self.now.skip.is_some() {
             return self.no_polar(code.row.code.as_str(), "in a block that can be skipped", code.span, out);
         }
         if !on {
-            self.state.words = Words::Cartesian;
+            self.state.words = AxisWords::Cartesian;
             self.now.silent = true;
             return;
         }
@@ -62,7 +40,7 @@ impl Lower {
             self.now.silent = true;
             return;
         }
-        self.state.words = Words::Polar { plane, follows: false };
+        self.state.words = AxisWords::Polar { plane, follows: false };
         let at = PoleWords::Along(Box::default());
         let set = SetPole { plane: Fact::Known(plane), from: PoleFrom::Zero, at };
         self.push(code.span, Op::SetPole(Box::new(set)), out);
@@ -73,12 +51,12 @@ impl Lower {
         &mut self,
         said: bool,
         block: Span,
-        words: &mut crate::word::sort::Words,
+        words: &mut crate::word::block_words::Words,
         src: Source,
         out: &mut Batch,
     ) -> bool {
         let Some([radius, angle]) = self.settings.dialect.polar.letters() else { return false };
-        let motion = self.state.motion.value();
+        let motion = self.state.modes.motion.value();
         if words.get(radius).is_none() || words.get(angle).is_none() {
             return false;
         }
@@ -136,7 +114,7 @@ impl Lower {
     pub(in crate::word) fn check_polar(&mut self, code: &Code, out: &mut Batch) {
         let leaves = match code.meaning {
             Meaning::SelectPlane(plane) => {
-                !matches!(self.state.words, Words::Polar { plane: p, .. } if p == plane)
+                !matches!(self.state.words, AxisWords::Polar { plane: p, .. } if p == plane)
             }
             Meaning::SetShift(_)
             | Meaning::SetPosition
@@ -156,7 +134,7 @@ impl Lower {
             | Meaning::Return => true,
             _ => false,
         };
-        if leaves && matches!(self.state.words, Words::Polar { .. }) {
+        if leaves && matches!(self.state.words, AxisWords::Polar { .. }) {
             let name = "while words are polar".into();
             self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
         }
@@ -165,17 +143,17 @@ impl Lower {
     /// What the word of an axis counts.
     pub(in crate::word) fn quantity_of(&self, axis: Axis, quantity: Quantity) -> Quantity {
         match self.state.words {
-            Words::Polar { plane, .. } if plane.axes().1 == axis => Quantity::Angle,
-            Words::Polar { .. } | Words::Cartesian => quantity,
+            AxisWords::Polar { plane, .. } if plane.axes().1 == axis => Quantity::Angle,
+            AxisWords::Polar { .. } | AxisWords::Cartesian => quantity,
         }
     }
 
     /// Adds a move, to a polar point where its words are polar.
     pub(in crate::word) fn push_move(&mut self, span: Span, op: Op, src: Source, out: &mut Batch) {
         match self.state.words {
-            Words::Cartesian if self.now.polar != [None; 2] => self.push_signed(span, op, src, out),
-            Words::Cartesian => self.push(span, op, out),
-            Words::Polar { plane, follows } => self.push_polar(plane, follows, span, op, out),
+            AxisWords::Cartesian if self.now.polar != [None; 2] => self.push_signed(span, op, src, out),
+            AxisWords::Cartesian => self.push(span, op, out),
+            AxisWords::Polar { plane, follows } => self.push_polar(plane, follows, span, op, out),
         }
     }
 
@@ -213,7 +191,7 @@ impl Lower {
             }
             _ => {}
         }
-        self.state.words = Words::Polar { plane, follows: true };
+        self.state.words = AxisWords::Polar { plane, follows: true };
         let polar = Polar { plane: Fact::Known(plane), radius, angle, along: false, op };
         self.push(span, Op::Polar(Box::new(polar)), out);
     }

@@ -10,11 +10,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 
 impl Lower {
     /// A block with the code of a probing move.
@@ -60,8 +60,8 @@ impl Lower {
             .any(|row| row.means == Some(Meaning::StraightFeed) && row.group == code.row.group);
         // Bare axis words would probe again, or go on as the caller moves, which no statement behind this
         // one can say.
-        if stays || self.state.motion.value().is_none() {
-            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        if stays || self.state.modes.motion.value().is_none() {
+            (self.state.modes.motion, self.state.no_motion) = (Know::Unsaid, true);
         }
     }
 }

@@ -12,13 +12,13 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Pitch, Synchronised};
 use ncc_ir::source::Span;
 
-use super::polar;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
 use crate::common::words::{Value, Word};
+use crate::word::block_words::{Code, Words, motion_of};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words, motion_of};
+use crate::word::word_state::AxisWords;
 
 impl Lower {
     /// Whether the block's feed word says a lead.
@@ -38,7 +38,7 @@ impl Lower {
     /// The lead that the feed word says.
     pub(in crate::word) fn lead(&mut self, word: &Word, src: Source, out: &mut Batch) {
         self.state.lead = self.lead_number(word, Quantity::Feed, src, out);
-        self.state.feed = Know::Unsaid;
+        self.state.modes.feed = Know::Unsaid;
     }
 
     fn lead_number(&mut self, word: &Word, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Num> {
@@ -63,7 +63,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         let code: Box<str> = row.code.as_str().into();
-        if self.state.words != polar::Words::Cartesian {
+        if self.state.words != AxisWords::Cartesian {
             let name = "thread in polar coordinates".into();
             return self.fault(Fault::NotSupported { code, name }, block, out);
         }

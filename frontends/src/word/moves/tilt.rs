@@ -10,11 +10,11 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{FrameSlot, Op, Slot, Tilt};
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::known::Know;
+use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
-use crate::word::sort::{Code, Words};
 
 impl Lower {
     fn has(&self, meaning: Meaning) -> bool {
@@ -100,11 +100,11 @@ impl Lower {
         if row.is_none_or(|row| row.group != code.row.group) {
             return false;
         }
-        let alone = self.state.tilt == Know::Said(true);
-        if self.tilt.ends(self.state.tilt) {
+        let alone = self.state.modes.tilt == Know::Said(true);
+        if self.tilt.ends(self.state.modes.tilt) {
             self.push(code.span, Op::ClearFrame(FrameSlot::Tilt), out);
         }
-        self.state.tilt = Know::Said(false);
+        self.state.modes.tilt = Know::Said(false);
         // In a tilted plane there is no rotation.
         alone
     }

@@ -7,9 +7,12 @@
 //!
 //! Not here: the lexer, which `text` has for both languages.
 
-pub(super) mod o_alone;
+pub(super) mod o_formula;
+pub(super) mod o_state;
 pub(super) mod o_subs;
 pub(super) mod o_words;
+pub(super) mod operator_text;
 pub(super) mod parameters;
-pub(super) mod shown;
-mod ways;
+pub(super) mod standalone_osub;
+pub(super) mod statements;
+mod structure_paths;

@@ -5,66 +5,28 @@
 //! `#<_value>`, and whether it gives anything in `#<_value_returned>`. The two kinds of programs must be called by
 //! their own words.
 
-use std::collections::{HashMap, HashSet, hash_map};
+use std::collections::{HashMap, hash_map};
 
-use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
 use ncc_ir::program::{Alarm, Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::o_words::{Decision, Kind, spelled};
-use super::parameters::Index;
-use crate::Batch;
+use super::o_state::{Outer, StructureKind};
+use super::statements::{Decision, spelled};
+use crate::batch::Batch;
 use crate::common::Source;
-use crate::word::Reader;
-use crate::word::calls::call_of::COMPUTED;
-use crate::word::facts::State;
 use crate::word::lower::Lower;
+use crate::word::macros::computes::COMPUTED;
+use crate::word::macros::formula::Index;
+use crate::word::reader::Reader;
 use crate::word::text::block::Block;
 use crate::word::text::token::FlowWord;
+use crate::word::word_state::WordState;
 
 /// How many structures can stand in one another.
 const DEEPEST: usize = 100;
-
-/// What is put aside while a subprogram is read.
-#[derive(Debug)]
-pub(in crate::word) struct Outer {
-    state: State,
-    /// A code of motion that no move has said yet.
-    unmoved: Option<(Span, Motion)>,
-    ended: bool,
-    labels: Vec<Text>,
-    numbered_program: bool,
-}
-
-/// Subprograms and calls met.
-#[derive(Debug, Default)]
-pub(in crate::word) struct Subs {
-    /// Names, and whether they end with M99.
-    known: HashMap<Text, bool>,
-    /// The same of what is called, each with where, and whether the main program calls it.
-    called: Vec<(Text, bool, Span, bool)>,
-    /// What the main program calls.
-    called_by_main: HashSet<Text>,
-    /// Whether anything asks for the result of a call, and whether a return without one has been met before.
-    pub(in crate::word) results: bool,
-    plain_return: Option<Span>,
-}
-
-impl Subs {
-    /// A program that ends with M99.
-    pub(in crate::word) fn numbered(&mut self, name: Text) {
-        self.known.entry(name).or_insert(true);
-    }
-
-    /// A call of one.
-    pub(in crate::word) fn calls_numbered(&mut self, name: Text, at: Span, main: bool) {
-        self.called_by_main.extend(main.then(|| name.clone()));
-        self.called.push((name, true, at, main));
-    }
-}
 
 /// Within what the number of a program is whole (interp_read.cc, `read_integer_value`).
 const WHOLE: Num = Num { mantissa: 1, scale: 4, point: true, unit: Unit::One };
@@ -76,7 +38,7 @@ pub(in crate::word) fn refused(label: &str, word: FlowWord, name: &str) -> Fault
 /// The label of a block, if it is no computed one.
 fn label_of(label: &Index) -> Option<Text> {
     match label {
-        Index::Number(digits) => digits.whole().map(|number| number.to_string().into()),
+        Index::Number(digits) => digits.to_whole().map(|number| number.to_string().into()),
         Index::Name(name) => Some(name.clone()),
         Index::Computed(_) => None,
     }
@@ -117,7 +79,7 @@ impl Reader {
     }
 
     fn begin_sub(&mut self, name: Text, span: Span, out: &mut Batch) {
-        if self.begins_alone(&name, out) {
+        if self.begin_standalone_osub(&name, out) {
             return;
         }
         if self.lower.sub.is_some() && self.lower.ended && self.lower.o.open.is_empty() {
@@ -145,8 +107,8 @@ impl Reader {
         let lower = &mut self.lower;
         lower.centre_said_elsewhere(out);
         let outer = Outer {
-            unmoved: lower.unmoved.aside(),
-            state: std::mem::replace(&mut lower.state, State::called()),
+            motion_without_move: lower.motion_without_move.take_code(),
+            state: std::mem::replace(&mut lower.state, WordState::called()),
             ended: std::mem::replace(&mut lower.ended, false),
             labels: std::mem::take(&mut lower.o.labels),
             numbered_program: std::mem::replace(&mut lower.o.numbered_program, false),
@@ -161,7 +123,7 @@ impl Reader {
 
     fn end_sub(&mut self, name: &str, src: Source, out: &mut Batch) {
         let span = self.block.span;
-        if self.ends_alone(name, out) {
+        if self.end_standalone_osub(name, out) {
             return;
         }
         let lower = &mut self.lower;
@@ -175,7 +137,7 @@ impl Reader {
         }
         lower.now = crate::word::lower::Now::at(lower.target(out).len());
         let mut values = values;
-        let inner = matches!(lower.kinds().next(), Some(Kind::Sub(_)));
+        let inner = matches!(lower.kinds().next(), Some(StructureKind::Sub(_)));
         if inner {
             values.iter_mut().for_each(|value| lower.parameters(value, span, out));
             lower.results(values.first(), span, out);
@@ -197,7 +159,7 @@ impl Reader {
         out.procedures.push(procedure);
         (lower.state, lower.ended, lower.o.labels) = (outer.state, outer.ended, outer.labels);
         lower.o.numbered_program = outer.numbered_program;
-        lower.unmoved.again(outer.unmoved);
+        lower.motion_without_move.restore_code(outer.motion_without_move);
         lower.refresh();
         self.frame.faulty |= failed;
         // Its comment stands behind the subprogram.
@@ -233,9 +195,9 @@ impl Lower {
             name = COMPUTED.into();
             arguments.insert(0, number);
         }
-        if let Some(Kind::Sub(_)) = self.kinds().last()
+        if let Some(StructureKind::Sub(_)) = self.kinds().last()
             && self.sub.as_ref().is_some_and(|sub| *sub.name == *name)
-            && self.kinds().any(|kind| matches!(kind, Kind::Repeat(_)))
+            && self.kinds().any(|kind| matches!(kind, StructureKind::Repeat(_)))
         {
             let told = "call of a subprogram by itself within a repeat";
             return self.fault(refused(label, FlowWord::Call, told), span, out);
@@ -253,7 +215,7 @@ impl Lower {
     pub(in crate::word) fn within_too_many(
         &mut self,
         label: &str,
-        kind: &Kind,
+        kind: &StructureKind,
         block: Span,
         out: &mut Batch,
     ) -> bool {
@@ -272,18 +234,18 @@ impl Lower {
 
     /// Whether a subprogram of O words is being read.
     pub(in crate::word) fn in_o_sub(&self) -> bool {
-        matches!(self.kinds().last(), Some(Kind::Sub(_)))
+        matches!(self.kinds().last(), Some(StructureKind::Sub(_)))
     }
 
     /// A return from a subprogram.
     pub(in crate::word) fn o_return(&mut self, label: &str, values: Vec<Expr>, span: Span, out: &mut Batch) {
         // It goes back from the program that it stands in, whatever its label (rs274, run).
-        let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(Kind::Sub(_))));
-        if own.is_none() && !self.o.alone.is_open() {
+        let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(StructureKind::Sub(_))));
+        if own.is_none() && !self.o.standalone.is_open() {
             let told = "return of no subprogram that is open";
             return self.fault(refused(label, FlowWord::Return, told), span, out);
         }
-        if self.kinds().any(|kind| matches!(kind, Kind::Repeat(_))) {
+        if self.kinds().any(|kind| matches!(kind, StructureKind::Repeat(_))) {
             return self.fault(refused(label, FlowWord::Return, "return out of a repeat"), span, out);
         }
         self.results(values.first(), span, out);

@@ -13,118 +13,18 @@ mod bodies;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
-use ncc_ir::program::{Control, Op, Stmt, Text};
+use ncc_ir::program::{Control, Op, Text};
 use ncc_ir::source::Span;
 
-use super::o_subs::Outer;
-use super::parameters::{Given, Index, Named, asks, constant, numbers};
-use super::ways::Ways;
-use crate::Batch;
+use super::o_formula::constant;
+use super::o_state::{OpenStructure, Outer, StructureKind, StructurePaths};
+use super::parameters::{Named, asks, numbers};
+use super::statements::{Decision, Setting, spelled};
+use crate::batch::Batch;
 use crate::word::lower::Lower;
+use crate::word::macros::formula::Index;
 use crate::word::text::block::Block;
 use crate::word::text::token::FlowWord;
-
-/// A setting of a parameter, as the grammar makes it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Setting {
-    /// The parameter as an expression.
-    pub(crate) to: Expr,
-    pub(crate) value: Expr,
-    pub(crate) span: Span,
-}
-
-/// A block that begins with the letter of programs and does something.
-#[derive(Clone, Debug)]
-pub(crate) struct Decision {
-    pub(crate) label: Index,
-    pub(crate) word: FlowWord,
-    /// What stands in brackets behind it.
-    pub(crate) values: Vec<Expr>,
-}
-
-/// What the text decides, as far as read.
-#[derive(Debug, Default)]
-pub(in crate::word) struct ODecides {
-    pub(in crate::word) open: Vec<Open>,
-    /// Labels met in the program at hand.
-    pub(in crate::word) labels: Vec<Text>,
-    pub(in crate::word) given: Given,
-    /// Whether it was told that there are no axes U, V and W.
-    pub(in crate::word) no_such_axes: bool,
-    /// Whether the program at hand ends with M99.
-    pub(in crate::word) numbered_program: bool,
-    pub(in crate::word) subs: super::o_subs::Subs,
-    pub(in crate::word) alone: super::o_alone::Alone,
-    /// Where a loop of `while` is left by a break, and where one of `do` begins.
-    left: Option<Span>,
-    does: Option<Span>,
-    /// Where a turn of a `do` is left, and where a `repeat` begins.
-    turned: Option<Span>,
-    repeats: Option<Span>,
-    /// Structures stand in one another deeper than they are read: none is looked at any more.
-    pub(in crate::word) too_deep: bool,
-}
-
-/// What has not been closed.
-#[derive(Debug)]
-pub(in crate::word) struct Open {
-    label: Text,
-    pub(in crate::word) kind: Kind,
-    /// Where its body begins; `None` until a further block is read.
-    at: Option<usize>,
-    block: Span,
-    number: Option<u32>,
-    given: Given,
-    pub(super) ways: Ways,
-    /// Whether a `continue` stands in it.
-    turned: bool,
-}
-
-#[derive(Debug)]
-pub(in crate::word) enum Kind {
-    /// What has been decided so far, and what is being decided; `None` is the rest.
-    If {
-        before: Vec<(Expr, Vec<Stmt>)>,
-        now: Option<Expr>,
-    },
-    While(Expr),
-    Do,
-    Repeat(Expr),
-    Sub(Box<Outer>),
-}
-
-impl Kind {
-    pub(in crate::word) fn word(&self) -> &'static str {
-        match self {
-            Kind::If { .. } => "if",
-            Kind::While(_) => "while",
-            Kind::Do => "do",
-            Kind::Repeat(_) => "repeat",
-            Kind::Sub(_) => "sub",
-        }
-    }
-}
-
-/// The word of a decision.
-pub(in crate::word) fn spelled(word: FlowWord) -> &'static str {
-    match word {
-        FlowWord::Sub => "sub",
-        FlowWord::EndSub => "endsub",
-        FlowWord::Call => "call",
-        FlowWord::Return => "return",
-        FlowWord::If => "if",
-        FlowWord::ElseIf => "elseif",
-        FlowWord::Else => "else",
-        FlowWord::EndIf => "endif",
-        FlowWord::Do => "do",
-        FlowWord::While => "while",
-        FlowWord::EndWhile => "endwhile",
-        FlowWord::Repeat => "repeat",
-        FlowWord::EndRepeat => "endrepeat",
-        FlowWord::Break => "break",
-        FlowWord::Continue => "continue",
-    }
-}
 
 /// Whether it is where the last move ended.
 fn is_end(system: &System) -> bool {
@@ -366,13 +266,13 @@ impl Lower {
         let span = block.span;
         let letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
         self.now.number = block.words.iter().find(|w| w.letter == letter).and_then(|w| match w.value {
-            crate::common::words::Value::Number(digits) => digits.whole(),
+            crate::common::words::Value::Number(digits) => digits.to_whole(),
             _ => None,
         });
         let word = decision.word;
         let code = |label: &str| -> Text { format!("O{label} {}", spelled(word)).into() };
         let label: Text = match &decision.label {
-            Index::Number(digits) => match digits.whole() {
+            Index::Number(digits) => match digits.to_whole() {
                 Some(number) => number.to_string().into(),
                 None => return self.fault(Fault::OutOfRange { word: spelled(word).into() }, span, out),
             },
@@ -410,15 +310,22 @@ impl Lower {
         self.now.silent = true;
         let first = || values.first().cloned().unwrap_or(Expr::int(0));
         match word {
-            FlowWord::If => {
-                self.open_body(&label, Kind::If { before: Vec::new(), now: Some(first()) }, span, out)
-            }
-            FlowWord::Do => self.open_body(&label, Kind::Do, span, out),
-            FlowWord::Repeat => self.open_body(&label, Kind::Repeat(times(first())), span, out),
+            FlowWord::If => self.open_body(
+                &label,
+                StructureKind::If { before: Vec::new(), now: Some(first()) },
+                span,
+                out,
+            ),
+            FlowWord::Do => self.open_body(&label, StructureKind::Do, span, out),
+            FlowWord::Repeat => self.open_body(&label, StructureKind::Repeat(times(first())), span, out),
             FlowWord::While => {
-                let ends = self.o.open.last().is_some_and(|o| matches!(o.kind, Kind::Do) && o.label == label);
+                let ends = self
+                    .o
+                    .open
+                    .last()
+                    .is_some_and(|o| matches!(o.kind, StructureKind::Do) && o.label == label);
                 if !ends {
-                    return self.open_body(&label, Kind::While(first()), span, out);
+                    return self.open_body(&label, StructureKind::While(first()), span, out);
                 }
                 let Some((open, body)) = self.close_body(out) else { return };
                 let condition = Expr::Node(Box::new(Node::Unary(Unary::Not, first())));
@@ -454,26 +361,28 @@ impl Lower {
     }
 
     /// What surrounds the block, from the innermost.
-    pub(in crate::word) fn kinds(&self) -> impl Iterator<Item = &Kind> {
+    pub(in crate::word) fn kinds(&self) -> impl Iterator<Item = &StructureKind> {
         self.o.open.iter().rev().map(|open| &open.kind)
     }
 
     /// A subprogram is opened, or closed.
     pub(in crate::word) fn open_sub(&mut self, label: &str, outer: Outer, block: Span) {
         let given = std::mem::take(&mut self.o.given);
-        let kind = Kind::Sub(Box::new(outer));
-        let (label, at, number, ways, turned) = (label.into(), Some(0), None, Ways::default(), false);
-        self.o.open.push(Open { label, kind, at, block, number, given, ways, turned });
+        let kind = StructureKind::Sub(Box::new(outer));
+        let (label, at, number, paths, turned) =
+            (label.into(), Some(0), None, StructurePaths::default(), false);
+        self.o.open.push(OpenStructure { label, kind, at, block, number, given, paths, turned });
     }
 
     /// The subprogram that is open, if it has this label and nothing in it is.
     pub(in crate::word) fn close_sub(&mut self, label: &str) -> Option<Outer> {
-        let fits = |open: &&Open| *open.label == *label && matches!(open.kind, Kind::Sub(_));
+        let fits =
+            |open: &&OpenStructure| *open.label == *label && matches!(open.kind, StructureKind::Sub(_));
         self.o.open.last().filter(fits)?;
         let open = self.o.open.pop()?;
         self.o.given = open.given;
         match open.kind {
-            Kind::Sub(outer) => Some(*outer),
+            StructureKind::Sub(outer) => Some(*outer),
             _ => None,
         }
     }

@@ -6,140 +6,22 @@
 //!
 //! Not here: settings of parameters, and blocks that decide where the program goes (`o_words`).
 
-use std::collections::HashSet;
-
 use ncc_dialects::{MACHINE_UNITS, Quantity, SystemRow};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
-use ncc_ir::expr::value;
-use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Unary, Var};
+use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Var};
 use ncc_ir::source::Span;
 
-use crate::Batch;
-use crate::common::words::Digits;
+use super::o_formula::node;
+use crate::batch::Batch;
 use crate::word::lower::Lower;
-use crate::word::macros::formula::Formula;
 
 /// Parameters that belong to a call, and those that all programs have (overview, numbered parameters).
 const LOCALS: u32 = 30;
 const OWN: u32 = 5000;
 
-/// How far apart values are that are equal (overview, equality and floating-point values).
-const EQUAL: Num = Num { mantissa: 1, scale: 6, point: true, unit: Unit::One };
-
 /// To how many digits the number of a parameter, or a whole number, is looked at.
 pub(in crate::word) const WHOLE_DIGITS: i64 = 4;
-
-/// What stands behind `#`, or behind the letter of programs.
-#[derive(Clone, Debug)]
-pub(crate) enum Index {
-    Number(Digits),
-    /// In small letters, without blanks.
-    Name(Box<str>),
-    Computed(Formula),
-}
-
-/// A parameter as the text names it.
-fn named(name: String) -> Expr {
-    Expr::Node(Box::new(Node::Var(Var::System(System::Other(name.into())))))
-}
-
-fn node(node: Node) -> Expr {
-    Expr::Node(Box::new(node))
-}
-
-impl Formula {
-    /// A function of values; `None` is one that is refused by name, or nested too deep.
-    pub(crate) fn of(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
-        Formula::call(function, arguments)
-    }
-
-    /// The opposite of a value.
-    pub(crate) fn opposite(self) -> Option<Formula> {
-        let depth = self.depth() + 1;
-        match self.expr {
-            Expr::Num(n) => Formula::within(Expr::Num(Num { mantissa: -n.mantissa, ..n }), depth),
-            expr => Formula::within(node(Node::Unary(Unary::Negate, expr)), depth),
-        }
-    }
-
-    /// Two values and what joins them; of logic, anything but zero holds, and what comes of it is a number.
-    pub(crate) fn joined(operator: Binary, a: Formula, b: Formula) -> Option<Formula> {
-        let depth = a.depth().max(b.depth()) + 1;
-        Formula::within(node(Node::Binary(operator, a.expr, b.expr)), depth)
-    }
-
-    /// A comparison: what is less than a millionth apart is equal, and as such neither less nor greater by `LE` and
-    /// `GE` (interp_execute.cc, execute_binary2: `LT` and `GT` compare as they are).
-    pub(crate) fn compared(operator: Binary, a: Formula, b: Formula) -> Option<Formula> {
-        let depth = a.depth().max(b.depth()) + 2;
-        let (a, b) = (a.expr, b.expr);
-        let apart = |a, b| node(Node::Binary(Binary::Subtract, a, b));
-        let difference = |a, b| node(Node::Call(Function::Abs, vec![apart(a, b)]));
-        let expr = match operator {
-            Binary::Equal => node(Node::Binary(Binary::Less, difference(a, b), Expr::Num(EQUAL))),
-            Binary::NotEqual => {
-                node(Node::Binary(Binary::GreaterOrEqual, difference(a, b), Expr::Num(EQUAL)))
-            }
-            Binary::LessOrEqual => node(Node::Binary(Binary::Less, apart(a, b), Expr::Num(EQUAL))),
-            Binary::GreaterOrEqual => {
-                let least = Num { mantissa: -EQUAL.mantissa, ..EQUAL };
-                node(Node::Binary(Binary::Greater, apart(a, b), Expr::Num(least)))
-            }
-            operator => node(Node::Binary(operator, a, b)),
-        };
-        Formula::within(expr, depth)
-    }
-
-    /// Whether a parameter with a name exists; `None` for one without (overview, functions: an error).
-    pub(crate) fn exists(of: Index) -> Option<Formula> {
-        let Index::Name(name) = of else { return None };
-        let named = named(format!("#<{name}>"));
-        Formula::within(node(Node::Binary(Binary::NotEqual, named, node(Node::Vacant))), 1)
-    }
-
-    /// The value of a parameter; `None` is no number of one.
-    pub(crate) fn parameter(of: Index) -> Option<Formula> {
-        match of {
-            Index::Number(digits) => {
-                let number = digits.whole().filter(|number| *number > 0)?;
-                Formula::within(named(format!("#{number}")), 0)
-            }
-            Index::Name(name) => Formula::within(named(format!("#<{name}>")), 0),
-            Index::Computed(formula) => {
-                let depth = formula.depth() + 1;
-                let element = Element { of: Many::Numbered(Box::new([])), at: vec![formula.expr] };
-                Formula::within(node(Node::Element(element)), depth)
-            }
-        }
-    }
-}
-
-/// Which variables surely have a value where the text is being read.
-#[derive(Clone, Debug, Default)]
-pub(in crate::word) struct Given {
-    set: HashSet<Var>,
-    /// Whether all numbered locals have: a program that is called by an O word has its arguments in them, and zeros.
-    pub(in crate::word) numbered: bool,
-}
-
-impl Given {
-    pub(in crate::word) fn set(&mut self, var: &Var) {
-        if let Var::Local(_) = var {
-            self.set.insert(var.clone());
-        }
-    }
-
-    fn has(&self, var: &Var) -> bool {
-        match var {
-            Var::Local(name) => {
-                self.numbered && name.bytes().all(|b| b.is_ascii_digit()) || self.set.contains(var)
-            }
-            Var::Common(_) | Var::Retentive(_) | Var::System(_) => true,
-        }
-    }
-}
 
 /// What a name of the text is.
 pub(in crate::word) enum Named {
@@ -289,24 +171,6 @@ pub(in crate::word) fn parameter(digits: &str) -> Var {
 pub(in crate::word) fn numbers() -> Box<[Numbers]> {
     let numbers = |scope, from, to| Numbers { scope, prefix: "".into(), from, to };
     Box::new([numbers(Scope::Local, 1, LOCALS), numbers(Scope::Common, LOCALS + 1, OWN)])
-}
-
-/// What an expression without parameters is worth.
-pub(in crate::word) fn constant(expr: &Expr) -> Option<f64> {
-    let node = match expr {
-        Expr::Num(n) => return Some(n.mantissa as f64 / 10f64.powi(i32::from(n.scale))),
-        Expr::Node(node) => &**node,
-    };
-    match node {
-        Node::Var(_) | Node::Element(_) | Node::Vacant => None,
-        Node::Unary(operator, a) => Some(value::unary(*operator, constant(a)?)),
-        Node::Binary(operator, a, b) => value::binary(*operator, constant(a)?, constant(b)?).ok(),
-        Node::Call(f, arguments) => match &arguments[..] {
-            [a] if f.arguments() == 1 => value::function(*f, constant(a)?, 0.0).ok(),
-            [a, b] if f.arguments() == 2 => value::function(*f, constant(a)?, constant(b)?).ok(),
-            _ => None,
-        },
-    }
 }
 
 /// Whether an expression asks for a value of the control's own.

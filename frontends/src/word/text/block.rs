@@ -8,13 +8,13 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Unary};
 use ncc_ir::source::Span;
 
+use super::device_text;
 use super::token::{FlowWord, Refusal, Signs, Token, Tokens};
 use crate::common::words::{Digits, Value, Word};
 use crate::word::macros::formula;
-use crate::word::macros::formula::{Formula, Piece, Statement};
-use crate::word::macros::output;
-use crate::word::o_code::o_words::{Decision, Setting};
-use crate::word::o_code::parameters::{Index, constant};
+use crate::word::macros::formula::{Formula, Index, Piece, Statement};
+use crate::word::o_code::o_formula::constant;
+use crate::word::o_code::statements::{Decision, Setting};
 
 lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused)]
@@ -241,7 +241,7 @@ impl Sink<'_> {
 
     /// Text for a device; other words of the kind are refused.
     pub(crate) fn output(&mut self, start: usize, end: usize) {
-        self.piece(start, end, output::taken(&self.line[start..end]).map(Piece::Output));
+        self.piece(start, end, device_text::taken(&self.line[start..end]).map(Piece::Output));
     }
 
     /// A condition, and what depends on it.

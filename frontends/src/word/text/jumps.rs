@@ -5,8 +5,8 @@ use ncc_dialects::{Dialect, Meaning, Settings};
 use ncc_ir::source::Span;
 
 use super::token::{FlowWord, Signs, Token, Tokens};
-use crate::Flow;
 use crate::common::words::{Digits, tenths};
+use crate::outline::Flow;
 
 /// Tells every program, block and jump of a text.
 pub(crate) fn jumps(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {

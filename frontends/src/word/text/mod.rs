@@ -8,6 +8,7 @@
 //! Not here: the meaning of words.
 
 pub(super) mod block;
+pub(super) mod device_text;
 pub(super) mod frame;
 pub(crate) mod jumps;
 pub(crate) mod pieces;

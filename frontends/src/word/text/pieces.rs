@@ -3,7 +3,7 @@
 use ncc_dialects::Dialect;
 
 use super::token::{Signs, Token, Tokens};
-use crate::pieces::{LineIs, Piece, PieceKind};
+use crate::outline::{LineIs, Piece, PieceKind};
 
 /// So many letters without a number, one after the other, are no block in any dialect.
 const WORDS_OF_A_TEXT: usize = 5;

@@ -9,10 +9,9 @@ use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Function};
 
-use crate::common::text::first_char;
+use super::device_text;
+use crate::common::text::{begins, first_char};
 use crate::common::words::Digits;
-use crate::word::lower::begins;
-use crate::word::macros::output;
 
 /// What of the dictionary the lexer needs.
 #[derive(Clone, Copy, Debug)]
@@ -417,7 +416,7 @@ impl<'t> Tokens<'t> {
         })?;
         self.decides |= token == Token::If;
         let all = match token {
-            Token::Print => output::length(rest).unwrap_or_else(|| self.rest_of_block(rest)),
+            Token::Print => device_text::length(rest).unwrap_or_else(|| self.rest_of_block(rest)),
             _ => word.len(),
         };
         self.raw.bump(all - 1);

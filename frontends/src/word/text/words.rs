@@ -4,8 +4,8 @@
 use ncc_dialects::Dialect;
 
 use super::token::{Signs, Token, Tokens};
-use crate::Word;
 use crate::common::words::tenths;
+use crate::outline::Word;
 
 /// Tells the words of a line, with or without its end.
 pub(crate) fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {

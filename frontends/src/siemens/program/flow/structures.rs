@@ -5,16 +5,16 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr, Node, Target as Into, Var};
 use ncc_ir::program::{Control, Op, Stmt};
 
-use super::{Closes, Open, What};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::{Head, Lower};
+use crate::siemens::program::open_structures::{Closes, OpenStructure, StructureKind};
 use crate::siemens::text::tree::{Expr as Tree, Place};
 use crate::siemens::values::formula::{may_be_one, reads, several};
 
 impl Lower {
     /// A structure begins: its head has been read.
-    pub(super) fn open(&mut self, what: What, head: &Head, src: Source, out: &mut Batch) {
+    pub(super) fn open(&mut self, what: StructureKind, head: &Head, src: Source, out: &mut Batch) {
         out.whole = true;
         self.now.heading = true;
         if self.skipped() {
@@ -25,20 +25,20 @@ impl Lower {
             self.not_supported(what.word(), &format!("structure within {most} others"), head.span, out);
         }
         let scaled = self.state.scaled;
-        if !matches!(what, What::If { .. }) {
+        if !matches!(what, StructureKind::If { .. }) {
             self.lose(head.span, src, out);
             self.state.scaled = scaled;
         } else {
             self.no_idle_tap(head.span, src, out);
             self.no_stale_offset(head.span, out);
-            self.again.use_all();
+            self.repeated_blocks.use_all();
             self.forget_texts();
         }
         let number = self.take_number();
         let comment = self.take_comment(head, src);
         let at = self.target(out).len();
         let found = self.in_place();
-        self.flow.open.push(Open { what, at, head: head.span, number, comment, found, scaled });
+        self.flow.open.push(OpenStructure { what, at, head: head.span, number, comment, found, scaled });
     }
 
     /// `IF condition`
@@ -54,17 +54,17 @@ impl Lower {
         self.settle(head.span, out);
         self.leave_motion_before(head.span, out);
         let other = Box::new((self.state.clone(), self.moved));
-        self.open(What::If { condition, then: None, other }, head, src, out);
+        self.open(StructureKind::If { condition, then: None, other }, head, src, out);
     }
 
     /// `LOOP`
     pub(in crate::siemens) fn begin_loop(&mut self, head: &Head, src: Source, out: &mut Batch) {
-        self.open(What::Loop, head, src, out);
+        self.open(StructureKind::Loop, head, src, out);
     }
 
     /// `REPEAT`
     pub(in crate::siemens) fn begin_repeat(&mut self, head: &Head, src: Source, out: &mut Batch) {
-        self.open(What::Until, head, src, out);
+        self.open(StructureKind::Until, head, src, out);
     }
 
     /// `WHILE condition`
@@ -76,7 +76,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         let condition = self.condition(condition, src, out).unwrap_or(Expr::int(0));
-        self.open(What::While(condition), head, src, out);
+        self.open(StructureKind::While(condition), head, src, out);
     }
 
     /// `FOR counter = from TO to`
@@ -105,13 +105,13 @@ impl Lower {
             (Some(variable), Some(from), Some(to)) => {
                 // A counter that is no whole number is rounded to one.
                 let from = self.whole_number(from, head.span, out);
-                What::For { variable, from, to: to.expr }
+                StructureKind::For { variable, from, to: to.expr }
             }
             _ => {
                 if !self.now.failed {
                     self.not_supported("FOR", "counter that is no plain variable", counter.span, out);
                 }
-                What::Loop
+                StructureKind::Loop
             }
         };
         self.open(what, head, src, out);
@@ -120,7 +120,7 @@ impl Lower {
         {
             // Its end is that of a FOR in any case.
             let nothing = Var::Local("".into());
-            open.what = What::For { variable: nothing, from: Expr::int(0), to: Expr::int(0) };
+            open.what = StructureKind::For { variable: nothing, from: Expr::int(0), to: Expr::int(0) };
         }
     }
 
@@ -137,7 +137,11 @@ impl Lower {
         let state = (self.state.clone(), self.moved);
         let found = self.in_place();
         match self.flow.open.last_mut() {
-            Some(Open { what: What::If { then: then @ None, other, .. }, found: before, .. }) if !skipped => {
+            Some(OpenStructure {
+                what: StructureKind::If { then: then @ None, other, .. },
+                found: before,
+                ..
+            }) if !skipped => {
                 *then = Some(body);
                 let begin = std::mem::replace(&mut **other, state);
                 let same = *before == found;
@@ -181,7 +185,8 @@ impl Lower {
         let stale = std::mem::take(&mut self.stale);
         self.leave_motion_before(head.span, out);
         let condition = condition.map(|c| self.condition(c, src, out).unwrap_or(Expr::int(1)));
-        let Some(Open { what, at, head: begin, number, comment, found, scaled }) = self.flow.open.pop()
+        let Some(OpenStructure { what, at, head: begin, number, comment, found, scaled }) =
+            self.flow.open.pop()
         else {
             return;
         };
@@ -195,19 +200,20 @@ impl Lower {
             first.joined = false;
         }
         // Tables that a loop only fills count behind it, when the offset in force is called up again.
-        let fills = stale && matches!(what, What::While(_) | What::For { .. }) && only_sets(&body);
+        let fills =
+            stale && matches!(what, StructureKind::While(_) | StructureKind::For { .. }) && only_sets(&body);
         self.stale = stale && !fills;
         self.no_stale_offset(head.span, out);
         self.now.mark = self.now.mark.min(at);
         self.forget_texts();
-        let is_if = matches!(what, What::If { .. });
+        let is_if = matches!(what, StructureKind::If { .. });
         let control = match what {
-            What::If { condition, then, other } => {
+            StructureKind::If { condition, then, other } => {
                 let (state, moved) = *other;
-                let one = self.state.motion;
+                let one = self.state.modes.motion;
                 self.state.join(&state);
-                if self.state.motion.value().is_none() {
-                    self.motion_goes_on(&[one, state.motion], out);
+                if self.state.modes.motion.value().is_none() {
+                    self.motion_goes_on(&[one, state.modes.motion], out);
                 }
                 if self.moved != moved {
                     self.moved = None;
@@ -223,10 +229,10 @@ impl Lower {
                     }
                 }
             }
-            What::Loop => Control::Loop { body },
-            What::While(condition) => Control::While { condition, body },
-            What::Until => Control::Until { body, condition: condition.unwrap_or(Expr::int(1)) },
-            What::For { variable, from, to } => {
+            StructureKind::Loop => Control::Loop { body },
+            StructureKind::While(condition) => Control::While { condition, body },
+            StructureKind::Until => Control::Until { body, condition: condition.unwrap_or(Expr::int(1)) },
+            StructureKind::For { variable, from, to } => {
                 if may_change(&body, &to) {
                     let name = "loop whose end value may change while it runs";
                     self.not_supported("FOR", name, begin, out);

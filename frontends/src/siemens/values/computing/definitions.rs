@@ -5,13 +5,13 @@ use ncc_ir::expr::Var;
 use ncc_ir::program::{Declare, Op};
 use ncc_ir::source::Span;
 
-use super::super::formula::Kind;
-use super::super::texts::TextOf;
-use super::{Variable, several_values, stored};
-use crate::Batch;
+use super::super::typed::Kind;
+use super::{several_values, stored};
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::siemens::lower::Lower;
 use crate::siemens::text::tree::{Address, Declaration, Declared, Expr as Tree, Place, TypeName, Value};
+use crate::siemens::values::variables::{TextOf, Variable};
 
 /// Most dimensions of an array.
 const DIMENSIONS: usize = 3;

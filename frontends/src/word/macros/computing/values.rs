@@ -9,12 +9,12 @@ use ncc_ir::expr::{Binary, Expr, Function, Node, Var};
 use ncc_ir::source::Span;
 
 use super::has_round;
-use crate::Batch;
+use crate::batch::Batch;
 use crate::common::Source;
 use crate::common::number::{spell, unit_of};
 use crate::common::words::{Value, Word};
+use crate::word::block_words::Words;
 use crate::word::lower::Lower;
-use crate::word::sort::Words;
 
 impl Lower {
     /// An expression outside words.

@@ -5,13 +5,14 @@ use ncc_ir::expr::{Expr, partial_expr};
 use ncc_ir::program::{Control, Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::{Kind, Open, spelled};
-use crate::Batch;
+use crate::batch::Batch;
 use crate::word::lower::Lower;
+use crate::word::o_code::o_state::{OpenStructure, StructureKind};
+use crate::word::o_code::statements::spelled;
 use crate::word::text::token::FlowWord;
 
 impl Lower {
-    pub(super) fn open_body(&mut self, label: &str, kind: Kind, block: Span, out: &mut Batch) {
+    pub(super) fn open_body(&mut self, label: &str, kind: StructureKind, block: Span, out: &mut Batch) {
         if self.o.labels.iter().any(|other| **other == *label) {
             let fault = Fault::NotSupported {
                 code: format!("O{label} {}", kind.word()).into(),
@@ -23,22 +24,22 @@ impl Lower {
             return;
         }
         self.o.labels.push(label.into());
-        if let Kind::Do = kind {
+        if let StructureKind::Do = kind {
             self.o.does.get_or_insert(block);
             self.check_break(block, out);
         }
-        if let Kind::Repeat(_) = kind {
+        if let StructureKind::Repeat(_) = kind {
             self.o.repeats.get_or_insert(block);
             self.check_continue(block, out);
         }
-        let (number, given, ways) = (self.now.number, self.o.given.clone(), self.ways());
+        let (number, given, paths) = (self.now.number, self.o.given.clone(), self.paths_at_head());
         let (label, at, turned) = (label.into(), None, false);
-        self.o.open.push(Open { label, kind, at, block, number, given, ways, turned });
-        self.body_begins(ways, block, out);
+        self.o.open.push(OpenStructure { label, kind, at, block, number, given, paths, turned });
+        self.body_begins(paths, block, out);
     }
 
     /// Takes what was opened last, with its body.
-    pub(super) fn close_body(&mut self, out: &mut Batch) -> Option<(Open, Vec<Stmt>)> {
+    pub(super) fn close_body(&mut self, out: &mut Batch) -> Option<(OpenStructure, Vec<Stmt>)> {
         self.leave_motion(None, out);
         let open = self.o.open.pop()?;
         let stmts = self.target(out);
@@ -51,49 +52,56 @@ impl Lower {
     }
 
     /// The statement of a structure stands where its head does.
-    pub(super) fn closed(&mut self, mut open: Open, control: Control, out: &mut Batch) {
-        self.body_ends(&mut open.ways);
+    pub(super) fn closed(&mut self, mut open: OpenStructure, control: Control, out: &mut Batch) {
+        self.body_ends(&mut open.paths);
         let at = open.at.unwrap_or(usize::MAX);
         self.now.mark = self.now.mark.min(at).min(self.target(out).len());
         self.now.number = open.number;
         self.o.given = open.given;
         self.push(open.block, Op::Control(Box::new(control)), out);
         self.separate(out);
-        self.ways_join(open.ways, open.block, out);
+        self.merge_bodies(open.paths, open.block, out);
     }
 
     /// `break` and `continue`.
     pub(super) fn leave(&mut self, label: &str, word: FlowWord, span: Span, out: &mut Batch) {
-        let mut loops = self.o.open.iter().rev().filter(|open| !matches!(open.kind, Kind::If { .. }));
+        let mut loops =
+            self.o.open.iter().rev().filter(|open| !matches!(open.kind, StructureKind::If { .. }));
         let inner = loops.next();
         let name = match inner {
             // What is passed over behind a `continue` is looked through for the loop's label, and a `break` with it
             // is taken for one that is made (interp_o_word.cc); a `while` goes on all the same.
-            Some(Open { kind: Kind::Do, label: own, turned: true, .. })
+            Some(OpenStructure { kind: StructureKind::Do, label: own, turned: true, .. })
                 if **own == *label && word == FlowWord::Break =>
             {
                 Some("O word that leaves a loop behind a continue of it")
             }
-            Some(Open { kind: Kind::While(_) | Kind::Do, label: own, .. }) if **own == *label => None,
-            Some(Open { kind: Kind::While(_) | Kind::Do, .. }) if loops.any(|open| *open.label == *label) => {
+            Some(OpenStructure { kind: StructureKind::While(_) | StructureKind::Do, label: own, .. })
+                if **own == *label =>
+            {
+                None
+            }
+            Some(OpenStructure { kind: StructureKind::While(_) | StructureKind::Do, .. })
+                if loops.any(|open| *open.label == *label) =>
+            {
                 Some("O word that leaves a loop from within another")
             }
-            Some(Open { kind: Kind::Repeat(_), .. }) => Some("O word that leaves a repeat"),
+            Some(OpenStructure { kind: StructureKind::Repeat(_), .. }) => Some("O word that leaves a repeat"),
             _ => Some("O word that leaves no loop"),
         };
         if let Some(name) = name {
             let code = format!("O{label} {}", spelled(word)).into();
             return self.fault(Fault::NotSupported { code, name: name.into() }, span, out);
         }
-        let in_while = matches!(inner, Some(Open { kind: Kind::While(_), .. }));
+        let in_while = matches!(inner, Some(OpenStructure { kind: StructureKind::While(_), .. }));
         if word == FlowWord::Break && in_while {
             self.o.left.get_or_insert(span);
             self.check_break(span, out);
         }
-        let is_loop = |open: &&mut Open| *open.label == *label;
+        let is_loop = |open: &&mut OpenStructure| *open.label == *label;
         if let (FlowWord::Continue, Some(open)) = (word, self.o.open.iter_mut().rev().find(is_loop)) {
             open.turned = true;
-            if matches!(open.kind, Kind::Do) {
+            if matches!(open.kind, StructureKind::Do) {
                 self.o.turned.get_or_insert(span);
                 self.check_continue(span, out);
             }
@@ -130,16 +138,15 @@ impl Lower {
         span: Span,
         out: &mut Batch,
     ) -> bool {
-        let fits = self
-            .o
-            .open
-            .last()
-            .is_some_and(|o| *o.label == *label && matches!(o.kind, Kind::If { now: Some(_), .. }));
+        let fits =
+            self.o.open.last().is_some_and(|o| {
+                *o.label == *label && matches!(o.kind, StructureKind::If { now: Some(_), .. })
+            });
         if !fits {
             return false;
         }
         let Some((mut open, body)) = self.close_body(out) else { return true };
-        if let Kind::If { before, now } = &mut open.kind {
+        if let StructureKind::If { before, now } = &mut open.kind {
             before.extend(now.take().map(|condition| (condition, body)));
             *now = next;
             if now.as_ref().is_some_and(partial_expr::may_fail) {
@@ -159,9 +166,9 @@ impl Lower {
         let fits = self.o.open.last().is_some_and(|open| {
             let kind = matches!(
                 (&open.kind, word),
-                (Kind::If { .. }, FlowWord::EndIf)
-                    | (Kind::While(_), FlowWord::EndWhile)
-                    | (Kind::Repeat(_), FlowWord::EndRepeat)
+                (StructureKind::If { .. }, FlowWord::EndIf)
+                    | (StructureKind::While(_), FlowWord::EndWhile)
+                    | (StructureKind::Repeat(_), FlowWord::EndRepeat)
             );
             kind && *open.label == *label
         });
@@ -170,13 +177,13 @@ impl Lower {
         }
         let Some((mut open, body)) = self.close_body(out) else { return true };
         let control = match open.close() {
-            Kind::While(condition) => Control::While { condition, body },
-            Kind::Repeat(times) => Control::Repeat { times, body },
-            Kind::If { before, now } => match decision_of(before, now, body, open.block) {
+            StructureKind::While(condition) => Control::While { condition, body },
+            StructureKind::Repeat(times) => Control::Repeat { times, body },
+            StructureKind::If { before, now } => match decision_of(before, now, body, open.block) {
                 Some(control) => control,
                 None => return true,
             },
-            Kind::Do | Kind::Sub(_) => return true,
+            StructureKind::Do | StructureKind::Sub(_) => return true,
         };
         self.closed(open, control, out);
         true

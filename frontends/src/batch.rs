@@ -1,0 +1,93 @@
+//! What reading a piece of text gives: statements, subprograms and diagnostics.
+//!
+//! Not here: the readers, which fill it.
+
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::Num;
+use ncc_ir::program::{Op, Procedure, ProgramName, Stmt};
+use ncc_ir::source::Span;
+
+/// What reading a piece of text gave. The vectors are drained by the caller between pieces and
+/// their memory is used again.
+#[derive(Debug, Default)]
+pub struct Batch {
+    /// Further statements of the main procedure.
+    pub stmts: Vec<Stmt>,
+    /// Subprograms that are complete.
+    pub procedures: Vec<Procedure>,
+    /// The program's own name, as far as read.
+    pub name: ProgramName,
+    /// Every fact that the program has relied on so far without having said it, with the value
+    /// taken for granted; grows, and is not to be drained.
+    pub assumed: Modes,
+    /// Set with the first call, label, jump or loop: from there on the program must be kept whole.
+    pub whole: bool,
+    /// What was found.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Numbers without a point that count increments; only after [`Reader::watch`].
+    pub bare: Vec<BareNumber>,
+    /// Whether a length has been met that is written with a point and is not zero; only after
+    /// [`Reader::watch`], and of dialects where the point matters.
+    pub pointed: bool,
+    /// Whether the text has been found to be a subprogram without its main program.
+    pub subprogram: bool,
+    /// What the main procedure says of itself, where that is more than its name: a subprogram that is read alone has
+    /// parameters, which are given their values from elsewhere. Its body is empty.
+    pub heading: Option<Box<Procedure>>,
+}
+
+impl Batch {
+    /// The main procedure with these statements, and what it says of itself.
+    pub fn main(&mut self, body: Vec<Stmt>) -> Procedure {
+        let heading = self.heading.take().map(|heading| *heading).unwrap_or_default();
+        Procedure { body, ..heading }
+    }
+
+    /// Where further statements go: into the subprogram that is being read, else into the main procedure.
+    #[inline]
+    pub(crate) fn body<'o>(&'o mut self, sub: &'o mut Option<Procedure>) -> &'o mut Vec<Stmt> {
+        match sub {
+            Some(procedure) => &mut procedure.body,
+            None => &mut self.stmts,
+        }
+    }
+}
+
+/// A number that stands without a decimal point where the dialect's rule makes that another value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BareNumber {
+    /// Its word.
+    pub span: Span,
+    /// The value by the dialect's rule.
+    pub read: Num,
+    /// What the same digits are with a point after them.
+    pub with_point: Num,
+    /// Whether it is a feed.
+    pub feed: bool,
+}
+
+/// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after
+/// [`Reader::watch`].
+pub const REFUSED: &str = "";
+
+/// A statement for a block that was refused.
+pub(crate) fn refused(span: Span) -> Stmt {
+    Stmt::new(span, Op::NoEffect(REFUSED.into()))
+}
+
+impl Batch {
+    /// Reports something at a place.
+    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
+        self.diagnostics.push(Diagnostic::new(fault, span));
+    }
+
+    /// Whether the last thing reported is an error of a word of this block.
+    pub(crate) fn refused_within(&self, block: Span) -> bool {
+        self.diagnostics.last().is_some_and(|last| {
+            last.fault.gravity() == ncc_ir::diag::Gravity::Error
+                && block.start <= last.span.start
+                && last.span.end <= block.end
+        })
+    }
+}

@@ -1,0 +1,141 @@
+//! Blocks that only move: what they need is kept as long as no other block comes.
+
+use ncc_dialects::{Quantity, Role};
+use ncc_ir::canon::{Axis, Distance, Fact, Units};
+use ncc_ir::program::{Coord, Op};
+use ncc_ir::source::Span;
+
+use super::super::siemens_state::{ModalCall, Motion};
+use super::{Head, Lower};
+use crate::batch::Batch;
+use crate::common::fast_lower::{FastLower, FeedWord};
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+use crate::common::words::{Value, Word};
+use crate::common::{Source, fast_lower};
+
+impl Lower {
+    /// Lowers the line that begins at `at` of `text`, if it is a plain move of at most `longest`
+    /// bytes; gives where its end is. `None`, and then nothing was done, if it is not one.
+    #[inline]
+    pub(in crate::siemens) fn fast_line(
+        &mut self,
+        text: &[u8],
+        at: usize,
+        base: u32,
+        longest: usize,
+        out: &mut Batch,
+    ) -> Option<usize> {
+        let fast = self.fast_lower.as_ref()?;
+        let stmts = out.body(&mut self.sub);
+        let end = fast_lower::line(fast, text, at, base, longest, stmts)?;
+        let absolute = fast.distance == Fact::Known(Distance::Absolute);
+        if let Some(Op::StraightFeed(to) | Op::StraightTraverse(to)) = stmts.last().map(|stmt| &stmt.op) {
+            for (stand, word) in self.stand.axes.iter_mut().zip(&to.to.axes) {
+                if let Some(Coord { value: ncc_ir::expr::Expr::Num(num), .. }) = word {
+                    *stand = if absolute { Some(*num) } else { None };
+                }
+            }
+        }
+        Some(end)
+    }
+
+    /// Finds out whether plain moves can go the short way from here.
+    pub(in crate::siemens) fn refresh(&mut self) {
+        self.fast_lower = self.settled();
+    }
+
+    fn settled(&self) -> Option<FastLower> {
+        let dialect = self.settings.dialect;
+        let linear = |axis: Axis| {
+            let row = dialect.address_row(axis.letter());
+            row.is_some_and(|r| r.role == Role::Axis && r.quantity == Quantity::Length && r.sure)
+        };
+        let state = &self.state;
+        let feed = match state.modes.motion {
+            Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
+            Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
+            _ => return None,
+        };
+        let open = self.assume
+            && (state.modes.is_open_to_moves()
+                || state.modes.no_shift.unsaid()
+                || state.implied_edge.is_some());
+        let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
+        // The statements of a move say what is in force only after one has been looked at.
+        let moved = self.moved == Some(if feed { Motion::Feed } else { Motion::Traverse });
+        let no_feed = feed && state.modes.feed == Know::Unsaid;
+        if !axes
+            || open
+            || no_feed
+            || !moved
+            || state.cycle != ModalCall::None
+            || self.ended
+            || !self.repeated_blocks.is_empty()
+            || self.rounding.is_some()
+            // The block after skipped ones ends their stretch.
+            || self.stretch.is_some()
+            // Its number may be one that a jump names.
+            || self.has_targets()
+            || self.stale
+        {
+            return None;
+        }
+        let said = matches!(state.modes.motion, Know::Said(_));
+        Some(FastLower {
+            unit: unit_of(state.modes.units.fact()),
+            distance: state.modes.distance.fact(),
+            feed,
+            number: b'N',
+            bare: true,
+            repeated_motion: said.then(|| fast_lower::repeated_motion_code(dialect, feed)).flatten(),
+            feed_word: self.settled_feed(),
+        })
+    }
+
+    /// What a feed word needs, while it would change no more than the feed.
+    fn settled_feed(&self) -> Option<FeedWord> {
+        let (dialect, state) = (self.settings.dialect, &self.state);
+        let row = dialect.address.iter().find(|row| row.role == Role::Feed)?;
+        let open = self.assume && state.modes.feed_mode.unsaid();
+        if !row.sure || open || state.modes.feed != Know::Said(()) {
+            return None;
+        }
+        let basic = if self.settings.get("feed_unit") == "inch" { Units::Inch } else { Units::Mm };
+        let unit = match (state.scaled.value(), state.scaled) {
+            (Some(true), _) => unit_of(state.modes.units.fact()),
+            // Where the units in force are other ones, it is told that the feed is not in them.
+            (Some(false), _) | (None, Know::Unsaid) if state.modes.units.value() == Some(basic) => {
+                unit_of(Fact::Known(basic))
+            }
+            (Some(false) | None, _) => return None,
+        };
+        Some(FeedWord { letter: row.letter as u8, unit, bare: true })
+    }
+
+    /// Lowers a block that the recogniser has read; its number, if any, is its first word.
+    pub(in crate::siemens) fn lower_fast_parsed(
+        &mut self,
+        plain: &[Word],
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        self.stretch = None;
+        self.executed = true;
+        let mut plain = plain;
+        let mut head = Head { span, ..Head::default() };
+        if let Some((Word { letter: b'N', value: Value::Number(digits), .. }, rest)) = plain.split_first() {
+            head.number = u32::try_from(digits.mantissa).ok();
+            plain = rest;
+        }
+        self.begin(&head, src, out);
+        let mut words = std::mem::take(&mut self.words);
+        words.clear();
+        self.sort_plain(plain, &mut words, src, out);
+        self.words(&mut words, &head, src, out);
+        self.words = words;
+        self.close(&head, src, out);
+        self.refresh();
+    }
+}

@@ -1,0 +1,109 @@
+//! Codes and words of a block, and which letters have which role.
+//!
+//! Not here: how they are sorted (`sort`).
+
+use ncc_dialects::{CodeRow, Dialect, Meaning, Role};
+use ncc_ir::canon::Motion;
+use ncc_ir::expr::Expr;
+use ncc_ir::source::Span;
+
+use crate::common::words::Word;
+
+/// Letters by role; 0 where the dialect has none.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Roles {
+    pub(super) feed: u8,
+    pub(super) speed: u8,
+    pub(super) tool: u8,
+    pub(super) length_entry: u8,
+    pub(super) corrector: u8,
+    pub(super) radius_entry: u8,
+    pub(super) radius: u8,
+    pub(super) centre: [u8; 3],
+    /// Letters of axes, a bit each.
+    pub(super) axes: u32,
+    /// Letters of rotary axes, a bit each.
+    pub(super) rotary: u32,
+    /// Letter of an arc's turns.
+    pub(super) turns: u8,
+}
+
+impl Roles {
+    pub(super) fn new(dialect: &Dialect) -> Roles {
+        let letter = |role| dialect.letter_for(role).map_or(0, |c| c as u8);
+        let axes = dialect.address.iter().filter(|row| row.role == Role::Axis);
+        let bits =
+            |bits: u32, row: &ncc_dialects::Address| bits | 1 << (row.letter as u8).saturating_sub(b'A');
+        Roles {
+            feed: letter(Role::Feed),
+            speed: letter(Role::Speed),
+            tool: letter(Role::Tool),
+            length_entry: letter(Role::LengthEntry),
+            corrector: letter(Role::Corrector),
+            radius_entry: letter(Role::RadiusEntry),
+            radius: letter(Role::Radius),
+            centre: [letter(Role::CentreX), letter(Role::CentreY), letter(Role::CentreZ)],
+            axes: axes.clone().fold(0, bits),
+            rotary: axes.filter(|row| row.quantity == ncc_dialects::Quantity::Angle).fold(0, bits),
+            turns: dialect.arc.turns.map_or(0, |c| c as u8),
+        }
+    }
+}
+
+/// A G or M code of a block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Code {
+    pub(super) row: &'static CodeRow,
+    pub(super) meaning: Meaning,
+    pub(super) span: Span,
+    /// Index of its word.
+    pub(super) at: usize,
+}
+
+/// The words of a block that are no codes, each to be used once.
+#[derive(Debug)]
+pub(super) struct Words<'b> {
+    pub(super) all: &'b [Word],
+    /// What of them is computed.
+    pub(super) exprs: &'b [Expr],
+    /// Index plus one, by letter.
+    pub(super) at: [u16; 26],
+    /// Letters that are still to be used, a bit each.
+    pub(super) left: u32,
+}
+
+impl Words<'_> {
+    /// The word of a letter, which is then used.
+    #[inline]
+    pub(super) fn take(&mut self, letter: u8) -> Option<Word> {
+        let word = self.get(letter)?;
+        self.left &= !(1 << (letter - b'A'));
+        Some(word)
+    }
+
+    /// Whether any of these letters (a bit each) is still to be used.
+    #[inline]
+    pub(super) fn has_any(&self, letters: u32) -> bool {
+        self.left & letters != 0
+    }
+
+    /// The word of a letter, if it is still to be used.
+    #[inline]
+    pub(super) fn get(&self, letter: u8) -> Option<Word> {
+        let place = usize::from(letter.wrapping_sub(b'A'));
+        if place >= 26 || self.left >> place & 1 == 0 {
+            return None;
+        }
+        Some(self.all[usize::from(self.at[place]) - 1])
+    }
+}
+
+/// The motion of a motion code.
+pub(super) fn motion_of(meaning: Meaning) -> Option<Motion> {
+    match meaning {
+        Meaning::StraightTraverse => Some(Motion::Traverse),
+        Meaning::StraightFeed | Meaning::SynchronisedFeed(_) => Some(Motion::Feed),
+        Meaning::ArcFeed(turn) => Some(Motion::Arc(turn)),
+        _ => None,
+    }
+}

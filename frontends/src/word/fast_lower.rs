@@ -1,0 +1,116 @@
+//! Whether plain moves can go the short way ([`crate::common::fast_lower`]) from here: while every fact that
+//! they depend on is settled.
+
+use ncc_dialects::Quantity;
+use ncc_ir::canon::{Axis, FeedMode, Motion, ReturnLevel};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Coord, Op, Stmt};
+
+use super::lower::Lower;
+use super::word_state::{AxisWords, CycleState};
+use crate::batch::Batch;
+use crate::common::fast_lower::{FastLower, FeedWord, counts_units, line, repeated_motion_code};
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+
+impl Lower {
+    /// Finds out whether plain moves can go the short way from here.
+    pub(super) fn refresh(&mut self) {
+        self.fast_lower = self.settled();
+    }
+
+    fn settled(&self) -> Option<FastLower> {
+        let linear =
+            |axis: Axis| self.axis_row(axis).is_some_and(|r| r.quantity == Quantity::Length && r.sure);
+        let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
+        let state = &self.state;
+        // Its code is not said yet.
+        if self.has_motion_without_move() || self.computes.at_moves.is_some() {
+            return None;
+        }
+        let feed = match state.modes.motion {
+            Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
+            Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
+            _ => return None,
+        };
+        let open = self.assume && (state.modes.is_open_to_moves() || state.modes.no_shift == Know::Unsaid);
+        // A time counts for one move, so every block is looked at.
+        if state.modes.feed_mode.value() == Some(FeedMode::InverseTime) {
+            return None;
+        }
+        let no_feed = feed && (state.modes.feed == Know::Unsaid || state.cycle_feed.is_some());
+        if !axes
+            || open
+            || no_feed
+            || state.after_cycle
+            || state.no_motion
+            || state.rigid.is_some()
+            || state.cycle != CycleState::None
+            || self.settings.dialect.cycles.level_lost
+                && state.return_level.value() == Some(ReturnLevel::Retract)
+            || state.unplaced != 0
+            || state.words != AxisWords::Cartesian
+            || state.follows_polar
+            || state.thread.is_some()
+            || self.level_open()
+            || self.ended
+            || self.computes.jumps
+        {
+            return None;
+        }
+        let said = matches!(state.modes.motion, Know::Said(_));
+        Some(FastLower {
+            unit: unit_of(state.modes.units.fact()),
+            distance: state.modes.distance.fact(),
+            feed,
+            number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
+            bare: false,
+            repeated_motion: said.then(|| repeated_motion_code(self.settings.dialect, feed)).flatten(),
+            feed_word: self.settled_feed(),
+        })
+    }
+
+    /// What a feed word needs, while it would change no more than the feed.
+    fn settled_feed(&self) -> Option<FeedWord> {
+        let state = &self.state;
+        let row = self.letters.get(usize::from(self.roles.feed.wrapping_sub(b'A'))).copied().flatten()?;
+        let open = self.assume && state.modes.feed_mode.unsaid();
+        if !row.sure || open || state.modes.feed != Know::Said(()) || state.cycle_feed.is_some() {
+            return None;
+        }
+        let rules = &self.rules[Quantity::Feed as usize];
+        let bare = counts_units(rules, state.modes.units.fact());
+        Some(FeedWord { letter: self.roles.feed, unit: unit_of(state.modes.units.fact()), bare })
+    }
+
+    /// Lowers the line that begins at `at` of `text`, if it is a plain move of at most `longest`
+    /// bytes; gives where its end is. `None`, and then nothing was done, if it is not one.
+    #[inline]
+    pub(super) fn fast_line(
+        &mut self,
+        text: &[u8],
+        at: usize,
+        base: u32,
+        longest: usize,
+        out: &mut Batch,
+    ) -> Option<usize> {
+        let fast = self.fast_lower.as_ref()?;
+        let stmts = match &mut self.sub {
+            Some(procedure) => &mut procedure.body,
+            None => &mut out.stmts,
+        };
+        let end = line(fast, text, at, base, longest, stmts)?;
+        if self.watch && !out.pointed {
+            out.pointed = stmts.last().is_some_and(has_point);
+        }
+        Some(end)
+    }
+}
+
+/// Whether a straight move has a length with a point that is not zero.
+#[cold]
+fn has_point(stmt: &Stmt) -> bool {
+    let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &stmt.op else { return false };
+    let pointed = |coord: &Coord| matches!(&coord.value, Expr::Num(num) if num.point && num.mantissa != 0);
+    to.to.axes.iter().flatten().any(pointed)
+}
