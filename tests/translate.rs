@@ -8,7 +8,7 @@ use ncc_dialects::{Settings, builtin};
 use ncc_driver::job::{Job, Outcome};
 use ncc_driver::questions::Policy;
 use ncc_driver::render::About;
-use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::render::{Loudness, human};
 use ncc_driver::translate::rewrite::pass;
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Runner};

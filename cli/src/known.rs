@@ -22,8 +22,8 @@ use ncc_ir::canon::Units;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
-use crate::args::typed::MCode;
-use crate::project::Projects;
+use crate::args::typed::{MCode, is_name};
+use crate::project::projects::Projects;
 
 /// A dictionary that was made of the one at an address, for one side.
 type Derived = (usize, Side, &'static Dialect);
@@ -312,7 +312,7 @@ fn verbs_named(loaded: &[Dialect]) -> Option<usize> {
     let taken = |id: &str| {
         ["auto", "help", "to"].contains(&id) || command.get_subcommands().any(|verb| verb.get_name() == id)
     };
-    loaded.iter().position(|dialect| taken(&dialect.id) || !crate::sugar::is_name(&dialect.id))
+    loaded.iter().position(|dialect| taken(&dialect.id) || !is_name(&dialect.id))
 }
 
 fn verb(at: usize, id: &str) -> DialectError {

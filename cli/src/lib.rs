@@ -28,7 +28,7 @@ mod print_after;
 pub mod project;
 pub mod provenance;
 mod recognised;
+mod report;
 pub mod review;
 pub mod run;
-pub mod sugar;
 pub mod time;

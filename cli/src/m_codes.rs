@@ -11,23 +11,6 @@ use ncc_machines::reading::Side;
 use crate::args::typed::MCode;
 use crate::known::Known;
 
-/// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`; or a
-/// code that calls one, `M165=drop`.
-///
-/// # Errors
-/// It is not of this form.
-pub(crate) fn call_left_out(text: &str) -> Result<String, String> {
-    let form = || "write it as RAPORT=drop or 9810=drop".to_owned();
-    let name = text.strip_suffix("=drop").filter(|name| !name.is_empty()).ok_or_else(form)?;
-    let fits = name.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-+.".contains(&b));
-    let digits = |name: &str| !name.is_empty() && name.bytes().all(|b| b.is_ascii_digit());
-    let number = name.strip_prefix(['O', 'o']).filter(|rest| digits(rest)).unwrap_or(name);
-    let number = if digits(number) { number.trim_start_matches('0') } else { number };
-    let code = name.strip_prefix(['G', 'g', 'M', 'm']).is_some_and(digits);
-    let number = if code { name.to_ascii_uppercase() } else { number.to_owned() };
-    if fits && !number.is_empty() { Ok(number) } else { Err(form()) }
-}
-
 /// Puts what the user has said of M codes and calls into the dictionary of a side.
 ///
 /// # Errors

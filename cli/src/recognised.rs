@@ -1,7 +1,11 @@
 //! The dialect of a program of which none is named.
 
+use std::io::{self, Write};
+
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Dialect;
+use ncc_driver::guess::better;
+use ncc_driver::job::Job;
 use ncc_driver::problem::Problem;
 use ncc_driver::source::Source;
 
@@ -39,4 +43,23 @@ pub(crate) fn recognise_all(
         let _ = writeln!(err, "{}: read as {}: {reasons}", source.shown, found.dialect.id);
     }
     Ok((found.dialect, found.rivals))
+}
+
+/// If a refused text is clearly written in another dialect, in which it has fewer errors, says so.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub(crate) fn doubt_dialect(
+    source: &mut Source,
+    job: &Job,
+    known: &Known,
+    err: &mut dyn Write,
+) -> io::Result<()> {
+    let Some((other, reasons)) = better(&mut source.file, &job.from, known.all())? else { return Ok(()) };
+    let (from, to) = (&other.id, &job.to.dialect.id);
+    writeln!(err, "{} reads like {from}: {}", source.shown, reasons.join(", "))?;
+    if from != to {
+        writeln!(err, "  help: ncc {from} to {to} {}", source.shown)?;
+    }
+    Ok(())
 }

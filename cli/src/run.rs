@@ -8,21 +8,19 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
 use ncc_dialects::Dialect;
-use ncc_driver::guess::better;
-use ncc_driver::job::{Failure, Job, Outcome};
+use ncc_driver::job::{Failure, Job};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::map;
 use ncc_driver::provenance::trace::Asked;
-use ncc_driver::questions::of_translation;
-use ncc_driver::render::human::Loudness;
 use ncc_driver::render::terminal::Shown;
-use ncc_driver::render::{About, dialects, explain, json, line, questions, report};
+use ncc_driver::render::{About, dialects, explain, line, report};
 use ncc_driver::source::not_milling::Refusal;
 use ncc_driver::source::{Source, called};
 use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
 
+use crate::args::sugar::{Said, rewrite};
 use crate::args::typed::{Assumed, Color, Eol, Format, Style};
 use crate::args::{Cli, DialectsWhat, Translate, Verb};
 use crate::files::{self, Destination, arrow};
@@ -31,8 +29,8 @@ use crate::milling::{self, Voice};
 use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
-use crate::recognised::recognise_all;
-use crate::sugar::{Said, rewrite};
+use crate::recognised::{doubt_dialect, recognise_all};
+use crate::report::tell;
 use crate::time::running::Running;
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
@@ -347,52 +345,6 @@ fn guard(args: &Translate, source: &Source, destination: &Destination) -> Result
         Some(map) => Err(both(map, "report and map")),
         None => Ok(()),
     }
-}
-
-/// Tells of a translation on `err`.
-///
-/// # Errors
-/// Reading the source, or writing.
-pub(crate) fn tell(
-    args: &Translate,
-    about: &mut About,
-    outcome: &Outcome,
-    err: &mut dyn WriteColor,
-) -> io::Result<()> {
-    let loudness = args.telling.loudness();
-    match args.format {
-        Format::Json => {
-            let mut out = ncc_driver::problem::as_write(err);
-            for asked in questions::ask(about, &of_translation(about.job, outcome))? {
-                line::line(&mut out, &asked)?;
-            }
-            json::print(&mut out, about, &outcome.diagnostics, loudness)?;
-            if loudness != Loudness::Quiet {
-                line::line(&mut out, &report::Summary::of(about.job, outcome))?;
-            }
-        }
-        Format::Human => ncc_driver::render::tell(err, about, outcome, loudness)?,
-    }
-    err.flush()
-}
-
-/// If a refused text is clearly written in another dialect, in which it has fewer errors, says so.
-///
-/// # Errors
-/// Reading the source, or writing.
-pub(crate) fn doubt_dialect(
-    source: &mut Source,
-    job: &Job,
-    known: &Known,
-    err: &mut dyn Write,
-) -> io::Result<()> {
-    let Some((other, reasons)) = better(&mut source.file, &job.from, known.all())? else { return Ok(()) };
-    let (from, to) = (&other.id, &job.to.dialect.id);
-    writeln!(err, "{} reads like {from}: {}", source.shown, reasons.join(", "))?;
-    if from != to {
-        writeln!(err, "  help: ncc {from} to {to} {}", source.shown)?;
-    }
-    Ok(())
 }
 
 /// Says where an arrow has led to.

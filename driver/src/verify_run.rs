@@ -9,130 +9,42 @@
 //! Not here: what an event is, and when two are the same (`ncc_exec::verify`).
 
 pub mod controls;
+mod differences;
 mod ended;
 pub mod facts;
 pub mod forks;
 mod levels;
 pub mod twice;
+mod verifier;
 pub mod whole;
 pub mod with_facts;
 pub mod worlds;
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Quantity};
-use ncc_exec::verify::{self, Comparison, Difference, Pair};
-use ncc_exec::{Event, Exec};
-use ncc_frontends::{Batch, Reader};
+use ncc_exec::Exec;
+use ncc_exec::verify::{self, Comparison, Pair};
+use ncc_frontends::Batch;
 use ncc_ir::canon::Modes;
-use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
-use ncc_ir::expr::Function;
-use ncc_ir::expr::num::Num;
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
 use self::controls::{alarms_of, fixed, resolution, writes};
-use self::facts::{Other, closed_by_rounding, done_by_target, looked_at};
-use self::twice::Outliving;
+use self::differences::different;
+use self::facts::looked_at;
+use self::verifier::{ALL_SETTINGS, Run, unreadable};
 use self::with_facts::MOST_WITH_FACT;
-use crate::job::given::Given;
 use crate::job::parameters::{bore_shift, orientation, parameter};
 use crate::job::{self, Job, Verified};
-use crate::translate::difference;
 
 pub use self::facts::stops_differ;
+pub use self::levels::levels;
+pub use self::verifier::{Stop, Verifier};
 pub use self::worlds::worlds_of;
 
 /// Generated worlds in which every program is executed.
 pub const WORLDS: u32 = 2;
-
-/// Highest level of block skip: a tenth is a Sinumerik's `/1`.
-const MOST_LEVELS: u8 = 10;
-
-/// Levels of block skip of which every setting is tried; of more, only pairs.
-const ALL_SETTINGS: u32 = 6;
-
-/// Why a verification ends early.
-#[derive(Debug)]
-pub enum Stop {
-    /// The source cannot be executed.
-    Source(Diagnostic),
-    /// The output is not the same program, or cannot be read back: a fault of the compiler.
-    Target(Diagnostic),
-}
-
-/// One world under one setting of the block-skip switches.
-#[derive(Clone)]
-pub struct Run {
-    /// The seed of its world.
-    seed: u32,
-    /// Levels that are on in the source: bit n is level n.
-    skip: u16,
-    source: Exec,
-    target: Exec,
-    source_events: Vec<Event>,
-    target_events: Vec<Event>,
-    comparison: Comparison,
-    /// Both controls are in one state, with nothing left to compare.
-    level: bool,
-    /// The one fact that is another one than usual, of a run that shows whether it matters.
-    other: Option<Other>,
-    /// How many events of the usual run's source, and target, it has taken of those that are not compared yet.
-    taken: [usize; 2],
-}
-
-/// A verification in progress.
-pub struct Verifier {
-    reader: Reader,
-    /// Whether the program is called by another.
-    as_called: bool,
-    /// Decisions of the source that have been told to go one way alone.
-    answered: Vec<Span>,
-    batch: Batch,
-    runs: Vec<Run>,
-    /// Runs of the first world in which one open fact is another one than usual.
-    others: Vec<Run>,
-    /// Open facts of the source's control, the target's, a bit each, that are looked at.
-    open: [u64; 2],
-    /// Whether the switch for optional stops makes a difference on either control.
-    optional_stop: bool,
-    /// Facts that were found to make another cut, each where it does.
-    matters: Vec<(Other, Span)>,
-    /// Facts that were not tried to the program's end, each where the program came to it.
-    untried: Vec<(Other, Span)>,
-    /// Events and steps for which a fact is tried.
-    reach: [u64; 2],
-    /// Events of the sets of values, where the program cannot be executed without them.
-    events_of_sets: u64,
-    levels: u16,
-    /// Whether the target's machine has numbers of its own: then controls are never in one state.
-    renamed: bool,
-    /// Whether the pairs of events are kept: then no move passes for both sides by being executed once.
-    watched: bool,
-    /// The target knows one level only: the source's are on or off together.
-    one_level: bool,
-    start: job::start::Start,
-    stood: bool,
-    /// What the target's control always begins with, and the source's does not.
-    own_facts: Modes,
-    /// What variables may be given.
-    given: Given,
-    /// What the target computes with.
-    functions: Vec<Function>,
-    /// How far apart two numbers are that the target's own comparisons find equal.
-    equal_within: Option<Num>,
-    /// Whether its comparisons find real numbers equal that are nearly so.
-    near: bool,
-    /// To which digits its lengths are rounded.
-    fineness: Fineness,
-    /// Last place of the source that was executed, for differences without an event.
-    last: Span,
-    /// Variables that the source reads before it sets them, where both sides compute.
-    outliving: Vec<Outliving>,
-    /// What the source takes for granted of its start so far.
-    assumed: Modes,
-    /// What was not executed, or with values that were made up.
-    notes: Vec<Diagnostic>,
-}
 
 /// To which digits the target's lengths are rounded, those that are written and those that are computed.
 fn fineness(job: &Job) -> Fineness {
@@ -540,42 +452,11 @@ impl Verifier {
     }
 }
 
-/// Levels of block skip that occur.
-pub fn levels(stmts: &[Stmt]) -> u16 {
-    let mut found = 0;
-    for stmt in stmts {
-        found |= stmt.skip.map_or(0, |level| 1u16 << level.min(MOST_LEVELS));
-        if let Op::Control(control) = &stmt.op {
-            found |= control.bodies().fold(0, |found, body| found | levels(body));
-        }
-    }
-    found
-}
-
-fn unreadable(d: &Diagnostic, at: Span) -> Stop {
-    Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
-}
-
-/// A difference is a fault of the compiler, but where the source leaves open what the target cannot.
-fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> Stop {
-    let at = difference.source.as_ref().map_or(last, |event| event.span);
-    if let Some(behaviour) = done_by_target(difference) {
-        return Stop::Source(Diagnostic::new(Fault::DoneByTarget { behaviour }, at));
-    }
-    if let Some(fact) = unsaid {
-        return Stop::Source(Diagnostic::new(Fault::ModeNotSet { fact }, at));
-    }
-    if let Some(fault) = closed_by_rounding(difference) {
-        return Stop::Source(Diagnostic::new(fault, at));
-    }
-    let difference = difference::describe(difference).into();
-    Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use ncc_dialects::{Settings, builtin};
+    use ncc_frontends::Reader;
 
     const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
     const SECOND: &str = "X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n";

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use ncc_driver::job::{Failure, Job};
-use ncc_driver::render::human::Loudness;
+use ncc_driver::render::Loudness;
 use ncc_driver::translate::rewrite::pass;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use ncc_driver::job::Job;
-use ncc_driver::render::human::Loudness;
+use ncc_driver::render::Loudness;
 use ncc_tests::corpus;
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, told, translate};

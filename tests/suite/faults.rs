@@ -1,7 +1,7 @@
 //! Wrong programs and what is said about them: `tests/faults/<from>-to-<to>/<name>.<extension>`
 //! beside `<name>.stderr`, as the user sees it.
 
-use ncc_driver::render::human::Loudness;
+use ncc_driver::render::Loudness;
 use ncc_tests::corpus;
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, stopping, told, translate};

@@ -3,6 +3,7 @@
 //! Values are parsed here as far as that needs no file; what they mean together is `run`'s matter.
 
 pub mod setting;
+pub mod sugar;
 pub mod typed;
 
 use std::path::PathBuf;
@@ -17,8 +18,7 @@ use ncc_passes::Pass;
 use crate::args::setting::{Lines, Standing, Telling};
 use crate::args::typed::Assumed;
 use crate::args::typed::MCode;
-use crate::args::typed::{Color, Format, Style, UnitsArg, numbering, pair};
-use crate::m_codes;
+use crate::args::typed::{Color, Format, Style, UnitsArg, call_left_out, numbering, pair};
 
 /// `ncc` and its verbs.
 #[derive(Debug, Parser)]
@@ -65,7 +65,7 @@ pub struct Cli {
     pub m_code: Vec<MCode>,
     /// Leave out all calls of a program that is not at hand, with their arguments: `RAPORT=drop`,
     /// `9810=drop`; `M165=drop` those by a code of the machine
-    #[arg(long, global = true, value_name = "NAME=drop", value_parser = m_codes::call_left_out)]
+    #[arg(long, global = true, value_name = "NAME=drop", value_parser = call_left_out)]
     pub call: Vec<String>,
     /// Ignore `ncc.toml`, the project file that states machines of programs
     #[arg(long, global = true)]
@@ -397,7 +397,7 @@ mod tests {
             let id = dialect.id.as_str();
             let verb = command.get_subcommands().any(|verb| verb.get_name() == id);
             assert!(!verb && !["auto", "help", "to"].contains(&id), "{id}");
-            assert!(crate::sugar::is_name(id), "{id} cannot be written in `A:B`");
+            assert!(crate::args::typed::is_name(id), "{id} cannot be written in `A:B`");
         }
     }
 }

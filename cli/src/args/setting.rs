@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use ncc_driver::job::given::{Given, decimal};
 use ncc_driver::problem::Problem;
-use ncc_driver::render::human::Loudness;
+use ncc_driver::render::Loudness;
 use ncc_ir::expr::num::Nanos;
 use ncc_time::{Model, ToolChangeOn};
 

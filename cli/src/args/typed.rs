@@ -156,6 +156,37 @@ pub enum Assumed {
     Milling,
 }
 
+/// A program whose calls are left out, as the command line says it: `RAPORT=drop`, `9810=drop`, `O9810=drop`; or a
+/// code that calls one, `M165=drop`.
+///
+/// # Errors
+/// It is not of this form.
+pub(crate) fn call_left_out(text: &str) -> Result<String, String> {
+    let form = || "write it as RAPORT=drop or 9810=drop".to_owned();
+    let name = text.strip_suffix("=drop").filter(|name| !name.is_empty()).ok_or_else(form)?;
+    let fits = name.bytes().all(|b| b.is_ascii_alphanumeric() || b"_-+.".contains(&b));
+    let digits = |name: &str| !name.is_empty() && name.bytes().all(|b| b.is_ascii_digit());
+    let number = name.strip_prefix(['O', 'o']).filter(|rest| digits(rest)).unwrap_or(name);
+    let number = if digits(number) { number.trim_start_matches('0') } else { number };
+    let code = name.strip_prefix(['G', 'g', 'M', 'm']).is_some_and(digits);
+    let number = if code { name.to_ascii_uppercase() } else { number.to_owned() };
+    if fits && !number.is_empty() { Ok(number) } else { Err(form()) }
+}
+
+/// Words that may stand between two dialects.
+pub(crate) const ARROWS: [&str; 4] = ["to", "->", "=>", "→"];
+
+/// Whether a word can be a dialect's name: two signs or more, so that a drive letter is none.
+pub fn is_name(word: &str) -> bool {
+    word.len() >= 2
+        && word.as_bytes()[0].is_ascii_alphabetic()
+        && !ARROWS.contains(&word)
+        && word[1..]
+            .split('-')
+            .all(|part| word.len() > 1 && part.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_'))
+        && !word.ends_with('-')
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -28,7 +28,9 @@ use super::summary::{Missing, Result as Came, Row};
 use crate::args::Translate;
 use crate::args::typed::{Eol, Format};
 use crate::known::Known;
-use crate::{files, recognised, run};
+use crate::recognised::doubt_dialect;
+use crate::report::tell;
+use crate::{files, recognised};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -179,7 +181,7 @@ impl Bench<'_> {
         let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
         match args.format {
             // Messages that cannot be kept change nothing about what was done.
-            Format::Human => drop(run::tell(args, &mut about, &outcome, &mut done.told)),
+            Format::Human => drop(tell(args, &mut about, &outcome, &mut done.told)),
             Format::Json => {
                 let entries = json::entries(&mut about, &outcome.diagnostics, args.telling.loudness());
                 let entries = entries.map_err(|e| Problem::file("read", &source.shown, &e))?;
@@ -187,7 +189,7 @@ impl Bench<'_> {
             }
         }
         if outcome.release == Err(Failure::Refused) && !outcome.is_asked(&job) && say {
-            let _ = run::doubt_dialect(&mut source, &job, self.known, &mut done.told);
+            let _ = doubt_dialect(&mut source, &job, self.known, &mut done.told);
         }
         Ok(())
     }
@@ -235,7 +237,7 @@ impl Bench<'_> {
             row.reason = Some(format!("line {}: {}", asked.place.line, asked.question));
             return Ok(());
         }
-        let first = told(job, &outcome.diagnostics, ncc_driver::render::human::Loudness::Quiet);
+        let first = told(job, &outcome.diagnostics, ncc_driver::render::Loudness::Quiet);
         let first = first.first().copied().or(outcome.diagnostics.last());
         let Some(first) = first else { return Ok(()) };
         let lines = about.lines(std::iter::once(first)).map_err(unread)?;

@@ -26,7 +26,7 @@ use ncc_driver::job::{Job, Outcome, Rest};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::questions::Policy;
 use ncc_driver::render::About;
-use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::render::{Loudness, human};
 use ncc_driver::source::Source;
 use ncc_driver::translate;
 use ncc_ir::canon::AXES;

@@ -23,7 +23,7 @@ use ncc_driver::job::Job;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::questions;
 use ncc_driver::render::About;
-use ncc_driver::render::human::{self, Loudness};
+use ncc_driver::render::{Loudness, human};
 use ncc_driver::side::Side;
 use ncc_driver::source::spool::Spool;
 use ncc_driver::source::{Readable, Source};

@@ -12,7 +12,8 @@ use ncc_machines::project::NAME;
 use ncc_machines::{ProfileError, Wrong};
 
 use super::args::Config;
-use super::load::{InForce, Loaded, Row, SCHEMAS};
+use super::load::SCHEMAS;
+use super::projects::{InForce, Loaded, Row};
 use super::settle::facts;
 use super::{Look, Projects};
 use crate::known::Known;

@@ -15,9 +15,10 @@ pub mod args;
 pub mod config;
 pub mod init;
 mod load;
+pub(crate) mod projects;
 mod settle;
 
-pub(crate) use load::{InForce, Projects};
+pub(crate) use projects::{InForce, Projects};
 pub(crate) use settle::{Settled, Sides, Stated, settle};
 use std::path::Path;
 use std::sync::Arc;

@@ -13,7 +13,7 @@ use ncc_machines::Profile;
 use ncc_machines::schema::{Effect, MCodeRow};
 use ncc_machines::table::{Stated as Fact, Tell};
 
-use super::load::{InForce, Row};
+use super::projects::{InForce, Row};
 use crate::args::typed::MCode;
 use crate::known::Known;
 

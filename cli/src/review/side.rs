@@ -21,6 +21,7 @@ use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
 use crate::args::typed::Start;
+use crate::args::typed::is_name;
 use crate::files::{self, AS_STORED};
 use crate::known::Known;
 use crate::m_codes;
@@ -28,7 +29,6 @@ use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::{self, InForce, Look, Sides, Stated, settle};
 use crate::recognised::recognise;
-use crate::sugar::is_name;
 
 /// What a command says of one side.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,8 @@ use codespan_reporting::term::{self, Config};
 use ncc_check::Severity;
 
 use super::told::{Item, Program};
-use crate::render::human::{Loudness, MOST, boxed};
+use crate::render::Loudness;
+use crate::render::human::{MOST, boxed};
 
 /// Writes a program's findings.
 ///

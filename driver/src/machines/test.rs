@@ -16,8 +16,8 @@ use super::pair::Machines;
 use crate::job::Job;
 use crate::questions::Policy;
 use crate::render::About;
-use crate::render::human::{self, Loudness};
 use crate::render::numbers::plural;
+use crate::render::{Loudness, human};
 use crate::translate::translate;
 
 /// What most programs have.

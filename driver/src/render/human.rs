@@ -8,7 +8,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 
-use super::{About, Told};
+use super::about::{About, Loudness, Told};
 use crate::job::Job;
 
 /// Of one code, so many diagnostics are shown; the rest is counted.
@@ -16,17 +16,6 @@ pub const MOST: usize = 20;
 
 /// So many characters are underlined at most.
 const LONGEST_LABEL: usize = 80;
-
-/// How much is said.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Loudness {
-    /// What stops the translation.
-    Quiet,
-    /// That, and warnings.
-    Usual,
-    /// Every verdict too.
-    Verbose,
-}
 
 /// Which diagnostics are told at this loudness, in the order of their places.
 pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) -> Vec<&'d Diagnostic> {

@@ -7,9 +7,9 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::rank::Rank;
 use serde::Serialize;
 
-use super::human::{Loudness, choose, told};
+use super::about::{About, Loudness, Place, Told};
+use super::human::{choose, told};
 use super::line::line;
-use super::{About, Place, Told};
 
 /// A diagnostic, as it stands in a line of `--format json` and in a report.
 #[derive(Debug, Serialize)]

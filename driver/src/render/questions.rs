@@ -13,13 +13,13 @@ use ncc_ir::canon::{FeedMode, Units};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use serde::Serialize;
 
+use super::about::{About, Told};
 use super::json::JsonPlace;
 use super::numbers::{rotary_turn, signed};
 use super::source::Excerpt;
 use super::spelled::{Counted, return_path};
 use super::text::{plain, plain_upto};
-use super::{About, Told};
-use crate::questions::{Answer, Fact, Made, Question, Reading, Shown};
+use crate::questions::question::{Answer, Fact, Made, Question, Reading, Shown};
 
 /// So much of a line is shown before its answer, in characters.
 const LINE: usize = 40;

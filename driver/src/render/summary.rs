@@ -8,8 +8,8 @@ use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::rank::Rank;
 
-use super::About;
-use super::human::{Loudness, told};
+use super::about::{About, Loudness};
+use super::human::told;
 use super::numbers::{given_number, millimetres, plural};
 use super::questions::taken;
 use super::source::Lines;

@@ -8,7 +8,7 @@
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
 
-use super::{Run, Stop};
+use super::verifier::{Run, Stop};
 
 /// Events that are made on each side before they are compared.
 pub(super) const PIECE: usize = 4096;

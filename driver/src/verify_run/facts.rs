@@ -6,34 +6,18 @@
 //!
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
-use ncc_exec::verify::{Aspect, Difference};
-use ncc_exec::{Event, Exec, Kind, NOWHERE, STILL, by_control, touched};
+use ncc_exec::{Event, Exec, NOWHERE, STILL, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
-use ncc_ir::canon::{Axis, Modes};
+use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::{Run, Stop, Verifier, different, unreadable};
+use super::differences::different;
+use super::verifier::{Other, Run, Stop, Verifier, unreadable};
 use crate::job::Job;
-
-/// An open fact of one of the controls, with another value than its usual one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Other {
-    /// What a code does besides its name.
-    Behaviour {
-        /// Which.
-        behaviour: Behaviour,
-        /// Whether it is the source's control.
-        source: bool,
-        /// The value.
-        value: u8,
-    },
-    /// The switch for optional stops is on, for both.
-    OptionalStop,
-}
 
 impl Other {
     /// Whether the fact explains the difference to which a run has come. With the switch for optional stops on, only moves
@@ -447,38 +431,4 @@ pub fn come_to(exec: &Exec, stmts: &[Stmt]) -> u64 {
     let of = |stmt: &Stmt| touched(&stmt.op) | if stop(stmt) { OPTIONAL_STOP } else { 0 };
     let executed = stmts.iter().filter(|stmt| !exec.skips(stmt));
     executed.fold(exec.comes_to(stmts), |bits, stmt| bits | of(stmt))
-}
-
-/// What is refused where an arc ends nearly where it begins, and its start and end are one point in the target's
-/// digits: the target would make a whole circle of it. The ends have been found equal before the arcs are compared.
-pub(super) fn closed_by_rounding(difference: &Difference) -> Option<Fault> {
-    let arc = |event: &Option<Event>| match event.as_ref()?.kind {
-        Kind::Arc { plane, turn, full, .. } => Some((plane, turn, full)),
-        _ => None,
-    };
-    let (source, target) = (arc(&difference.source)?, arc(&difference.target)?);
-    let same = (source.0, source.1) == (target.0, target.1) && difference.aspect == Aspect::Arc;
-    (same && !source.2 && target.2).then(|| Fault::TargetLacks {
-        what: "an arc so short that its start and end round to one point".into(),
-    })
-}
-
-/// What the target's control alone has done by itself, if two events differ by that.
-pub fn done_by_target(difference: &Difference) -> Option<Behaviour> {
-    let (source, target) = (difference.source.as_ref()?, difference.target.as_ref()?);
-    let start = target.state.by_control & by_control::Z_AT_START != 0;
-    let of_source = if start { source.state.by_control & by_control::Z } else { 0 };
-    let bits = target.state.by_control & !source.state.by_control | of_source;
-    match difference.aspect {
-        Aspect::State if bits & by_control::SPINDLE != 0 => Some(Behaviour::SpindleAtStop),
-        Aspect::State if bits & by_control::COOLANT != 0 => Some(Behaviour::CoolantAtStop),
-        Aspect::State
-            if bits & by_control::SPINDLE_AT_CHANGE != 0 && source.state.spindle != target.state.spindle =>
-        {
-            Some(Behaviour::SpindleAtChange)
-        }
-        Aspect::End(_) if bits & by_control::Z != 0 => Some(Behaviour::ZAtChange),
-        Aspect::End(Axis::Z) if bits & by_control::Z_COUNTED != 0 => Some(Behaviour::ZAtChange),
-        _ => None,
-    }
 }

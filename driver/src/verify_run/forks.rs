@@ -18,8 +18,8 @@ use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
 use super::ended::{Ended, PIECE, tells};
-use super::facts::{OPTIONAL_STOP, Other, come_to};
-use super::{Run, Verifier, unreadable};
+use super::facts::{OPTIONAL_STOP, come_to};
+use super::verifier::{Other, Run, Verifier, unreadable};
 
 /// Events of each side after which a new fork is looked at; twice as many from look to look.
 const SOON: usize = 64;

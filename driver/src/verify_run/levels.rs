@@ -1,7 +1,9 @@
 //! Settings of block skip: one execution a setting, begun where a level is first met.
 
+use ncc_ir::program::{Op, Stmt};
+
 use super::facts::tries_facts;
-use super::{ALL_SETTINGS, MOST_LEVELS, Run, Verifier};
+use super::verifier::{ALL_SETTINGS, MOST_LEVELS, Run, Verifier};
 
 impl Verifier {
     /// Adds the settings that a new level of block skip makes.
@@ -40,4 +42,16 @@ impl Verifier {
             self.fork(levels.iter().fold(0, |all, level| all | level));
         }
     }
+}
+
+/// Levels of block skip that occur.
+pub fn levels(stmts: &[Stmt]) -> u16 {
+    let mut found = 0;
+    for stmt in stmts {
+        found |= stmt.skip.map_or(0, |level| 1u16 << level.min(MOST_LEVELS));
+        if let Op::Control(control) = &stmt.op {
+            found |= control.bodies().fold(0, |found, body| found | levels(body));
+        }
+    }
+    found
 }

@@ -13,22 +13,10 @@ use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::renamed::Renamed;
 
-use super::facts::Other;
-use super::{Run, Verifier};
+use super::verifier::{Other, Outliving, Run, Verifier};
 
 /// How far apart two starts count as one, nanos: what rounding to the digits of a control and turning leave.
 const NEAR: u64 = 1_000_000;
-
-/// A variable that the source reads before it sets it, and that outlives its run.
-#[derive(Debug)]
-pub struct Outliving {
-    /// What each side calls it.
-    sides: [Var; 2],
-    /// The first place that reads it.
-    at: Span,
-    /// Whether the program sets it too: then its next run reads what this one has left.
-    set: bool,
-}
 
 /// The variables of a program that outlive its run, with what the output calls them.
 pub fn outliving(source: &Program, renamed: &Renamed) -> Vec<Outliving> {

@@ -19,11 +19,13 @@ use ncc_passes::values::assumption_check::{
 use ncc_passes::values::variables::renamed::Renamed;
 
 use self::values::READINGS;
+use super::differences::different;
 use super::ended::{Ended, PIECE};
-use super::facts::{Other, stopped, tries_facts};
+use super::facts::{stopped, tries_facts};
 use super::forks::{Forks, Shown};
+use super::levels::levels;
 use super::twice::outliving;
-use super::{Run, Stop, Verifier, different, levels};
+use super::verifier::{Other, Run, Stop, Verifier};
 
 pub use self::values::Given;
 

@@ -6,10 +6,9 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::program::{Op, Program, Stmt};
 
 use super::ended::{Ended, by_target};
-use super::facts::Other;
 use super::forks::{Forks, Shown};
+use super::verifier::{Other, Run, Stop, Verifier};
 use super::whole::{Given, Gone, MOST_OF_SET, Set, To};
-use super::{Run, Stop, Verifier};
 
 /// Events, and steps, of all runs with another fact than usual after which the fact is not tried further.
 pub const MOST_WITH_FACT: [u64; 2] = [1_000_000, 20_000_000];

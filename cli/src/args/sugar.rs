@@ -11,6 +11,7 @@ use std::ffi::OsString;
 use clap::{Command, CommandFactory};
 
 use crate::args::Cli;
+use crate::args::typed::{ARROWS, is_name};
 
 /// What the arguments were taken for.
 #[derive(Debug, PartialEq, Eq)]
@@ -27,9 +28,6 @@ pub enum Said {
         rest: Vec<OsString>,
     },
 }
-
-/// Words that may stand between two dialects.
-const ARROWS: [&str; 4] = ["to", "->", "=>", "→"];
 
 /// Rewrites the arguments, the program's name first. What is no sugar comes back as it was.
 pub fn rewrite(arguments: Vec<OsString>) -> Said {
@@ -117,17 +115,6 @@ fn glued(word: &str) -> Option<(&str, &str)> {
         .iter()
         .filter_map(|sign| word.split_once(sign))
         .find(|(from, to)| is_name(from) && is_name(to))
-}
-
-/// Whether a word can be a dialect's name: two signs or more, so that a drive letter is none.
-pub fn is_name(word: &str) -> bool {
-    word.len() >= 2
-        && word.as_bytes()[0].is_ascii_alphabetic()
-        && !ARROWS.contains(&word)
-        && word[1..]
-            .split('-')
-            .all(|part| word.len() > 1 && part.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_'))
-        && !word.ends_with('-')
 }
 
 /// Place of the first argument that is neither an option nor an option's value.

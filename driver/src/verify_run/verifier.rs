@@ -1,0 +1,142 @@
+//! The state of a verification: runs of both programs, and what they have shown.
+//!
+//! ```text
+//! a Verifier    runs: world 1, world 2    each a Run: source | output, events not compared yet
+//! ```
+//!
+//! Not here: how they go on (`verify_run`), and facts that another run has otherwise (`facts`).
+
+use ncc_exec::verify::Comparison;
+use ncc_exec::{Event, Exec};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::behaviour::Behaviour;
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::Num;
+use ncc_ir::expr::{Function, Var};
+use ncc_ir::source::Span;
+use ncc_passes::values::variables::Fineness;
+
+use crate::job;
+use crate::job::given::Given;
+
+/// Highest level of block skip: a tenth is a Sinumerik's `/1`.
+pub(super) const MOST_LEVELS: u8 = 10;
+
+/// Levels of block skip of which every setting is tried; of more, only pairs.
+pub(super) const ALL_SETTINGS: u32 = 6;
+
+/// Why a verification ends early.
+#[derive(Debug)]
+pub enum Stop {
+    /// The source cannot be executed.
+    Source(Diagnostic),
+    /// The output is not the same program, or cannot be read back: a fault of the compiler.
+    Target(Diagnostic),
+}
+
+/// An open fact of one of the controls, with another value than its usual one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Other {
+    /// What a code does besides its name.
+    Behaviour {
+        /// Which.
+        behaviour: Behaviour,
+        /// Whether it is the source's control.
+        source: bool,
+        /// The value.
+        value: u8,
+    },
+    /// The switch for optional stops is on, for both.
+    OptionalStop,
+}
+
+/// One world under one setting of the block-skip switches.
+#[derive(Clone)]
+pub struct Run {
+    /// The seed of its world.
+    pub(super) seed: u32,
+    /// Levels that are on in the source: bit n is level n.
+    pub(super) skip: u16,
+    pub(super) source: Exec,
+    pub(super) target: Exec,
+    pub(super) source_events: Vec<Event>,
+    pub(super) target_events: Vec<Event>,
+    pub(super) comparison: Comparison,
+    /// Both controls are in one state, with nothing left to compare.
+    pub(super) level: bool,
+    /// The one fact that is another one than usual, of a run that shows whether it matters.
+    pub(super) other: Option<Other>,
+    /// How many events of the usual run's source, and target, it has taken of those that are not compared yet.
+    pub(super) taken: [usize; 2],
+}
+
+/// A variable that the source reads before it sets it, and that outlives its run.
+#[derive(Debug)]
+pub struct Outliving {
+    /// What each side calls it.
+    pub(super) sides: [Var; 2],
+    /// The first place that reads it.
+    pub(super) at: Span,
+    /// Whether the program sets it too: then its next run reads what this one has left.
+    pub(super) set: bool,
+}
+
+/// A verification in progress.
+pub struct Verifier {
+    pub(super) reader: Reader,
+    /// Whether the program is called by another.
+    pub(super) as_called: bool,
+    /// Decisions of the source that have been told to go one way alone.
+    pub(super) answered: Vec<Span>,
+    pub(super) batch: Batch,
+    pub(super) runs: Vec<Run>,
+    /// Runs of the first world in which one open fact is another one than usual.
+    pub(super) others: Vec<Run>,
+    /// Open facts of the source's control, the target's, a bit each, that are looked at.
+    pub(super) open: [u64; 2],
+    /// Whether the switch for optional stops makes a difference on either control.
+    pub(super) optional_stop: bool,
+    /// Facts that were found to make another cut, each where it does.
+    pub(super) matters: Vec<(Other, Span)>,
+    /// Facts that were not tried to the program's end, each where the program came to it.
+    pub(super) untried: Vec<(Other, Span)>,
+    /// Events and steps for which a fact is tried.
+    pub(super) reach: [u64; 2],
+    /// Events of the sets of values, where the program cannot be executed without them.
+    pub(super) events_of_sets: u64,
+    pub(super) levels: u16,
+    /// Whether the target's machine has numbers of its own: then controls are never in one state.
+    pub(super) renamed: bool,
+    /// Whether the pairs of events are kept: then no move passes for both sides by being executed once.
+    pub(super) watched: bool,
+    /// The target knows one level only: the source's are on or off together.
+    pub(super) one_level: bool,
+    pub(super) start: job::start::Start,
+    pub(super) stood: bool,
+    /// What the target's control always begins with, and the source's does not.
+    pub(super) own_facts: Modes,
+    /// What variables may be given.
+    pub(super) given: Given,
+    /// What the target computes with.
+    pub(super) functions: Vec<Function>,
+    /// How far apart two numbers are that the target's own comparisons find equal.
+    pub(super) equal_within: Option<Num>,
+    /// Whether its comparisons find real numbers equal that are nearly so.
+    pub(super) near: bool,
+    /// To which digits its lengths are rounded.
+    pub(super) fineness: Fineness,
+    /// Last place of the source that was executed, for differences without an event.
+    pub(super) last: Span,
+    /// Variables that the source reads before it sets them, where both sides compute.
+    pub(super) outliving: Vec<Outliving>,
+    /// What the source takes for granted of its start so far.
+    pub(super) assumed: Modes,
+    /// What was not executed, or with values that were made up.
+    pub(super) notes: Vec<Diagnostic>,
+}
+
+/// The output cannot be read back.
+pub(super) fn unreadable(d: &Diagnostic, at: Span) -> Stop {
+    Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
+}
