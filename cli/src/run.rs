@@ -9,7 +9,7 @@ use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
 use ncc_dialects::Dialect;
 use ncc_driver::guess::better;
-use ncc_driver::job::{Failure, Job, Outcome};
+use ncc_driver::job::{Failure, Job, Outcome, file_per_tool};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::map;
 use ncc_driver::provenance::trace::Asked;
@@ -34,7 +34,9 @@ use crate::provenance::why;
 use crate::recognised::recognise_all;
 use crate::sugar::{Said, rewrite};
 use crate::time::running::Running;
-use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
+use crate::{
+    batch, check, dictionary_test, doctor, fmt, listing, machines, per_tool, plot, project, review, time,
+};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -198,7 +200,6 @@ fn translated(
         return batch::run(args, arrow, known, err);
     }
     let path = args.files.first().map_or(Path::new("-"), PathBuf::as_path);
-    let mut destination = destination(args, arrow)?;
     let say = args.format == Format::Human && !args.telling.quiet;
     let order = {
         // For a reader of JSON, the problem alone says where.
@@ -207,6 +208,11 @@ fn translated(
         let row = project::row(path, say, known, told)?;
         Order::find(args, known, row.as_deref(), told)?
     };
+    if file_per_tool(&order.to) {
+        per_tool::check(args, order.folder(args), arrow)?;
+        return batch::run(args, arrow, known, err);
+    }
+    let mut destination = destination(args, arrow)?;
     if let Some(folder) = order.folder(args).filter(|_| arrow.is_none() && args.style == Style::Plain) {
         files::make_folder(folder)?;
         destination = Destination::File(folder.to_owned());

@@ -12,6 +12,7 @@ pub mod controls;
 pub mod facts;
 pub mod forks;
 mod levels;
+pub mod per_tool;
 pub mod twice;
 pub mod whole;
 pub mod with_facts;
@@ -286,24 +287,8 @@ impl Verifier {
 
     /// The source control's parameters of cycles are taken for granted of both controls.
     fn take_parameters(&mut self, job: &Job) {
-        let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
-        let (clearance, lift) = (value(PECK_CLEARANCE), value(BREAK_LIFT));
-        for exec in
-            self.runs.iter_mut().chain(&mut self.others).flat_map(|run| [&mut run.source, &mut run.target])
-        {
-            if let Some(clearance) = clearance {
-                exec.set_peck_clearance(clearance);
-            }
-            if let Some(lift) = lift {
-                exec.set_break_lift(lift);
-            }
-            if let Some(direction) = bore_shift(job) {
-                exec.set_bore_shift(direction);
-            }
-            if let Some(angle) = orientation(job).and_then(|angle| angle.nanos(false)) {
-                exec.set_orientation(angle);
-            }
-        }
+        let all = self.runs.iter_mut().chain(&mut self.others);
+        all.flat_map(|run| [&mut run.source, &mut run.target]).for_each(|exec| with_parameters(exec, job));
     }
 
     /// What the passes have taken for granted of both controls, and patterns that they have folded:
@@ -536,6 +521,23 @@ impl Verifier {
         }
         self.note_assumed();
         Ok(())
+    }
+}
+
+/// Takes the source control's parameters of cycles for granted of a control.
+fn with_parameters(exec: &mut Exec, job: &Job) {
+    let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
+    if let Some(clearance) = value(PECK_CLEARANCE) {
+        exec.set_peck_clearance(clearance);
+    }
+    if let Some(lift) = value(BREAK_LIFT) {
+        exec.set_break_lift(lift);
+    }
+    if let Some(direction) = bore_shift(job) {
+        exec.set_bore_shift(direction);
+    }
+    if let Some(angle) = orientation(job).and_then(|angle| angle.nanos(false)) {
+        exec.set_orientation(angle);
     }
 }
 

@@ -200,6 +200,7 @@ impl Fault {
             | Fault::ContourUnreachable { .. }
             | Fault::CannotSay { .. }
             | Fault::SecondWorkOffset { .. }
+            | Fault::NoFileOfTool { .. }
             | Fault::FactUnsaid { .. }
             | Fault::ArcVanishes
             | Fault::DoneByTarget { .. }

@@ -29,6 +29,7 @@ use std::time::Instant;
 
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 use ncc_dialects::Dialect;
+use ncc_driver::job::file_per_tool;
 use ncc_driver::translate::split;
 
 pub use self::summary::SCHEMA;
@@ -44,6 +45,7 @@ use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
 use crate::order::Order;
+use crate::per_tool;
 use ncc_driver::problem::Exit;
 use ncc_driver::problem::Problem;
 use ncc_driver::problem::as_write;
@@ -71,12 +73,15 @@ pub(crate) fn run(
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let begun = Instant::now();
-    let folder = output_folder(args, known)?;
     // For a reader of JSON, the problem alone says where.
     let mut nowhere = Buffer::no_color();
     // A command need not say what project files say, so this failure alone is no error.
     let mut aside = if err.supports_color() { Buffer::ansi() } else { Buffer::no_color() };
     let plain = Order::find(args, known, None, &mut aside);
+    if plain.as_ref().is_ok_and(|order| args.files.len() == 1 && file_per_tool(&order.to)) {
+        per_tool::check(args, None, arrow)?;
+    }
+    let folder = output_folder(args, known)?;
     let extensions = extensions(plain.as_ref().ok(), known);
     let mut found = gather(&args.files, &extensions, folder.as_deref());
     let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
@@ -105,6 +110,7 @@ pub(crate) fn run(
     // Names that follow from what is in the programs are known at the end.
     let late =
         split || orders.orders().any(|(order, _)| order.machines.names_by_number()) || called::by_files(to);
+    let late = late || orders.orders().any(|(order, _)| file_per_tool(&order.to));
     let sources: BTreeSet<_> = found.items.iter().filter_map(|item| identity(&item.path)).collect();
     let shown = |at: usize| found.items[at].path.display().to_string();
     let mut refused: BTreeMap<usize, Problem> = orders.refused().collect();

@@ -466,6 +466,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::Endless
         | Fault::CannotSay { .. }
         | Fault::SecondWorkOffset { .. }
+        | Fault::NoFileOfTool { .. }
         | Fault::FactUnsaid { .. }
         | Fault::ArcRadiiDiffer { .. }
         | Fault::RotaryTurnOpen { .. }
