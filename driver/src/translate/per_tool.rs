@@ -130,7 +130,7 @@ impl Translation<'_> {
             begins.push(if whole { 0 } else { change.comments });
             if whole {
                 file.body(text, 0..change.block.start);
-                file.joint(&self.written(&up(), Some(&change.modes))?);
+                file.joint(&self.written(&up(change.modes.units), Some(&change.modes))?);
             } else {
                 file.body(text, change.comments..change.block.start);
                 file.joint(&self.beginning(change).and_then(|stmts| self.written(&stmts, None))?);
@@ -162,13 +162,16 @@ impl Translation<'_> {
         ops.extend(return_level.map(Op::SetReturnLevel));
         ops.extend(work_offset.map(Op::SetOriginOffsets));
         let mut stmts: Vec<Stmt> = ops.into_iter().map(|op| Stmt::new(Span::default(), op)).collect();
-        stmts.append(&mut up());
+        stmts.append(&mut up(units));
         let mut to = Point::default();
         for axis in Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]) {
             let name = char::from(axis.letter());
             let at = change.position[axis as usize]
                 .ok_or_else(|| refused(format!("the first move after the tool change states no {name}")))?;
-            to.set(axis, place(at, axis, units));
+            let word = place(at, axis, units).ok_or_else(|| {
+                refused(format!("inches cannot state exactly where {name} is at the tool change"))
+            })?;
+            to.set(axis, word);
         }
         let mut after = Vec::new();
         if !to.is_empty() {
@@ -191,7 +194,7 @@ impl Translation<'_> {
 
     /// What a file ends with that another one follows: at rest, as at the tool change of the whole.
     fn end_of_file(&self, modes: &Modes) -> Result<Vec<u8>, Uncut> {
-        let mut stmts = up();
+        let mut stmts = up(modes.units);
         let footer = self.job.machines.layout().footer;
         stmts.extend(footer.iter().map(|line| Stmt::new(Span::default(), Op::Comment(line.as_str().into()))));
         stmts.push(Stmt::new(Span::default(), Op::ProgramEnd));
@@ -268,10 +271,11 @@ fn about(tool: Option<i64>, number: usize, count: usize, lines: Option<(u64, u64
 }
 
 /// Spindle and coolant off, and Z to machine zero: as the block of a change by hand does it.
-fn up() -> Vec<Stmt> {
+fn up(units: Option<Units>) -> Vec<Stmt> {
     let mut to = Point::default();
-    let zero = Coord { value: Expr::Num(Num::int(0, Unit::Mm)), distance: Fact::Known(Distance::Absolute) };
-    to.set(Axis::Z, zero);
+    if let Some(zero) = place(0, Axis::Z, units) {
+        to.set(Axis::Z, zero);
+    }
     let ops = [
         Op::StopSpindleTurning,
         Op::CoolantOff,
@@ -283,15 +287,17 @@ fn up() -> Vec<Stmt> {
     ops.into_iter().enumerate().map(joined).collect()
 }
 
-/// A place in program coordinates as a word in the active unit.
-fn place(at: Nanos, axis: Axis, units: Option<Units>) -> Coord {
-    let exact = at.checked_mul(10).filter(|tenths| tenths % 254 == 0).map(|tenths| tenths / 254);
-    let value = match (axis.is_rotary(), units, exact) {
-        (true, ..) => Num::from_nanos(at, EXACT, Unit::Degree),
-        (false, Some(Units::Inch), Some(inches)) => Num::from_nanos(inches, EXACT, Unit::Inch),
-        (false, ..) => Num::from_nanos(at, EXACT, Unit::Mm),
+/// A place in program coordinates as a word in the active unit; `None` if inches cannot state it exactly.
+fn place(at: Nanos, axis: Axis, units: Option<Units>) -> Option<Coord> {
+    let value = match (axis.is_rotary(), units) {
+        (true, _) => Num::from_nanos(at, EXACT, Unit::Degree),
+        (false, Some(Units::Inch)) => {
+            let tenths = at.checked_mul(10).filter(|tenths| tenths % 254 == 0)?;
+            Num::from_nanos(tenths / 254, EXACT, Unit::Inch)
+        }
+        (false, _) => Num::from_nanos(at, EXACT, Unit::Mm),
     };
-    Coord { value: Expr::Num(value.trimmed()), distance: Fact::Known(Distance::Absolute) }
+    Some(Coord { value: Expr::Num(value.trimmed()), distance: Fact::Known(Distance::Absolute) })
 }
 
 /// The text of a file while it is put together.

@@ -208,10 +208,9 @@ impl Walk<'_> {
         self.last_change(|change| (change.unstated, change.next_move) = (unstated, Some(place)));
     }
 
-    fn change(&mut self, stmt: &Stmt) -> Result<(), (usize, String)> {
-        let place = stmt.span.start as usize;
+    /// Refuses a tool change, which a file ends with, where the next one would go on with more than modes.
+    fn leaves_nothing(&self, place: usize) -> Result<(), (usize, String)> {
         let refused = |what: &str| Err((place, what.to_owned()));
-        let Some(tool) = self.at.selected else { return refused("the number of this tool is computed") };
         if let Some((place, what)) = self.lasting {
             return Err((place, what.to_owned()));
         }
@@ -226,6 +225,16 @@ impl Walk<'_> {
         }
         if self.at.compensated {
             return refused("cutter compensation is active at this tool change");
+        }
+        Ok(())
+    }
+
+    fn change(&mut self, stmt: &Stmt) -> Result<(), (usize, String)> {
+        let place = stmt.span.start as usize;
+        let refused = |what: &str| Err((place, what.to_owned()));
+        let Some(tool) = self.at.selected else { return refused("the number of this tool is computed") };
+        if self.found.cuts_before || !self.found.changes.is_empty() {
+            self.leaves_nothing(place)?;
         }
         let line =
             |from: usize| memchr::memchr(b'\n', &self.text[from..]).map_or(self.text.len(), |n| from + n + 1);
