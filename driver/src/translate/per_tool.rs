@@ -22,7 +22,7 @@ use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
-use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
+use ncc_ir::program::{Coord, FrameSlot, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 
@@ -153,7 +153,8 @@ impl Translation<'_> {
     fn beginning(&self, change: &Change) -> Result<Vec<Stmt>, Uncut> {
         let refused =
             |what: String| Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), what };
-        let Modes { units, plane, feed_mode, work_offset, return_level, distance, .. } = change.modes;
+        let Modes { units, plane, feed_mode, work_offset, return_level, distance, no_origin_shift, .. } =
+            change.modes;
         let mut ops: Vec<Op> = Vec::new();
         ops.extend(units.map(Op::UseLengthUnits));
         ops.extend(plane.map(Op::SelectPlane));
@@ -161,13 +162,16 @@ impl Translation<'_> {
         ops.extend(feed_mode.map(Op::SetFeedMode));
         ops.extend(return_level.map(Op::SetReturnLevel));
         ops.extend(work_offset.map(Op::SetOriginOffsets));
+        // Only where the program states it: else it is what a reset leaves.
+        ops.extend(no_origin_shift.filter(|none| *none).map(|_| Op::ClearFrame(FrameSlot::Shift)));
         let mut stmts: Vec<Stmt> = ops.into_iter().map(|op| Stmt::new(Span::default(), op)).collect();
         stmts.append(&mut up(units));
         let mut to = Point::default();
         for axis in Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]) {
             let name = char::from(axis.letter());
-            let at = change.position[axis as usize]
-                .ok_or_else(|| refused(format!("the first move after the tool change states no {name}")))?;
+            let at = change.position[axis as usize].ok_or_else(|| {
+                refused(format!("this first move relies on where {name} was at the tool change"))
+            })?;
             let word = place(at, axis, units).ok_or_else(|| {
                 refused(format!("inches cannot state exactly where {name} is at the tool change"))
             })?;
