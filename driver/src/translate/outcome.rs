@@ -52,7 +52,7 @@ impl Translation<'_> {
             self.check(|_| Verifier::new(job).head(&text));
         }
         self.output.set_head(text);
-        let files = self.files_per_tool(&head)?;
+        let files = self.files_per_tool(&head, &hash)?;
         let release = if self.refused {
             Err(Failure::Refused)
         } else if self.failed {

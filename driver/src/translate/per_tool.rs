@@ -64,16 +64,28 @@ impl PerTool {
         self.origins.extend(origins.iter().map(own));
     }
 
+    /// The places in the source of what is written at places of the text, which come in their order.
+    fn sources_of(&self, text: &[u8], places: impl IntoIterator<Item = usize>) -> Vec<Span> {
+        let mut origins = self.origins.iter();
+        let mut origin = origins.next();
+        // Lines of the text before `from`, and before the end of the origin at hand.
+        let (mut from, mut line, mut end) = (0, 0, origin.map_or(0, |(lines, _)| u64::from(*lines)));
+        let mut found = Vec::new();
+        for at in places {
+            line += memchr::memchr_iter(b'\n', text.get(from..at).unwrap_or_default()).count() as u64;
+            from = at.max(from);
+            while origin.is_some() && line >= end {
+                origin = origins.next();
+                end += origin.map_or(0, |(lines, _)| u64::from(*lines));
+            }
+            found.push(origin.map_or(Span::default(), |(_, span)| *span));
+        }
+        found
+    }
+
     /// The place in the source of what is written at a place of the text.
     fn source_of(&self, text: &[u8], at: usize) -> Span {
-        let mut line = memchr::memchr_iter(b'\n', text.get(..at).unwrap_or_default()).count() as u64;
-        for (lines, span) in &self.origins {
-            match line.checked_sub(u64::from(*lines)) {
-                Some(rest) => line = rest,
-                None => return *span,
-            }
-        }
-        Span::default()
+        self.sources_of(text, [at]).first().copied().unwrap_or_default()
     }
 }
 
@@ -101,7 +113,8 @@ impl Translation<'_> {
             Err(Uncut::Found(found)) => self.take(found, Told::Writer),
             Err(Uncut::Differs { at, difference }) => {
                 self.failed = true;
-                let fault = Fault::NotTheSame { difference: difference.into() };
+                let difference = format!("run by itself, the file of a tool differs: {difference}").into();
+                let fault = Fault::NotTheSame { difference };
                 self.diagnostics.push(Diagnostic::new(fault, own.source_of(&text, at)));
             }
         }
@@ -222,13 +235,16 @@ impl Translation<'_> {
         if found.is_empty() { Ok(text) } else { Err(Uncut::Found(found)) }
     }
 
-    /// The files with their heads.
-    pub(super) fn files_per_tool(&mut self, head: &Head) -> io::Result<Vec<ToolFile>> {
+    /// The files with their heads. `hash` is that of the source.
+    ///
+    /// # Errors
+    /// The anonymous files cannot be written.
+    pub(super) fn files_per_tool(&mut self, head: &Head, hash: &[u8; 32]) -> io::Result<Vec<ToolFile>> {
         let cut = self.per_tool.take().map(|own| own.cut).unwrap_or_default();
         let count = cut.len();
         let mut files = Vec::new();
         for (at, Cut { tool, lines, text, .. }) in cut.into_iter().enumerate() {
-            let mut head = head.clone();
+            let mut head = Head { lines: self.head_lines_of(hash, Some(tool)), ..head.clone() };
             head.lines.push(about(tool, at + 1, count, lines));
             if self.job.head {
                 let put_in = match tool {
@@ -336,7 +352,7 @@ impl PerTool {
     fn number_lines(&mut self, source: &mut dyn Readable, text: &[u8], job: &Job) -> io::Result<()> {
         let last_line = text.len().saturating_sub(1);
         let begins = self.cut.iter().skip(1).map(|cut| cut.begins).chain([last_line]);
-        let places: Vec<u32> = begins.map(|at| self.source_of(text, at).start).collect();
+        let places: Vec<u32> = self.sources_of(text, begins).iter().map(|span| span.start).collect();
         if places.iter().any(|place| job.called.as_ref().is_some_and(|called| called.file(*place).is_some()))
         {
             return Ok(());

@@ -16,6 +16,7 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
+use ncc_exec::verify::{Aspect, Difference};
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Kind, State};
 use ncc_frontends::{Batch, Reader};
@@ -27,6 +28,7 @@ use ncc_ir::program::{Op, Stmt};
 use super::facts::reader_of_output;
 use super::{WORLDS, with_parameters, worlds_of};
 use crate::job::Job;
+use crate::translate::difference::describe;
 
 /// Most text that is read at once, but for the rest of its last line.
 const PIECE: usize = 1 << 16;
@@ -282,10 +284,8 @@ fn difference(whole: &Event, file: &Event, elsewhere: bool) -> Option<String> {
         && (whole.end == file.end || elsewhere)
         && whole.rate == file.rate
         && seen(&whole.state) == seen(&file.state);
-    (!same).then(|| {
-        let told = |event: &Event| format!("{:?} to {:?} at {}", event.kind, event.end, event.rate);
-        format!("in the file of a tool: {} instead of {}", told(file), told(whole))
-    })
+    let (source, target) = (Some(whole.clone()), Some(file.clone()));
+    (!same).then(|| describe(&Difference { aspect: Aspect::State, source, target }))
 }
 
 /// What of a state counts: nothing of a spindle that stands, nor who switched what.
