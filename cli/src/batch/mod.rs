@@ -78,7 +78,8 @@ pub(crate) fn run(
     // A command need not say what project files say, so this failure alone is no error.
     let mut aside = if err.supports_color() { Buffer::ansi() } else { Buffer::no_color() };
     let plain = Order::find(args, known, None, &mut aside);
-    if plain.as_ref().is_ok_and(|order| args.files.len() == 1 && file_per_tool(&order.to)) {
+    let one = matches!(args.files.as_slice(), [file] if !file.is_dir());
+    if plain.as_ref().is_ok_and(|order| one && file_per_tool(&order.to)) {
         per_tool::check(args, None, arrow)?;
     }
     let folder = output_folder(args, known)?;

@@ -52,8 +52,8 @@ struct Cut {
     tool: Option<i64>,
     /// First and last line of the source, where the tool changes follow one another there.
     lines: Option<(u64, u64)>,
-    /// Where it begins in the text of the whole.
-    begins: usize,
+    /// Where it begins in the text of the whole, and where its tool change is.
+    begins: [usize; 2],
     text: Vec<u8>,
 }
 
@@ -130,7 +130,7 @@ impl Translation<'_> {
         let Some(first) = changes.first() else { return Ok(Vec::new()) };
         let (mut begins, mut parts) = (Vec::new(), Vec::new());
         if cuts_before {
-            begins.push(0);
+            begins.push([0, 0]);
             let mut file = Text::default();
             file.body(text, 0..first.comments);
             file.joint(&self.end_of_file(&first.modes)?);
@@ -140,7 +140,7 @@ impl Translation<'_> {
             let next = changes.get(at + 1);
             let mut file = Text::default();
             let whole = at == 0 && !cuts_before;
-            begins.push(if whole { 0 } else { change.comments });
+            begins.push([if whole { 0 } else { change.comments }, change.block.start]);
             if whole {
                 file.body(text, 0..change.block.start);
                 file.joint(&self.written(&up(change.modes.units), Some(&change.modes))?);
@@ -157,8 +157,12 @@ impl Translation<'_> {
         }
         per_tool::verify(self.job, text, &parts, &used, inherited)
             .map_err(|found| Uncut::Differs { at: found.at, difference: found.difference })?;
-        let cut =
-            |(part, begins): (Part, usize)| Cut { tool: part.tool, lines: None, begins, text: part.text };
+        let cut = |(part, begins): (Part, [usize; 2])| Cut {
+            tool: part.tool,
+            lines: None,
+            begins,
+            text: part.text,
+        };
         Ok(parts.into_iter().zip(begins).map(cut).collect())
     }
 
@@ -351,8 +355,11 @@ impl PerTool {
     /// Reading the source.
     fn number_lines(&mut self, source: &mut dyn Readable, text: &[u8], job: &Job) -> io::Result<()> {
         let last_line = text.len().saturating_sub(1);
-        let begins = self.cut.iter().skip(1).map(|cut| cut.begins).chain([last_line]);
-        let places: Vec<u32> = self.sources_of(text, begins).iter().map(|span| span.start).collect();
+        // Of the first file its tool change: one that comes again, in a loop or a subprogram, has no lines of its own.
+        let first = self.cut.first().map(|cut| cut.begins[1]);
+        let begins = first.into_iter().chain(self.cut.iter().skip(1).map(|cut| cut.begins[0]));
+        let places = self.sources_of(text, begins.chain([last_line]));
+        let places: Vec<u32> = places.iter().map(|span| span.start).collect();
         if places.iter().any(|place| job.called.as_ref().is_some_and(|called| called.file(*place).is_some()))
         {
             return Ok(());
@@ -361,10 +368,9 @@ impl PerTool {
         let numbers: Option<Vec<u64>> =
             places.iter().map(|place| lines.line(*place).map(|line| line.number)).collect();
         let Some(numbers) = numbers.filter(|all| all.is_sorted_by(|a, b| a < b)) else { return Ok(()) };
-        let mut first = 1;
-        for (at, cut) in self.cut.iter_mut().enumerate() {
-            let Some(next) = numbers.get(at) else { break };
-            let last = if at + 1 == numbers.len() { *next } else { next - 1 };
+        let (count, mut first) = (self.cut.len(), 1);
+        for ((at, cut), next) in self.cut.iter_mut().enumerate().zip(numbers.iter().skip(1)) {
+            let last = if at + 1 == count { *next } else { next - 1 };
             cut.lines = Some((first, last));
             first = *next;
         }

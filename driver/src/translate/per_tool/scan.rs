@@ -126,6 +126,8 @@ impl Walk<'_> {
         self.moves(&stmt.op, place);
         match &stmt.op {
             Op::SetFeedRate(_) => self.since.fed = true,
+            // Its holes go at the feed of its own block.
+            Op::StartCycle(cycle) => self.since.fed |= cycle.feed.is_some(),
             Op::SetSpindleSpeed(_) => self.since.speed = true,
             Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise if !self.since.speed => {
                 self.last_change(|change| change.needs_speed = true);
@@ -173,7 +175,6 @@ impl Walk<'_> {
             | Op::SynchronisedFeed(_)
             | Op::ArcFeed(_)
             | Op::ArcForm(_)
-            | Op::StartCycle(_)
             | Op::Hole(_)
             | Op::Pattern(_) => true,
             Op::Position(_) => self.at.modes.motion != Some(Motion::Traverse),
