@@ -23,7 +23,6 @@ mod m_codes;
 pub mod machines;
 pub mod milling;
 mod order;
-mod per_tool;
 pub mod plot;
 mod print_after;
 pub mod project;

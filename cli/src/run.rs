@@ -34,9 +34,7 @@ use crate::provenance::why;
 use crate::recognised::recognise_all;
 use crate::sugar::{Said, rewrite};
 use crate::time::running::Running;
-use crate::{
-    batch, check, dictionary_test, doctor, fmt, listing, machines, per_tool, plot, project, review, time,
-};
+use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -209,7 +207,7 @@ fn translated(
         Order::find(args, known, row.as_deref(), told)?
     };
     if file_per_tool(&order.to) {
-        per_tool::check(args, order.folder(args), arrow)?;
+        batch::per_tool::check(args, order.folder(args), arrow)?;
         return batch::run(args, arrow, known, err);
     }
     let mut destination = destination(args, arrow)?;

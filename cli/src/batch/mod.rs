@@ -15,6 +15,7 @@
 mod gather;
 mod names;
 mod orders;
+pub(crate) mod per_tool;
 mod pool;
 mod progress;
 mod summary;
@@ -45,7 +46,6 @@ use crate::args::typed::Format;
 use crate::files;
 use crate::known::Known;
 use crate::order::Order;
-use crate::per_tool;
 use ncc_driver::problem::Exit;
 use ncc_driver::problem::Problem;
 use ncc_driver::problem::as_write;

@@ -24,11 +24,11 @@ use sha2::{Digest, Sha256};
 
 use super::gather::Item;
 use super::orders::Orders;
+use super::per_tool::left_over;
 use super::summary::{Missing, OfTool, Result as Came, Row};
 use crate::args::Translate;
 use crate::args::typed::{Eol, Format};
 use crate::known::Known;
-use crate::per_tool::left_over;
 use crate::{files, recognised, run};
 
 /// Highest number of a program.

@@ -4,7 +4,7 @@
 //! ncc haas to grbl part.nc --to-option tool_change=file-per-tool -o out/     out/part-1-T3.nc, out/part-2-T5.nc
 //! ```
 //!
-//! Not here: what is in the files (`ncc_driver::translate`), and how they are written (`batch`).
+//! Not here: what is in the files (`ncc_driver::translate`), and how they are written (`work`).
 
 use std::fs;
 use std::path::{Path, PathBuf};
