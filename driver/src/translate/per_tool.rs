@@ -7,10 +7,11 @@
 //!
 //! The whole program is written with the change by hand and verified as any other. What is cut is that text. Each file
 //! begins on a machine at rest: it states the modes that are active at its change, goes to machine zero along Z, and goes
-//! to the axes' places where its first move does not state them. What no file can state is refused.
+//! to the axes' places where its first move does not state them. What no file can state is refused. The text of the whole
+//! and that of the files are kept in memory; statements and events are not.
 //!
 //! Not here: whether each file does by itself what its part of the whole does (`verify_run::per_tool`), and the files'
-//! names (`job::file_of_tool`).
+//! names (`job::ToolFile`).
 
 mod scan;
 
