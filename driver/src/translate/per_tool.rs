@@ -79,7 +79,9 @@ impl PerTool {
                 origin = origins.next();
                 end += origin.map_or(0, |(lines, _)| u64::from(*lines));
             }
-            found.push(origin.map_or(Span::default(), |(_, span)| *span));
+            // An empty line has no place of its own, nor has a safe start: the next one that has.
+            let mut rest = origin.into_iter().chain(origins.clone()).map(|(_, span)| *span);
+            found.push(rest.find(|span| span.start < span.end).unwrap_or_default());
         }
         found
     }
