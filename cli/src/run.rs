@@ -8,7 +8,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
 use ncc_dialects::Dialect;
-use ncc_driver::job::{Failure, Job};
+use ncc_driver::job::{Failure, Job, file_per_tool};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::map;
 use ncc_driver::provenance::trace::Asked;
@@ -196,7 +196,6 @@ fn translated(
         return batch::run(args, arrow, known, err);
     }
     let path = args.files.first().map_or(Path::new("-"), PathBuf::as_path);
-    let mut destination = destination(args, arrow)?;
     let say = args.format == Format::Human && !args.telling.quiet;
     let order = {
         // For a reader of JSON, the problem alone says where.
@@ -205,6 +204,11 @@ fn translated(
         let row = project::row(path, say, known, told)?;
         Order::find(args, known, row.as_deref(), told)?
     };
+    if file_per_tool(&order.to) {
+        batch::per_tool::check(args, order.folder(args), arrow)?;
+        return batch::run(args, arrow, known, err);
+    }
+    let mut destination = destination(args, arrow)?;
     if let Some(folder) = order.folder(args).filter(|_| arrow.is_none() && args.style == Style::Plain) {
         files::make_folder(folder)?;
         destination = Destination::File(folder.to_owned());

@@ -14,13 +14,14 @@ mod ended;
 pub mod facts;
 pub mod forks;
 mod levels;
+pub mod per_tool;
 pub mod twice;
 mod verifier;
 pub mod whole;
 pub mod with_facts;
 pub mod worlds;
 
-use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Quantity};
+use ncc_dialects::Quantity;
 use ncc_exec::Exec;
 use ncc_exec::verify::{self, Comparison, Pair};
 use ncc_frontends::Batch;
@@ -30,12 +31,11 @@ use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
-use self::controls::{alarms_of, fixed, resolution, writes};
+use self::controls::{alarms_of, fixed, resolution, with_parameters, writes};
 use self::differences::different;
 use self::facts::looked_at;
 use self::verifier::{ALL_SETTINGS, Run, unreadable};
 use self::with_facts::MOST_WITH_FACT;
-use crate::job::parameters::{bore_shift, orientation, parameter};
 use crate::job::{self, Job, Verified};
 
 pub use self::facts::stops_differ;
@@ -199,24 +199,8 @@ impl Verifier {
 
     /// The source control's parameters of cycles are taken for granted of both controls.
     fn take_parameters(&mut self, job: &Job) {
-        let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
-        let (clearance, lift) = (value(PECK_CLEARANCE), value(BREAK_LIFT));
-        for exec in
-            self.runs.iter_mut().chain(&mut self.others).flat_map(|run| [&mut run.source, &mut run.target])
-        {
-            if let Some(clearance) = clearance {
-                exec.set_peck_clearance(clearance);
-            }
-            if let Some(lift) = lift {
-                exec.set_break_lift(lift);
-            }
-            if let Some(direction) = bore_shift(job) {
-                exec.set_bore_shift(direction);
-            }
-            if let Some(angle) = orientation(job).and_then(|angle| angle.nanos(false)) {
-                exec.set_orientation(angle);
-            }
-        }
+        let all = self.runs.iter_mut().chain(&mut self.others);
+        all.flat_map(|run| [&mut run.source, &mut run.target]).for_each(|exec| with_parameters(exec, job));
     }
 
     /// What the passes have taken for granted of both controls, and patterns that they have folded:

@@ -10,9 +10,9 @@ use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_driver::check::{self, told};
 use ncc_driver::guess::recognise;
-use ncc_driver::job::Job;
 use ncc_driver::job::given::{self, Given};
 use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::{Job, file_per_tool};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::questions::Policy;
@@ -239,6 +239,12 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         deny: verdicts(&asked.deny)?,
         ..Job::new(from, to, &source.name)
     };
+    if file_per_tool(&job.to) {
+        return Err(Problem::usage(
+            "`tool_change=file-per-tool` writes several files: a request gives one",
+            "ask for `manual`, one file that stops for each tool",
+        ));
+    }
     tools_by_name::number(&mut job, &mut source.file).map_err(cannot)?;
     source.rewind()?;
     let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;

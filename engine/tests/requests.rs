@@ -26,6 +26,7 @@ fn what_is_no_request_is_told() {
         r#"{ "verb": "dialects", "file": "part.nc" }"#,
         r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "nosuch" }"#,
         r#"{ "verb": "translate", "file": "part.nc", "from": "haas" }"#,
+        r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "grbl", "to_option": { "tool_change": "file-per-tool" } }"#,
         r#"{ "verb": "translate", "file": "part.nc", "from": "haas", "to": "siemens", "pass": ["refuse"] }"#,
     ] {
         let (code, engine) = done(&[("part.nc", PART)], wrong);

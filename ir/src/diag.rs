@@ -461,6 +461,9 @@ faults! {
     /// machine has nothing of the name that the source's has for it, or the source's has no name.
     NotInMap { what: Numbered, number: u32, name: Option<Box<str>> } = 506, Error;
 
+    /// A file per tool is asked for, and one of them could not state this by itself.
+    NoFileOfTool { what: Box<str> } = 510, Error;
+
     /// What the target's control does by itself at a code, and the source's does not, and what comes after it needs.
     DoneByTarget { behaviour: Behaviour } = 508, Error;
 

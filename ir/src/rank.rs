@@ -200,6 +200,7 @@ impl Fault {
             | Fault::ContourUnreachable { .. }
             | Fault::TargetLacks { .. }
             | Fault::SecondWorkOffset { .. }
+            | Fault::NoFileOfTool { .. }
             | Fault::ModeNotSet { .. }
             | Fault::ArcVanishes
             | Fault::DoneByTarget { .. }

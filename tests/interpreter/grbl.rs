@@ -21,7 +21,13 @@ pub fn run_hal(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
 }
 
 fn run_as(text: &[u8], setup: Setup, hal: Option<Series>) -> Result<Machine, Halt> {
+    let tool = setup.power_on.tool;
     let mut control = Control { m: Machine::new(setup), motion: Some(0), hal };
+    if let Some(tool) = tool {
+        // The operator has put it in, and set the zero of Z by it.
+        control.m.tool = Some(tool);
+        control.m.zero_moved = (control.m.setup.put_in)(tool);
+    }
     let mut ended = false;
     for (index, line) in characters(text).lines().enumerate() {
         control.m.line = index + 1;

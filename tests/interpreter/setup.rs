@@ -99,7 +99,7 @@ pub struct PowerOn {
     pub return_initial: bool,
     /// Motion code on a Fanuc: 0 to 3.
     pub motion: u32,
-    /// Tool in the spindle, on a control whose tools have edges.
+    /// Tool in the spindle, on a control whose tools have edges; or where tools are put in by hand.
     pub tool: Option<u32>,
     /// Edge of that tool.
     pub edge: u32,

@@ -54,6 +54,7 @@ mod text_forms;
 mod tidy;
 mod time;
 mod time_modes;
+mod tool_files;
 mod twice;
 mod variants;
 mod verify;

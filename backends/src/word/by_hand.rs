@@ -10,7 +10,7 @@
 //! Not here: the spindle that starts again behind it (`passes::side_effects`), and the length of the tool, which no
 //! program knows (`passes::length_by_hand`).
 
-use ncc_dialects::{BY_HAND, TOOL_CHANGE};
+use ncc_dialects::{BY_HAND, FILE_PER_TOOL, TOOL_CHANGE};
 use ncc_ir::canon::{Axis, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -28,7 +28,8 @@ impl Writer {
     /// The option refuses it, or the tool's number is not known.
     pub(super) fn change_by_hand(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.rely(TOOL_CHANGE, span, sink);
-        if self.settings.get(TOOL_CHANGE) != BY_HAND {
+        // Of a file per tool, this block is where one ends and the next begins.
+        if ![BY_HAND, FILE_PER_TOOL].contains(&self.settings.get(TOOL_CHANGE)) {
             return Err(cannot("a tool change by hand, which the option tool_change refuses"));
         }
         let tool = self.tracker.selected.filter(|tool| *tool >= 0);

@@ -15,6 +15,7 @@
 mod gather;
 mod names;
 mod orders;
+pub(crate) mod per_tool;
 mod pool;
 mod progress;
 mod summary;
@@ -29,6 +30,7 @@ use std::time::Instant;
 
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 use ncc_dialects::Dialect;
+use ncc_driver::job::file_per_tool;
 use ncc_driver::translate::split;
 
 pub use self::summary::SCHEMA;
@@ -71,12 +73,16 @@ pub(crate) fn run(
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let begun = Instant::now();
-    let folder = output_folder(args, known)?;
     // For a reader of JSON, the problem alone says where.
     let mut nowhere = Buffer::no_color();
     // A command need not say what project files say, so this failure alone is no error.
     let mut aside = if err.supports_color() { Buffer::ansi() } else { Buffer::no_color() };
     let plain = Order::find(args, known, None, &mut aside);
+    let one = matches!(args.files.as_slice(), [file] if !file.is_dir());
+    if plain.as_ref().is_ok_and(|order| one && file_per_tool(&order.to)) {
+        per_tool::check(args, None, arrow)?;
+    }
+    let folder = output_folder(args, known)?;
     let extensions = extensions(plain.as_ref().ok(), known);
     let mut found = gather(&args.files, &extensions, folder.as_deref());
     let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
@@ -105,6 +111,7 @@ pub(crate) fn run(
     // Names that follow from what is in the programs are known at the end.
     let late =
         split || orders.orders().any(|(order, _)| order.machines.names_by_number()) || called::by_files(to);
+    let late = late || orders.orders().any(|(order, _)| file_per_tool(&order.to));
     let sources: BTreeSet<_> = found.items.iter().filter_map(|item| identity(&item.path)).collect();
     let shown = |at: usize| found.items[at].path.display().to_string();
     let mut refused: BTreeMap<usize, Problem> = orders.refused().collect();

@@ -62,6 +62,17 @@ pub(super) struct Missing {
     pub(super) beside: Option<String>,
 }
 
+/// A file for one use of a tool.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct OfTool {
+    pub(super) output: String,
+    /// The tool that is put in; nothing where it is the one in the spindle.
+    pub(super) tool: Option<i64>,
+    /// Lines of the source, where its tool changes follow one another.
+    pub(super) first_line: Option<u64>,
+    pub(super) last_line: Option<u64>,
+}
+
 /// What became of one program.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Row {
@@ -75,6 +86,12 @@ pub(super) struct Row {
     pub(super) warnings: usize,
     pub(super) program_number: Option<u32>,
     pub(super) outputs: Vec<String>,
+    /// The outputs of a file per tool, in the order in which they are run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) tool_files: Vec<OfTool>,
+    /// Such files of an earlier run, which lie beside them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) left_over: Vec<String>,
     pub(super) missing: Vec<Missing>,
     /// Why there is no output, in one line.
     pub(super) reason: Option<String>,
@@ -98,6 +115,8 @@ impl Row {
             warnings: 0,
             program_number: None,
             outputs: Vec::new(),
+            tool_files: Vec::new(),
+            left_over: Vec::new(),
             missing: Vec::new(),
             reason: None,
             questions: Vec::new(),
@@ -113,6 +132,8 @@ impl Row {
         self.reason = Some(problem.message.clone());
         self.exit = self.exit.and(problem.exit);
         self.outputs.clear();
+        self.tool_files.clear();
+        self.left_over.clear();
     }
 }
 
@@ -230,6 +251,7 @@ impl Summary<'_> {
                 }
             }
         }
+        self.rows.iter().try_for_each(|row| of_tools(row, out))?;
         self.numbers(out)?;
         self.left_out(out)
     }
@@ -267,4 +289,29 @@ impl Summary<'_> {
         }
         Ok(())
     }
+}
+
+/// The files per tool of a program, in the order in which they are run.
+fn of_tools(row: &Row, out: &mut String) -> std::fmt::Result {
+    if row.tool_files.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "  {}: reset the control, put the tool in, set the zero of Z by it, run its file:",
+        row.file
+    )?;
+    let wide = row.tool_files.iter().map(|file| file.output.chars().count()).max().unwrap_or_default();
+    for file in &row.tool_files {
+        let tool = file.tool.map_or("the tool in the spindle".to_owned(), |tool| format!("tool {tool}"));
+        write!(out, "    {:wide$}  {tool}", file.output)?;
+        match (file.first_line, file.last_line) {
+            (Some(first), Some(last)) => writeln!(out, ", lines {first} to {last}")?,
+            _ => writeln!(out)?,
+        }
+    }
+    for path in &row.left_over {
+        writeln!(out, "  {path} is of an earlier run: take it away")?;
+    }
+    Ok(())
 }

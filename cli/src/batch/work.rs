@@ -24,7 +24,8 @@ use sha2::{Digest, Sha256};
 
 use super::gather::Item;
 use super::orders::Orders;
-use super::summary::{Missing, Result as Came, Row};
+use super::per_tool::left_over;
+use super::summary::{Missing, OfTool, Result as Came, Row};
 use crate::args::Translate;
 use crate::args::typed::{Eol, Format};
 use crate::known::Known;
@@ -268,6 +269,7 @@ impl Bench<'_> {
             row.outputs.push(main.display().to_string());
             return Ok(Vec::new());
         };
+        let mut held = Vec::new();
         let mut hold = |path: PathBuf,
                         shared: Option<[u8; 32]>,
                         write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>| {
@@ -276,6 +278,21 @@ impl Bench<'_> {
             row.outputs.push(path.display().to_string());
             Ok(Held { path, otherwise: None, range, shared })
         };
+        for file in &mut outcome.files {
+            let path = main.with_file_name(file.name(&file_name(&main)));
+            row.tool_files.push(OfTool {
+                output: path.display().to_string(),
+                tool: file.tool,
+                first_line: file.lines.map(|(first, _)| first),
+                last_line: file.lines.map(|(_, last)| last),
+            });
+            held.push(hold(path, None, &mut |out| file.output.write_to(out))?);
+        }
+        if !held.is_empty() {
+            let written: Vec<PathBuf> = held.iter().map(|held| held.path.clone()).collect();
+            row.left_over = left_over(&written).iter().map(|path| path.display().to_string()).collect();
+            return Ok(held);
+        }
         if !self.split || !split::can(to) {
             let held = hold(main, None, &mut |out| outcome.output.write_to(out))?;
             return Ok(vec![Held { otherwise, ..held }]);
@@ -290,7 +307,6 @@ impl Bench<'_> {
             let help = vec!["--no-split writes them as one text".to_owned()];
             return Err(Problem { exit: Exit::VerificationFailed, message, help });
         }
-        let mut held = Vec::new();
         for (i, part) in parts.iter().enumerate() {
             let (path, shared) = match i {
                 0 => (main.clone(), None),
@@ -300,6 +316,10 @@ impl Bench<'_> {
         }
         Ok(held)
     }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 fn part_name(job: &Job, to: &Dialect, part: &split::Part) -> String {

@@ -42,6 +42,9 @@ fn shop() -> tempfile::TempDir {
         ("apart/O0300.nc", b"%\nO0300\nM99\n%\n"),
         ("numbers/kept.cn", GOOD.replace("G1Z", "N50G1Z").as_bytes()),
         ("none/notes.txt", b"text\n"),
+        ("tools/plate.nc", tools().as_bytes()),
+        ("tools/out/plate-3-T9.gcode", b"of an earlier run\n"),
+        ("tools/out/lid-1-T1.gcode", b"of another program\n"),
     ] {
         write(name, text);
     }
@@ -52,6 +55,16 @@ fn shop() -> tempfile::TempDir {
     folder
 }
 
+/// A Haas program with two tools.
+fn tools() -> String {
+    let tool = |tool: u32| {
+        format!(
+            "T{tool} M06\nS1000 M03\nG00 X{tool}. Y0.\nG43 H{tool} Z5.\nG01 Z-1. F100.\nG00 Z50.\nM05\nG53 G00 Z0.\n"
+        )
+    };
+    format!("%\nO7\nG21 G17 G90 G40 G49 G80 G94 G54\n{}{}M30\n%\n", tool(1), tool(2))
+}
+
 fn main(head: &str, calls: &str) -> String {
     format!(
         "%\n{head}\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS1000 M03\nG00 X0. Y0.\nG43 H1 Z5.\n{calls}\
@@ -60,7 +73,7 @@ fn main(head: &str, calls: &str) -> String {
 }
 
 /// Cases: name of the expectation, and the arguments of `ncc translate`.
-const CASES: [(&str, &[&str]); 17] = [
+const CASES: [(&str, &[&str]); 19] = [
     ("mixed", &["mixed", "--from", "mach9", "--to", "fanuc", "-o", "out"]),
     ("mixed-auto", &["mixed", "--from", "auto", "--to", "fanuc", "-o", "out/"]),
     ("mixed-quiet", &["mixed", "--from", "mach9", "--to", "fanuc", "-o", "out", "-q"]),
@@ -139,6 +152,36 @@ const CASES: [(&str, &[&str]); 17] = [
             "-o",
             "out",
             "-q",
+        ],
+    ),
+    (
+        "per-tool",
+        &[
+            "tools/plate.nc",
+            "--from",
+            "haas",
+            "--to",
+            "grbl",
+            "--to-option",
+            "tool_change=file-per-tool",
+            "-o",
+            "tools/out",
+        ],
+    ),
+    (
+        "per-tool-json",
+        &[
+            "tools/plate.nc",
+            "--format",
+            "json",
+            "--from",
+            "haas",
+            "--to",
+            "grbl",
+            "--to-option",
+            "tool_change=file-per-tool",
+            "-o",
+            "tools/out",
         ],
     ),
     ("missing-file", &["good.cn", "none.cn", "--from", "mach9", "--to", "fanuc", "-o", "out", "-q"]),

@@ -19,7 +19,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::Arc;
 
 use ncc_backends::Layout;
-use ncc_dialects::{BLOCK_WITHOUT_WAY, Dialect, LOOKED_OVER, Settings};
+use ncc_dialects::{BLOCK_WITHOUT_WAY, Dialect, FILE_PER_TOOL, LOOKED_OVER, Settings, TOOL_CHANGE};
 use ncc_exec::maps::{Maps, Renaming};
 use ncc_exec::named_tool;
 use ncc_frontends::Reader;
@@ -300,6 +300,9 @@ pub struct Outcome {
     pub release: Result<(), Failure>,
     /// The output. Empty or unfinished, and not to be used, if it is not released.
     pub output: Output,
+    /// The output as a file for each use of a tool, in the order in which they are run; empty unless the target's options
+    /// ask for that, and for a program without a tool change.
+    pub files: Vec<ToolFile>,
     /// How many constructs came through with each verdict, in the order of [`Verdict::ALL`].
     pub counts: [u64; Verdict::ALL.len()],
     /// SHA-256 of the source's bytes.
@@ -308,6 +311,11 @@ pub struct Outcome {
     pub source_bytes: u64,
     /// Blocks read from the source.
     pub blocks: u64,
+}
+
+/// Whether the options of a target ask for a file for each use of a tool.
+pub fn file_per_tool(to: &Settings) -> bool {
+    to.dialect.can.change_by_hand && to.get(TOOL_CHANGE) == FILE_PER_TOOL
 }
 
 impl Failure {
@@ -343,6 +351,34 @@ impl Outcome {
     /// How many constructs came through with a verdict.
     pub fn count(&self, verdict: Verdict) -> u64 {
         self.counts[verdict as usize]
+    }
+}
+
+/// The program of one use of a tool, which is run by itself.
+#[derive(Debug)]
+pub struct ToolFile {
+    /// The tool's number; `None` is the tool in the spindle.
+    pub tool: Option<i64>,
+    /// Its place among the files, from 1.
+    pub number: usize,
+    /// How many files there are.
+    pub count: usize,
+    /// First and last line of the source, where its tool changes follow one another.
+    pub lines: Option<(u64, u64)>,
+    /// Its text.
+    pub output: Output,
+}
+
+impl ToolFile {
+    /// Its name, by that of the whole: `part.nc` gives `part-2-T5.nc`. Names sort in the order of execution.
+    pub fn name(&self, whole: &str) -> String {
+        let digits = self.count.to_string().len();
+        let (stem, extension) = match whole.rsplit_once('.') {
+            Some((stem, extension)) if !stem.is_empty() => (stem, format!(".{extension}")),
+            Some(_) | None => (whole, String::new()),
+        };
+        let tool = self.tool.map(|tool| format!("-T{tool}")).unwrap_or_default();
+        format!("{stem}-{:0digits$}{tool}{extension}", self.number)
     }
 }
 

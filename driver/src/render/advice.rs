@@ -364,6 +364,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TargetLacks { what } => unwritable::help(what, at.from, at.to),
         Fault::RotaryTurnOpen { by, or, .. } => rotary_turn([*by, *or], at),
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
+        Fault::NoFileOfTool { what } => {
+            let mut all = own("`--to-option tool_change=manual` writes one file, which stops for each tool");
+            if what.contains("relies on where") {
+                all.insert(0, "state it here: a rapid move in G90 with all axes, above the work".into());
+            }
+            all
+        }
         Fault::ModeNotSet { .. } => own("say it at the head of the program"),
         Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
         Fault::TargetRange { .. } => Vec::new(),

@@ -466,6 +466,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::Endless
         | Fault::TargetLacks { .. }
         | Fault::SecondWorkOffset { .. }
+        | Fault::NoFileOfTool { .. }
         | Fault::ModeNotSet { .. }
         | Fault::ArcRadiiDiffer { .. }
         | Fault::RotaryTurnOpen { .. }

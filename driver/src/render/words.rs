@@ -525,6 +525,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("a second work offset, and {to} has one"),
             format!("offset {second} here; the program began with offset {first}"),
         ),
+        Fault::NoFileOfTool { what } => {
+            ("a tool cannot have a file of its own here".into(), plain(what).to_string())
+        }
         Fault::ModeNotSet { fact } => (
             format!("the program never says its {}", mode(*fact)),
             format!("{to} always begins with one of its own, so this would not be the same there"),

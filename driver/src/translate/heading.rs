@@ -37,8 +37,18 @@ impl Translation<'_> {
     }
 
     pub(crate) fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
+        self.head_lines_of(hash, None)
+    }
+
+    /// The same of a file per tool, in which no other tool is put in than `only`.
+    pub(crate) fn head_lines_of(&self, hash: &[u8; 32], only: Option<Option<i64>>) -> Vec<String> {
+        let counts = |found: &&Diagnostic| match found.fault {
+            Fault::LengthByHand { tool } => only.is_none_or(|only| only == Some(i64::from(tool))),
+            _ => true,
+        };
+        let told: Vec<Diagnostic> = self.diagnostics.iter().filter(counts).cloned().collect();
         let mut lines = match self.job.head {
-            true => head::lines(self.job, hash, &self.questions, &self.diagnostics, self.renumbering.used()),
+            true => head::lines(self.job, hash, &self.questions, &told, self.renumbering.used()),
             false => Vec::new(),
         };
         lines.extend(self.job.machines.layout().header);

@@ -8,6 +8,7 @@
 //! `translation`   what is between source and output
 //! `pipeline`      the steps, from what was read to what is released
 //! `writing`       the text, and passing it on
+//! `per_tool`      a file for each use of a tool
 //! `outcome`       what comes of it at the end
 //! ```
 //!
@@ -18,6 +19,7 @@ pub mod heading;
 pub mod judge;
 mod outcome;
 pub mod parametric;
+mod per_tool;
 mod pipeline;
 pub mod rewrite;
 pub mod split;
@@ -108,13 +110,14 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcom
         }
     };
     translation.answer(questions);
+    translation.cut_by_tool(source)?;
     let straight = match straight::is_open(&translation) {
         true => straight::options(job, source)?,
         false => None,
     };
     let inherited = translation.inherited(&translation.batch.assumed);
     let record = translation.trace.take();
-    let outcome = Outcome { straight, ..translation.outcome(hash, bytes) };
+    let outcome = Outcome { straight, ..translation.outcome(hash, bytes)? };
     let record = record.filter(|_| outcome.release.is_ok()).map(Trace::finish).transpose()?;
     Ok((outcome, inherited, record))
 }

@@ -1,5 +1,7 @@
 //! What comes of a translation at its end: the head of the output, the counts, and whether it is released.
 
+use std::io;
+
 use ncc_backends::Head;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::source::Span;
@@ -12,7 +14,11 @@ use crate::questions::Policy;
 use crate::verify_run::Verifier;
 
 impl Translation<'_> {
-    pub(super) fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
+    /// What came of it.
+    ///
+    /// # Errors
+    /// The anonymous files of a file per tool cannot be written.
+    pub(super) fn outcome(mut self, hash: [u8; 32], bytes: u64) -> io::Result<Outcome> {
         let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
                 let notes = verifier.take_notes(&self.diagnostics);
@@ -46,6 +52,7 @@ impl Translation<'_> {
             self.check(|_| Verifier::new(job).head(&text));
         }
         self.output.set_head(text);
+        let files = self.files_per_tool(&head, &hash)?;
         let release = if self.refused {
             Err(Failure::Refused)
         } else if self.failed {
@@ -63,7 +70,8 @@ impl Translation<'_> {
         }
         let told: u64 = counts.iter().sum();
         counts[Verdict::Exact as usize] = self.statements.saturating_sub(told);
-        Outcome {
+        Ok(Outcome {
+            files,
             diagnostics: self.diagnostics,
             program_number,
             renumbered: self.renumbering.used().clone(),
@@ -77,6 +85,6 @@ impl Translation<'_> {
             source_sha256: hash,
             source_bytes: bytes,
             blocks: self.blocks,
-        }
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! One translation on its way: what is between source and output, piece by piece.
 
 use super::parametric::{self, target};
+use super::per_tool::PerTool;
 use crate::job::parameters::{bore_shift, orientation, parameter};
 
 use std::collections::BTreeSet;
@@ -17,7 +18,7 @@ use ncc_passes::Legaliser;
 use ncc_passes::modes::side_effects::SideEffects;
 use ncc_passes::tools::machine_numbers::Renumbering;
 
-use crate::job::{Job, Output, Rest};
+use crate::job::{Job, Output, Rest, file_per_tool};
 use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Trace};
@@ -49,6 +50,8 @@ pub(super) struct Translation<'j> {
     pub(super) annotator: Option<Annotator>,
     /// Where the text comes from.
     pub(super) trace: Option<Trace>,
+    /// What a file per tool needs, where that is asked for.
+    pub(super) per_tool: Option<PerTool>,
     /// Facts that always hold for the source's control and were stated for the target's.
     pub(super) given: Modes,
     pub(super) output: Output,
@@ -98,6 +101,9 @@ impl<'j> Translation<'j> {
         if job.between_controls() {
             writer.changes_apart();
         }
+        if file_per_tool(&job.to) {
+            writer.trace();
+        }
         let mut translation = Translation {
             job,
             reader: job.reader(true),
@@ -111,6 +117,7 @@ impl<'j> Translation<'j> {
             verifier: job.verify.then(|| Verifier::new(job)),
             annotator: None,
             trace: None,
+            per_tool: file_per_tool(&job.to).then(PerTool::default),
             given: Modes::default(),
             output: Output::new(),
             written: 0,

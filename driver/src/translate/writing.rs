@@ -141,10 +141,13 @@ impl Translation<'_> {
     /// The text written so far, with what was asked beside it; notes where it comes from.
     pub(super) fn finished_text(&mut self) -> io::Result<Vec<u8>> {
         let mut text = std::mem::take(&mut self.text);
-        if self.annotator.is_none() && self.trace.is_none() {
+        if self.annotator.is_none() && self.trace.is_none() && self.per_tool.is_none() {
             return Ok(text);
         }
         let origins: Vec<Origin> = self.writer.take_origins();
+        if let Some(per_tool) = &mut self.per_tool {
+            per_tool.take(&origins);
+        }
         if let Some(annotator) = &mut self.annotator {
             text = annotator.apply(&text, &origins, &mut self.writer)?;
         }

@@ -1,10 +1,14 @@
 //! What a control of a dialect always has: its state at power-on, what its numbers resolve, how it says alarms.
 
-use ncc_dialects::{Dialect, Quantity, Settings};
+use ncc_dialects::{BREAK_LIFT, Dialect, PECK_CLEARANCE, Quantity, Settings};
+use ncc_exec::Exec;
 use ncc_exec::verify::Resolution;
 use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::Modes;
 use ncc_ir::computed::computes::ComputeFeature;
+
+use crate::job::Job;
+use crate::job::parameters::{bore_shift, orientation, parameter};
 
 /// Facts that hold at power-on of every such control.
 pub fn fixed(dialect: &Dialect) -> Modes {
@@ -45,5 +49,22 @@ pub fn resolution(settings: &Settings) -> Resolution {
         feed_inch: feed.decimals_inch.unwrap_or(feed.decimals),
         second: numbers(Quantity::Seconds).decimals.max(3),
         speed: numbers(Quantity::Speed).decimals,
+    }
+}
+
+/// Takes the source control's parameters of cycles for granted of a control.
+pub fn with_parameters(exec: &mut Exec, job: &Job) {
+    let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
+    if let Some(clearance) = value(PECK_CLEARANCE) {
+        exec.set_peck_clearance(clearance);
+    }
+    if let Some(lift) = value(BREAK_LIFT) {
+        exec.set_break_lift(lift);
+    }
+    if let Some(direction) = bore_shift(job) {
+        exec.set_bore_shift(direction);
+    }
+    if let Some(angle) = orientation(job).and_then(|angle| angle.nanos(false)) {
+        exec.set_orientation(angle);
     }
 }

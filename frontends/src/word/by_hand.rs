@@ -8,7 +8,7 @@
 //! Any word more or less, and the block is what its words say. What happens besides the change is in the dictionary, as
 //! what the control does at a change.
 
-use ncc_dialects::{BY_HAND, Meaning, TOOL_CHANGE};
+use ncc_dialects::{BY_HAND, FILE_PER_TOOL, Meaning, TOOL_CHANGE};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
@@ -32,7 +32,7 @@ impl Lower {
         if !self.settings.dialect.can.change_by_hand || !self.is_change(codes, words) {
             return false;
         }
-        if self.option(TOOL_CHANGE, block, out) != BY_HAND {
+        if ![BY_HAND, FILE_PER_TOOL].contains(&self.option(TOOL_CHANGE, block, out)) {
             return false;
         }
         words.take(b'Z');

@@ -396,8 +396,9 @@ pub struct Can {
     /// A length, and its end, are commands of axes: neither a move nor the word of another axis stands beside them.
     pub length_alone: bool,
     /// A tool is changed by hand, where the option `tool_change` is `manual`: a block of its own stops the spindle,
-    /// switches coolant off, goes to machine zero along Z, names the tool and stops the program. The control knows no
-    /// lengths of tools: the operator sets the zero of Z by the tool that is put in.
+    /// switches coolant off, goes to machine zero along Z, names the tool and stops the program. Where it is
+    /// `file-per-tool`, each use of a tool is a program of its own. The control knows no lengths of tools: the operator
+    /// sets the zero of Z by the tool that is put in.
     pub change_by_hand: bool,
     /// No other zero may be set while a rotation, factors or a mirror are in force, and no mirror inside
     /// a rotation or factors.

@@ -84,11 +84,15 @@ pub const CHANGE_IN_BLOCK: &str = "change_in_block";
 /// Value of that option: the block's axes move first.
 pub const AFTER_MOTION: &str = "after-motion";
 
-/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`] or refused; or a code of a variant.
+/// Option of a dictionary: what a tool change is on a control that has none, [`BY_HAND`], [`FILE_PER_TOOL`] or refused; or
+/// a code of a variant.
 pub const TOOL_CHANGE: &str = "tool_change";
 
 /// Value of [`TOOL_CHANGE`]: a block of its own that stops the program.
 pub const BY_HAND: &str = "manual";
+
+/// Value of [`TOOL_CHANGE`]: a program of its own for each use of a tool.
+pub const FILE_PER_TOOL: &str = "file-per-tool";
 
 /// Option of a dictionary: from where the words of an arc's centre are measured where the program has not said it, from
 /// the `start` of the arc or from program `zero`.

@@ -44,7 +44,7 @@ fn with(change: impl Fn(&mut Maps), text: &str) -> Outcome {
         base += piece.len() as u32;
     }
     translation.end().expect("an output in memory");
-    translation.outcome([0; 32], text.len() as u64)
+    translation.outcome([0; 32], text.len() as u64).expect("no file is written")
 }
 
 fn told(outcome: &Outcome) -> Vec<u16> {
@@ -158,7 +158,7 @@ fn named(both: bool, change: impl Fn(&mut Maps)) -> Outcome {
     translation.renumbering = Renumbering::new(maps);
     translation.piece(NAMED.as_bytes(), 0).expect("an output in memory");
     translation.end().expect("an output in memory");
-    translation.outcome([0; 32], NAMED.len() as u64)
+    translation.outcome([0; 32], NAMED.len() as u64).expect("no file is written")
 }
 
 #[test]

@@ -1,0 +1,104 @@
+//! A file per tool: where such outputs may go, and which files of a folder are of an earlier run.
+//!
+//! ```text
+//! ncc haas to grbl part.nc --to-option tool_change=file-per-tool -o out/     out/part-1-T3.nc, out/part-2-T5.nc
+//! ```
+//!
+//! Not here: what is in the files (`ncc_driver::translate`), and how they are written (`work`).
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ncc_dialects::Dialect;
+use ncc_driver::problem::Problem;
+
+use crate::args::Translate;
+
+/// Refuses places that cannot take several files, and options that are about one.
+///
+/// # Errors
+/// One of these is asked for.
+pub(crate) fn check(
+    args: &Translate,
+    folder: Option<&Path>,
+    arrow: Option<&'static Dialect>,
+) -> Result<(), Problem> {
+    let several = "`tool_change=file-per-tool` writes several files";
+    let usage = |what: &str, help: &str| Err(Problem::usage(format!("{several}: {what}"), help));
+    if arrow.is_some() {
+        return usage("the shell's redirection takes one", "write `to` for the arrow, and `-o FOLDER`");
+    }
+    if args.map.is_some() {
+        return usage(
+            "--map is about one",
+            "leave it out: the head of each file names its lines of the source",
+        );
+    }
+    if args.report.is_some() {
+        return usage("--report is about one", "`--format json` prints one document about all of them");
+    }
+    let named = args.output.as_deref().filter(|name| *name != Path::new("-"));
+    let named = match (named, &args.output) {
+        (Some(name), _) => name,
+        (None, None) if folder.is_some() => return Ok(()),
+        (None, _) => return usage("standard output takes one", "name a folder for them: `-o FOLDER`"),
+    };
+    let text = named.as_os_str().to_string_lossy();
+    if named.is_dir() || text.ends_with(std::path::is_separator) && !named.exists() {
+        return Ok(());
+    }
+    usage(&format!("{text} is no folder"), "name one for them, with a slash if it is new: `-o FOLDER/`")
+}
+
+/// Files of an earlier run: their names are of the same program, and no file of this run has them.
+pub(crate) fn left_over(written: &[PathBuf]) -> Vec<PathBuf> {
+    let Some((folder, stem, extension)) = written.first().and_then(|path| named(path)) else {
+        return Vec::new();
+    };
+    let entries = fs::read_dir(if folder.as_os_str().is_empty() { Path::new(".") } else { &folder });
+    let of_program = |path: &PathBuf| {
+        let own = named(path);
+        own.is_some_and(|(_, own, ending)| own == stem && ending == extension) && !written.contains(path)
+    };
+    let paths = entries.into_iter().flatten().filter_map(|entry| Some(folder.join(entry.ok()?.file_name())));
+    let mut found: Vec<PathBuf> = paths.filter(of_program).collect();
+    found.sort();
+    found
+}
+
+/// Folder, name of the program, and extension of a file per tool.
+fn named(path: &Path) -> Option<(PathBuf, String, String)> {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let stem = path.file_stem()?.to_str()?;
+    let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+    let without_tool = match stem.rsplit_once("-T") {
+        Some((rest, tool)) if is_number(tool) => rest,
+        Some(_) | None => stem,
+    };
+    let (program, number) = without_tool.rsplit_once('-')?;
+    is_number(number).then(|| (folder, program.to_owned(), extension))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_one_program_are_known_by_their_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in [
+            "part-1-T3.gcode",
+            "part-2-T5.gcode",
+            "part-2.gcode",
+            "other-1-T3.gcode",
+            "part.gcode",
+            "part-1-T3.nc",
+        ] {
+            fs::write(path(name), "").unwrap();
+        }
+        assert_eq!(left_over(&[path("part-1-T3.gcode")]), [path("part-2-T5.gcode"), path("part-2.gcode")]);
+        assert_eq!(left_over(&[]), [] as [PathBuf; 0]);
+    }
+}

@@ -1,0 +1,382 @@
+//! A file per tool: a program whose tools are changed by hand, cut at its tool changes.
+//!
+//! ```text
+//! … G0 Z20 │ M5 M9 G53 G0 Z0 T5 M0 │ S3000 M3 …    →    … G0 Z20 / M5 M9 G53 G0 Z0 / M2
+//!                                                        G21 G17 … / G54 / M5 M9 G53 G0 Z0 / S3000 M3 …
+//! ```
+//!
+//! The whole program is written with the change by hand and verified as any other. What is cut is that text. Each file
+//! begins on a machine at rest: it states the modes that are active at its change, goes to machine zero along Z, and goes
+//! to the axes' places where its first move does not state them. What no file can state is refused. The text of the whole
+//! and that of the files are kept in memory; statements and events are not.
+//!
+//! Not here: whether each file does by itself what its part of the whole does (`verify_run::per_tool`), and the files'
+//! names (`job::ToolFile`).
+
+mod scan;
+
+use std::io;
+use std::ops::Range;
+
+use ncc_backends::{Head, Layout, Numbering, Origin, Writer};
+use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_ir::program::{Coord, FrameSlot, Move, Op, Point, Stmt};
+use ncc_ir::source::Span;
+use ncc_machines::reading::Told;
+
+use self::scan::{Change, Scanned, scan};
+use super::translation::Translation;
+use crate::job::{Job, Output, ToolFile};
+use crate::render::source::Lines;
+use crate::source::Readable;
+use crate::verify_run::Verifier;
+use crate::verify_run::per_tool::{self, Part};
+
+/// Digits after the point by which a place is stated exactly; the writer rounds it as any other.
+const EXACT: u8 = 9;
+
+/// What a file per tool needs besides the text.
+#[derive(Debug, Default)]
+pub(super) struct PerTool {
+    /// Where the lines of the text come from, in their order.
+    origins: Vec<(u32, Span)>,
+    /// The files without their heads, in the order in which they are run.
+    cut: Vec<Cut>,
+}
+
+/// A file without its head.
+#[derive(Debug)]
+struct Cut {
+    tool: Option<i64>,
+    /// First and last line of the source, where the tool changes follow one another there.
+    lines: Option<(u64, u64)>,
+    /// Where it begins in the text of the whole, and where its tool change is.
+    begins: [usize; 2],
+    text: Vec<u8>,
+}
+
+impl PerTool {
+    /// Takes where further lines of the text come from.
+    pub(super) fn take(&mut self, origins: &[Origin]) {
+        let own = |origin: &Origin| (origin.lines, origin.spans.last().copied().unwrap_or_default());
+        self.origins.extend(origins.iter().map(own));
+    }
+
+    /// The places in the source of what is written at places of the text, which come in their order.
+    fn sources_of(&self, text: &[u8], places: impl IntoIterator<Item = usize>) -> Vec<Span> {
+        let mut origins = self.origins.iter();
+        let mut origin = origins.next();
+        // Lines of the text before `from`, and before the end of the origin at hand.
+        let (mut from, mut line, mut end) = (0, 0, origin.map_or(0, |(lines, _)| u64::from(*lines)));
+        let mut found = Vec::new();
+        for at in places {
+            line += memchr::memchr_iter(b'\n', text.get(from..at).unwrap_or_default()).count() as u64;
+            from = at.max(from);
+            while origin.is_some() && line >= end {
+                origin = origins.next();
+                end += origin.map_or(0, |(lines, _)| u64::from(*lines));
+            }
+            // An empty line has no place of its own, nor has a safe start: the next one that has.
+            let mut rest = origin.into_iter().chain(origins.clone()).map(|(_, span)| *span);
+            found.push(rest.find(|span| span.start < span.end).unwrap_or_default());
+        }
+        found
+    }
+
+    /// The place in the source of what is written at a place of the text.
+    fn source_of(&self, text: &[u8], at: usize) -> Span {
+        self.sources_of(text, [at]).first().copied().unwrap_or_default()
+    }
+}
+
+impl Translation<'_> {
+    /// Cuts the text that was verified at its tool changes, and verifies each file by itself.
+    ///
+    /// # Errors
+    /// Reading the source or the anonymous file of the output.
+    pub(super) fn cut_by_tool(&mut self, source: &mut dyn Readable) -> io::Result<()> {
+        let Some(mut own) = self.per_tool.take().filter(|_| self.errors == 0 && !self.failed) else {
+            return Ok(());
+        };
+        let text = self.output.to_vec()?;
+        let inherited = self.inherited(&self.batch.assumed);
+        match self.cut(&text, &inherited) {
+            Ok(cut) => {
+                own.cut = cut;
+                own.number_lines(source, &text, self.job)?;
+            }
+            Err(Uncut::Refused { at, what }) => {
+                let fault = Fault::NoFileOfTool { what: what.into() };
+                let found = Diagnostic::new(fault, own.source_of(&text, at));
+                self.take(vec![found], Told::Writer);
+            }
+            Err(Uncut::Found(found)) => self.take(found, Told::Writer),
+            Err(Uncut::Differs { at, difference }) => {
+                self.failed = true;
+                let difference = format!("run by itself, the file of a tool differs: {difference}").into();
+                let fault = Fault::NotTheSame { difference };
+                self.diagnostics.push(Diagnostic::new(fault, own.source_of(&text, at)));
+            }
+        }
+        self.per_tool = Some(own);
+        Ok(())
+    }
+
+    /// The files without their heads; none if the program changes no tool.
+    fn cut(&self, text: &[u8], inherited: &Modes) -> Result<Vec<Cut>, Uncut> {
+        let refused = |at: usize, what: &str| Uncut::Refused { at, what: what.to_owned() };
+        let scanned = scan(self.job, text).map_err(|(at, what)| refused(at, &what))?;
+        let Scanned { changes, cuts_before, used } = scanned;
+        let Some(first) = changes.first() else { return Ok(Vec::new()) };
+        let (mut begins, mut parts) = (Vec::new(), Vec::new());
+        if cuts_before {
+            begins.push([0, 0]);
+            let mut file = Text::default();
+            file.body(text, 0..first.comments);
+            file.joint(&self.end_of_file(&first.modes)?);
+            parts.push(Part { tool: None, changes: 0, bodies: file.bodies, text: file.text });
+        }
+        for (at, change) in changes.iter().enumerate() {
+            let next = changes.get(at + 1);
+            let mut file = Text::default();
+            let whole = at == 0 && !cuts_before;
+            begins.push([if whole { 0 } else { change.comments }, change.block.start]);
+            if whole {
+                file.body(text, 0..change.block.start);
+                file.joint(&self.written(&up(change.modes.units), Some(&change.modes))?);
+            } else {
+                file.body(text, change.comments..change.block.start);
+                file.joint(&self.beginning(change).and_then(|stmts| self.written(&stmts, None))?);
+            }
+            file.body(text, change.block.end..next.map_or(text.len(), |next| next.comments));
+            if let Some(next) = next {
+                file.joint(&self.end_of_file(&next.modes)?);
+            }
+            let tool = Some(change.tool);
+            parts.push(Part { tool, changes: 1, bodies: file.bodies, text: file.text });
+        }
+        per_tool::verify(self.job, text, &parts, &used, inherited)
+            .map_err(|found| Uncut::Differs { at: found.at, difference: found.difference })?;
+        let cut = |(part, begins): (Part, [usize; 2])| Cut {
+            tool: part.tool,
+            lines: None,
+            begins,
+            text: part.text,
+        };
+        Ok(parts.into_iter().zip(begins).map(cut).collect())
+    }
+
+    /// What a file states before the moves of its tool.
+    fn beginning(&self, change: &Change) -> Result<Vec<Stmt>, Uncut> {
+        let refused =
+            |what: String| Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), what };
+        let Modes { units, plane, feed_mode, work_offset, return_level, distance, no_origin_shift, .. } =
+            change.modes;
+        let mut ops: Vec<Op> = Vec::new();
+        ops.extend(units.map(Op::UseLengthUnits));
+        ops.extend(plane.map(Op::SelectPlane));
+        ops.push(Op::SetDistanceMode(Distance::Absolute));
+        ops.extend(feed_mode.map(Op::SetFeedMode));
+        ops.extend(return_level.map(Op::SetReturnLevel));
+        ops.extend(work_offset.map(Op::SetOriginOffsets));
+        // Only where the program states it: else it is what a reset leaves.
+        ops.extend(no_origin_shift.filter(|none| *none).map(|_| Op::ClearFrame(FrameSlot::Shift)));
+        let mut stmts: Vec<Stmt> = ops.into_iter().map(|op| Stmt::new(Span::default(), op)).collect();
+        stmts.append(&mut up(units));
+        let mut to = Point::default();
+        for axis in Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]) {
+            let name = char::from(axis.letter());
+            let at = change.position[axis as usize].ok_or_else(|| {
+                refused(format!("this first move relies on where {name} was at the tool change"))
+            })?;
+            let word = place(at, axis, units).ok_or_else(|| {
+                refused(format!("inches cannot state exactly where {name} is at the tool change"))
+            })?;
+            to.set(axis, word);
+        }
+        let mut after = Vec::new();
+        if !to.is_empty() {
+            after.push(Op::StraightTraverse(Move { to, said: true }));
+        }
+        if distance == Some(Distance::Incremental) {
+            after.push(Op::SetDistanceMode(Distance::Incremental));
+        }
+        if change.needs_feed {
+            let feed = change.feed.ok_or_else(|| refused("F of another tool is active here".to_owned()))?;
+            after.push(Op::SetFeedRate(Expr::Num(feed)));
+        }
+        if change.needs_speed {
+            let speed = change.speed.ok_or_else(|| refused("S of another tool is active here".to_owned()))?;
+            after.push(Op::SetSpindleSpeed(Expr::Num(speed)));
+        }
+        stmts.extend(after.into_iter().map(|op| Stmt::new(Span::default(), op)));
+        Ok(stmts)
+    }
+
+    /// What a file ends with that another one follows: at rest, as at the tool change of the whole.
+    fn end_of_file(&self, modes: &Modes) -> Result<Vec<u8>, Uncut> {
+        let mut stmts = up(modes.units);
+        let footer = self.job.machines.layout().footer;
+        stmts.extend(footer.iter().map(|line| Stmt::new(Span::default(), Op::Comment(line.as_str().into()))));
+        stmts.push(Stmt::new(Span::default(), Op::ProgramEnd));
+        self.written(&stmts, Some(modes))
+    }
+
+    /// Statements in the target's words: at the beginning of a program, or within one where these modes are active.
+    fn written(&self, stmts: &[Stmt], within: Option<&Modes>) -> Result<Vec<u8>, Uncut> {
+        let layout = Layout { numbering: Numbering::Off, ..self.job.layout.clone() };
+        let mut writer = Writer::new(self.job.to.clone(), layout);
+        writer.set_form(self.job.machines.form());
+        if let Some(modes) = within {
+            writer.stands_alone(modes, false, "");
+        }
+        let (mut text, mut found) = (Vec::new(), Vec::new());
+        writer.write(stmts, &Modes::default(), &mut text, &mut found);
+        if within.is_some() && stmts.iter().any(|stmt| stmt.op == Op::ProgramEnd) {
+            writer.finish(&mut text, &mut found);
+        }
+        found.retain(|diagnostic| diagnostic.fault.gravity() == Gravity::Error);
+        if found.is_empty() { Ok(text) } else { Err(Uncut::Found(found)) }
+    }
+
+    /// The files with their heads. `hash` is that of the source.
+    ///
+    /// # Errors
+    /// The anonymous files cannot be written.
+    pub(super) fn files_per_tool(&mut self, head: &Head, hash: &[u8; 32]) -> io::Result<Vec<ToolFile>> {
+        let cut = self.per_tool.take().map(|own| own.cut).unwrap_or_default();
+        let count = cut.len();
+        let mut files = Vec::new();
+        for (at, Cut { tool, lines, text, .. }) in cut.into_iter().enumerate() {
+            let mut head = Head { lines: self.head_lines_of(hash, Some(tool)), ..head.clone() };
+            head.lines.push(about(tool, at + 1, count, lines));
+            if self.job.head {
+                let put_in = match tool {
+                    Some(_) => {
+                        "begin at rest, after a reset, with this tool put in and the zero of Z set by it"
+                    }
+                    None => "begin at rest, after a reset, with the tool that is in the spindle",
+                };
+                head.lines.push(put_in.to_owned());
+            }
+            let mut own = Vec::new();
+            // What becomes of the program's name is told once.
+            self.writer.head(&head, &mut own, &mut Vec::new());
+            let job = self.job;
+            self.check(|_| Verifier::new(job).head(&own));
+            let mut output = Output::new();
+            output.set_head(own);
+            output.push(&text)?;
+            files.push(ToolFile { tool, number: at + 1, count, lines, output });
+        }
+        Ok(files)
+    }
+}
+
+/// Why there are no files.
+enum Uncut {
+    /// A file could not state something that it relies on.
+    Refused { at: usize, what: String },
+    /// The writer has no words for its beginning or its end.
+    Found(Vec<Diagnostic>),
+    /// A file does not do by itself what its part of the whole does: a fault of the compiler.
+    Differs { at: usize, difference: String },
+}
+
+/// The line of a head that names the tool.
+fn about(tool: Option<i64>, number: usize, count: usize, lines: Option<(u64, u64)>) -> String {
+    let tool = tool.map_or("THE TOOL IN THE SPINDLE".to_owned(), |tool| format!("TOOL {tool}"));
+    let lines = match lines {
+        Some((first, last)) if first == last => format!(", line {first} of the source"),
+        Some((first, last)) => format!(", lines {first} to {last} of the source"),
+        None => String::new(),
+    };
+    format!("{tool}: file {number} of {count}{lines}")
+}
+
+/// Spindle and coolant off, and Z to machine zero: as the block of a change by hand does it.
+fn up(units: Option<Units>) -> Vec<Stmt> {
+    let mut to = Point::default();
+    if let Some(zero) = place(0, Axis::Z, units) {
+        to.set(Axis::Z, zero);
+    }
+    let ops = [
+        Op::StopSpindleTurning,
+        Op::CoolantOff,
+        Op::UseMachineCoordinates { length: false },
+        Op::StraightTraverse(Move { to, said: true }),
+    ];
+    // Two blocks: what is off before Z goes up depends on no order within one.
+    let joined = |(at, op)| Stmt { joined: at % 2 > 0, ..Stmt::new(Span::default(), op) };
+    ops.into_iter().enumerate().map(joined).collect()
+}
+
+/// A place in program coordinates as a word in the active unit; `None` if inches cannot state it exactly.
+fn place(at: Nanos, axis: Axis, units: Option<Units>) -> Option<Coord> {
+    let value = match (axis.is_rotary(), units) {
+        (true, _) => Num::from_nanos(at, EXACT, Unit::Degree),
+        (false, Some(Units::Inch)) => {
+            let tenths = at.checked_mul(10).filter(|tenths| tenths % 254 == 0)?;
+            Num::from_nanos(tenths / 254, EXACT, Unit::Inch)
+        }
+        (false, _) => Num::from_nanos(at, EXACT, Unit::Mm),
+    };
+    Some(Coord { value: Expr::Num(value.trimmed()), distance: Fact::Known(Distance::Absolute) })
+}
+
+/// The text of a file while it is put together.
+#[derive(Default)]
+struct Text {
+    text: Vec<u8>,
+    bodies: Vec<Range<u32>>,
+}
+
+impl Text {
+    /// Text of the whole program.
+    fn body(&mut self, whole: &[u8], range: Range<usize>) {
+        let begins = self.text.len() as u32;
+        self.text.extend_from_slice(&whole[range]);
+        self.bodies.push(begins..self.text.len() as u32);
+    }
+
+    /// What stands in no other text.
+    fn joint(&mut self, text: &[u8]) {
+        if !self.text.is_empty() && self.text.last() != Some(&b'\n') {
+            self.text.push(b'\n');
+        }
+        self.text.extend_from_slice(text);
+    }
+}
+
+impl PerTool {
+    /// Puts the lines of the source to the files, where the tool changes follow one another in its own text.
+    ///
+    /// # Errors
+    /// Reading the source.
+    fn number_lines(&mut self, source: &mut dyn Readable, text: &[u8], job: &Job) -> io::Result<()> {
+        let last_line = text.len().saturating_sub(1);
+        // Of the first file its tool change: one that comes again, in a loop or a subprogram, has no lines of its own.
+        let first = self.cut.first().map(|cut| cut.begins[1]);
+        let begins = first.into_iter().chain(self.cut.iter().skip(1).map(|cut| cut.begins[0]));
+        let places = self.sources_of(text, begins.chain([last_line]));
+        let places: Vec<u32> = places.iter().map(|span| span.start).collect();
+        if places.iter().any(|place| job.called.as_ref().is_some_and(|called| called.file(*place).is_some()))
+        {
+            return Ok(());
+        }
+        let lines = Lines::find(source, places.clone())?;
+        let numbers: Option<Vec<u64>> =
+            places.iter().map(|place| lines.line(*place).map(|line| line.number)).collect();
+        let Some(numbers) = numbers.filter(|all| all.is_sorted_by(|a, b| a < b)) else { return Ok(()) };
+        let (count, mut first) = (self.cut.len(), 1);
+        for ((at, cut), next) in self.cut.iter_mut().enumerate().zip(numbers.iter().skip(1)) {
+            let last = if at + 1 == count { *next } else { next - 1 };
+            cut.lines = Some((first, last));
+            first = *next;
+        }
+        Ok(())
+    }
+}
