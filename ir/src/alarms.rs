@@ -5,7 +5,7 @@
 //! zero. Where alarms have no numbers, the number stands before the text. The text stays, in the letters that the
 //! control has, as far as it has place for it.
 //!
-//! Not here: what stands for characters that a control does not show (`letters`).
+//! Not here: what stands for characters that a control does not show (`transliterate`).
 
 use crate::program::Text;
 use crate::transliterate::in_capitals;

@@ -154,7 +154,7 @@
 //! # What else is here
 //!
 //! [`canon`] has the vocabulary of the functions, [`behaviour`] what codes do besides their name, [`computed`] what a
-//! target computes with, [`rank`] what a user has to do about a diagnostic, [`shown`] messages and alarms.
+//! target computes with, [`rank`] what a user has to do about a diagnostic, [`operator_text`] messages and alarms.
 //!
 //! Not here: what the machine does (`ncc-exec`), rewriting (`ncc-passes`), how a control spells it (`ncc-dialects`). This
 //! crate names no dialect, reads no file and prints nothing.

@@ -97,7 +97,7 @@ pub struct Procedure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attribute {
     /// `gives-back`: behind each call the modes, the work offset and the chain of frames are those that were in force
-    /// before it. The statements that say so stand there (the pass `given_back`).
+    /// before it. The statements that say so stand there (the pass `restored_modes`).
     GivesBack,
     /// `runs-through`: advice to stop behind none of its blocks where the operator has the control stop behind each.
     RunsThrough,

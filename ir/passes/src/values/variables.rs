@@ -3,7 +3,7 @@
 //!
 //! Which variable becomes which is told in `names`: it depends on the program and on the two controls alone, and on
 //! nothing that another translation has done. Where the target does not know of variables without a value, what the
-//! program decides by that is decided here (`vacancy`).
+//! program decides by that is decided here (`empty_variables`).
 //!
 //! Refused: a variable that may or may not have a value where it is read, for such a target; one for which the target
 //! has no room.
