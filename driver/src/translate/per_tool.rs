@@ -13,12 +13,13 @@
 //! Not here: whether each file does by itself what its part of the whole does (`verify_run::per_tool`), and the files'
 //! names (`job::ToolFile`).
 
+pub(super) mod origins;
 mod scan;
 
 use std::io;
 use std::ops::Range;
 
-use ncc_backends::{Head, Layout, Numbering, Origin, Writer};
+use ncc_backends::{Head, Layout, Numbering, Writer};
 use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
@@ -27,6 +28,7 @@ use ncc_ir::program::{Coord, FrameSlot, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 
+use self::origins::{Cut, PerTool};
 use self::scan::{Change, Scanned, scan};
 use super::translation::Translation;
 use crate::job::{Job, Output, ToolFile};
@@ -37,60 +39,6 @@ use crate::verify_run::per_tool::{self, Part};
 
 /// Digits after the point by which a place is stated exactly; the writer rounds it as any other.
 const EXACT: u8 = 9;
-
-/// What a file per tool needs besides the text.
-#[derive(Debug, Default)]
-pub(super) struct PerTool {
-    /// Where the lines of the text come from, in their order.
-    origins: Vec<(u32, Span)>,
-    /// The files without their heads, in the order in which they are run.
-    cut: Vec<Cut>,
-}
-
-/// A file without its head.
-#[derive(Debug)]
-struct Cut {
-    tool: Option<i64>,
-    /// First and last line of the source, where the tool changes follow one another there.
-    lines: Option<(u64, u64)>,
-    /// Where it begins in the text of the whole, and where its tool change is.
-    begins: [usize; 2],
-    text: Vec<u8>,
-}
-
-impl PerTool {
-    /// Takes where further lines of the text come from.
-    pub(super) fn take(&mut self, origins: &[Origin]) {
-        let own = |origin: &Origin| (origin.lines, origin.spans.last().copied().unwrap_or_default());
-        self.origins.extend(origins.iter().map(own));
-    }
-
-    /// The places in the source of what is written at places of the text, which come in their order.
-    fn sources_of(&self, text: &[u8], places: impl IntoIterator<Item = usize>) -> Vec<Span> {
-        let mut origins = self.origins.iter();
-        let mut origin = origins.next();
-        // Lines of the text before `from`, and before the end of the origin at hand.
-        let (mut from, mut line, mut end) = (0, 0, origin.map_or(0, |(lines, _)| u64::from(*lines)));
-        let mut found = Vec::new();
-        for at in places {
-            line += memchr::memchr_iter(b'\n', text.get(from..at).unwrap_or_default()).count() as u64;
-            from = at.max(from);
-            while origin.is_some() && line >= end {
-                origin = origins.next();
-                end += origin.map_or(0, |(lines, _)| u64::from(*lines));
-            }
-            // An empty line has no place of its own, nor has a safe start: the next one that has.
-            let mut rest = origin.into_iter().chain(origins.clone()).map(|(_, span)| *span);
-            found.push(rest.find(|span| span.start < span.end).unwrap_or_default());
-        }
-        found
-    }
-
-    /// The place in the source of what is written at a place of the text.
-    fn source_of(&self, text: &[u8], at: usize) -> Span {
-        self.sources_of(text, [at]).first().copied().unwrap_or_default()
-    }
-}
 
 impl Translation<'_> {
     /// Cuts the text that was verified at its tool changes, and verifies each file by itself.

@@ -1,7 +1,7 @@
 //! One translation on its way: what is between source and output, piece by piece.
 
 use super::parametric::{self, target};
-use super::per_tool::PerTool;
+use super::per_tool::origins::PerTool;
 use crate::job::parameters::{bore_shift, orientation, parameter};
 
 use std::collections::BTreeSet;
