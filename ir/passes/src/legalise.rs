@@ -42,8 +42,6 @@ use crate::tools::tool_change::ToolChangeState;
 use crate::tools::tool_edge::ToolEdgeState;
 use crate::tools::z_after_change::ZAfterChangeState;
 
-use crate::PASSES;
-use crate::Target;
 use crate::arcs::{arc_form, convert_arcs};
 use crate::flow::{expand_repeats, repeat_ends};
 use crate::frames::expand_frames;
@@ -56,6 +54,8 @@ use crate::support::needs::{
     PATTERN, POLAR, SHIFT, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use crate::support::walk::Walk;
+use crate::table::PASSES;
+use crate::target::Target;
 use crate::tools::tool_axis;
 use crate::watch::{ran, ran_whole};
 use ncc_ir::behaviour::Behaviours;

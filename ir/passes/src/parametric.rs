@@ -1,20 +1,18 @@
-//! A program that computes, said with what the target computes with: forms of control, functions, known facts, and
+//! A program that computes, legalised with what the target computes with: forms of control, functions, known modes, and
 //! variables.
+//!
+//! ```text
+//! IF [#1 EQ 2] GOTO 10    a target with structures: IF … ENDIF; one with other functions: their forms there
+//! ```
 //!
 //! The steps are rows of the table of passes, in its order. Not here: blocks between two statements of control, which the
 //! legaliser brings within the target's capabilities.
 
-use ncc_ir::computed::computed_code;
-use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
 
-use crate::PASSES;
-use crate::frames::computed_frames;
-use crate::modes::word_distance;
 pub use crate::pass::Parametric;
-use crate::pass::Pass;
-use crate::support::mode_analysis;
+use crate::table::PASSES;
 use crate::watch::ran_whole;
 
 impl Parametric<'_> {
@@ -27,55 +25,3 @@ impl Parametric<'_> {
         }
     }
 }
-
-/// Modes that are saved and put back are words, where the target cannot save them.
-pub(crate) const CODES_PUT_BACK: Pass = Pass::parametric(
-    "codes-put-back",
-    "puts modes that a program saves and puts back into words, where the target cannot save them",
-    |own, _| own.others && !own.target.has(ComputeFeature::CodeOf),
-    |program, own, _| mode_analysis::put_back(program, &own.entry, own.target),
-);
-
-/// Computed codes are those that the target takes.
-pub(crate) const CODES: Pass = Pass::parametric(
-    "codes-without-alarms",
-    "takes computed codes without the alarm for those that are none",
-    |_, _| true,
-    |program, own, _| {
-        let target = own.target;
-        for procedure in &mut program.procedures {
-            computed_code::without_alarms(&mut procedure.body, &|control| target.says_number(control));
-        }
-    },
-);
-
-/// Calls go no deeper than the target takes.
-pub(crate) const DEPTH: Pass = Pass::parametric(
-    "deep-calls",
-    "refuses calls that go deeper within one another than the target takes",
-    |own, _| own.source.calls != own.target.calls,
-    |program, own, found| found.extend(own.target.too_deep(program)),
-);
-
-/// Modes are said anew where ways join.
-pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
-    "known-facts",
-    "states modes anew where ways of a program that computes join",
-    |own, program| {
-        let restates = own.target.restates && !own.keeps_words || computed_frames::behind_control(program);
-        restates || own.source.blocks != own.target.blocks
-    },
-    |program, own, _| {
-        if own.target.restates && !own.keeps_words || computed_frames::behind_control(program) {
-            own.known = mode_analysis::run(program, &own.entry, own.others);
-            return;
-        }
-        // Words of another language lead to stretches of its blocks; what they say stays as it is.
-        own.known = mode_analysis::run(&mut program.clone(), &own.entry, true);
-        // Where a target's words have no mode of their own, the mode behind one that has is said anew.
-        let measures = own.word_distance && !own.caps.modes.word_distance;
-        if measures && !word_distance::places(program, &own.known).is_empty() {
-            own.known = mode_analysis::run(program, &own.entry, true);
-        }
-    },
-);

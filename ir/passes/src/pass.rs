@@ -1,6 +1,6 @@
 //! What a pass is: a name, a line about it, and how it is run.
 //!
-//! Each pass is a `PASS` in its own file, which says what makes it needed; [`crate::PASSES`] is the table of them, and its
+//! Each pass is a `PASS` in its own file, which says what makes it needed; [`crate::table::PASSES`] is the table of them, and its
 //! order is the order in which they run. A new pass is a file and a line of the table.
 
 use std::collections::BTreeSet;
@@ -16,10 +16,10 @@ use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::program::{Lines, Program, Stmt, Text};
 use ncc_ir::track::Tracker;
 
-use crate::Target;
 use crate::support::mode_analysis::Known;
 use crate::support::states::States;
 use crate::support::walk::Walk;
+use crate::target::Target;
 use crate::values::variables::renamed::{Digits, Renamed};
 
 /// A pass on a whole program; the tracker says what holds before the main procedure.

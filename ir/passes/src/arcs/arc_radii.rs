@@ -8,10 +8,10 @@
 //! Not here: what the source's own control refuses, which its execution finds; and arcs whose start is not known, which
 //! the execution of the output finds.
 
-use crate::Target;
 use crate::arcs::convert_arcs::centre_of;
 use crate::support::walk::Walk;
 use crate::support::write::is_absolute;
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Nanos;

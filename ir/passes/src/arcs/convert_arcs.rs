@@ -7,8 +7,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::ARC;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{EXACT, rounded, unit_of};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;

@@ -9,8 +9,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::RADIUS;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::caps::Radii;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;

@@ -14,19 +14,19 @@ mod contour;
 mod written;
 
 use crate::pass::Pass;
-use std::collections::BTreeMap;
 
 use self::contour::{Contour, contour};
 use self::written::{Written, cannot, mm, nanos, straight};
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{Target, each_body};
+use crate::target::{Compensating, Target};
 use ncc_exec::world::Tables;
 use ncc_ir::canon::{AdviceKind, FeedMode, Motion, Plane, Side};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
-use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::expr::num::Num;
 use ncc_ir::geometry::arc_feed::ArcFeed;
-use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Rules, Unreachable};
+use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Unreachable};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
@@ -38,23 +38,6 @@ pub(crate) const PASS: Pass = Pass::named(
     "writes the path of the tool's centre for cutter radius compensation",
     Some(run),
 );
-
-/// How compensation is worked out.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Compensating {
-    /// What controls do each in a way of their own.
-    pub rules: Rules,
-    /// Whether the source's control is known to follow them.
-    pub known: bool,
-    /// Radii of tools by their entries, as far as a profile states them, in nanos of a millimetre.
-    pub radii: BTreeMap<u32, Nanos>,
-    /// Whether the statements that switch it on and off stay, and every block is one: for a list of calls.
-    pub listing: bool,
-    /// What F counts on arcs where the program states nothing, as the source's control has it.
-    pub arc_feed: ArcFeed,
-    /// Digits of F behind the point in the target.
-    pub feed_decimals: u8,
-}
 
 /// Works compensation out.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {

@@ -5,8 +5,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::ARC;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{rebuild, rounded, unit_of};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Nanos;

@@ -1,8 +1,8 @@
 //! A point by radius and angle, or a line by its angle, as a move by coordinates.
 
-use crate::Target;
 use crate::support::walk::Walk;
 use crate::support::write::{self, EXACT, is_absolute, rounded};
+use crate::target::Target;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::geometry::polar;

@@ -9,7 +9,7 @@ use crate::pass::{Pass, ProgramMoment, ProgramStep, Subprograms};
 use crate::support::settle::settle;
 use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
-use crate::{MOST_STATEMENTS, Target};
+use crate::target::{MOST_STATEMENTS, Target};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Call, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;

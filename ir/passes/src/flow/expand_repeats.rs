@@ -10,7 +10,7 @@ use crate::flow::repeat_ends;
 use crate::pass::{Moment, Pass, ProgramMoment, ProgramStep, Step, Subprograms};
 use crate::support::needs::CONTROL;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{MOST_STATEMENTS, Target};
+use crate::target::{MOST_STATEMENTS, Target};
 use ncc_exec::again;
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault};

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 
 use crate::support::settle::settle;
 use crate::support::walk::Walk;
-use crate::{MOST_STATEMENTS, Target};
+use crate::target::{MOST_STATEMENTS, Target};
 use ncc_exec::world::World;
 use ncc_exec::{Exec, Runner};
 use ncc_ir::canon::{AXES, Distance, Units};

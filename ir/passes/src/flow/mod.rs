@@ -11,6 +11,7 @@ pub mod control_forms;
 pub mod expand_calls;
 pub mod expand_repeats;
 pub mod flatten;
+pub(crate) mod known_modes;
 pub mod number_names;
 pub(crate) mod repeat_ends;
 pub mod restored_modes;

@@ -6,8 +6,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::Target;
 use crate::pass::{Pass, ProgramMoment, ProgramStep};
+use crate::target::Target;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;

@@ -5,7 +5,8 @@
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::SKIP;
-use crate::{Target, each_body};
+use crate::support::walk::each_body;
+use crate::target::Target;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Program, Stmt};
 use ncc_ir::track::Tracker;

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::pass::{Pass, ProgramMoment, ProgramStep, Subprograms};
 use crate::support::settle::{settle, settle_point};
 use crate::support::walk::Walk;
-use crate::{MOST_STATEMENTS, Target};
+use crate::target::{MOST_STATEMENTS, Target};
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Procedure, Program, Stmt, Text};

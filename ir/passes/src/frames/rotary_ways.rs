@@ -7,8 +7,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::TURN;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::rebuild;
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, RotaryWay};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::ONE;

@@ -5,8 +5,9 @@
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::WORK;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::kinds::{

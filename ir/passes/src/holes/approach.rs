@@ -8,9 +8,10 @@
 use crate::holes::sayable::{level, sayable};
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
+use crate::support::walk::each_body;
 use crate::support::walk::{Walk, has_holes};
 use crate::support::write::{at, only, traverse};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;

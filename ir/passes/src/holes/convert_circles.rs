@@ -6,7 +6,8 @@
 
 use crate::holes::expand_patterns;
 use crate::pass::Pass;
-use crate::{Target, each_body};
+use crate::support::walk::each_body;
+use crate::target::Target;
 use ncc_ir::caps::{Caps, CircleStart, HoleCaps};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;

@@ -3,9 +3,9 @@
 //! A cycle states its feed again at every hole, so that the machine does the same. Only where
 //! nothing but remarks stands between, under the same block skip, and the cycle says no feed itself.
 
-use crate::Target;
 use crate::pass::Pass;
 use crate::support::write::rebuild;
+use crate::target::Target;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Program, Stmt};

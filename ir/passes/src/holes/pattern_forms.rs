@@ -5,9 +5,9 @@
 //! the same order. Where a control chooses the order by where the tool stands, that is only where
 //! the tool stands at the first hole.
 
-use crate::Target;
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute, rounded};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Plane};
 use ncc_ir::caps::{Caps, CircleStart, GridWay};
 use ncc_ir::expr::Expr;

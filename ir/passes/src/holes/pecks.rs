@@ -6,10 +6,10 @@
 //!
 //! Not here: the last stroke, to the bottom, which every cycle has (`expand_cycles`).
 
-use crate::Target;
 use crate::holes::sayable::lasts;
 use crate::support::walk::Walk;
 use crate::support::write::{cut, exact, only, traverse, unit_of};
+use crate::target::Target;
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;

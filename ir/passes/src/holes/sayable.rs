@@ -1,8 +1,8 @@
 //! Which cycles a target says as they are.
 
-use crate::Target;
 use crate::support::walk::Walk;
 use crate::support::write::{as_absolute, at, is_absolute};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, ReturnLevel};
 use ncc_ir::caps::{Caps, CycleCap, CycleForm, Lift};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};

@@ -7,10 +7,10 @@
 //! or whose direction is a parameter that nobody has stated, and a spindle that shall turn on as before
 //! where it is not known how it turned.
 
-use crate::Target;
 use crate::holes::sayable::lasts;
 use crate::support::walk::Walk;
 use crate::support::write::{cut, exact, traverse, unit_of};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn};
 use ncc_ir::caps::{CycleCap, CycleForm};
 use ncc_ir::diag::{Fault, ModeName};

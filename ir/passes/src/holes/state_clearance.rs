@@ -6,8 +6,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::rounded;
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};

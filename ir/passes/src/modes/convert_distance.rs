@@ -3,11 +3,11 @@
 //! An axis whose place is not known is refused by name. Planes of cycles and places of patterns stay
 //! as they are measured; machine coordinates too.
 
-use crate::Target;
-use crate::each_body;
 use crate::pass::Pass;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{at, exact, unit_of};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::program::{Coord, Op, Point, Program, Stmt};

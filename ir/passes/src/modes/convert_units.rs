@@ -7,8 +7,9 @@
 
 use crate::pass::Pass;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{exact, rounded, unit_of};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance, SpindleMode, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;

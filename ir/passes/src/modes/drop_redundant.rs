@@ -13,8 +13,9 @@
 use crate::fold::fold_cycles::feed;
 use crate::pass::Pass;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::rebuild;
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, FeedMode, Modes, Motion};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Num;

@@ -18,8 +18,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::mode_analysis::Known;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_exec::{DEGREES, LINEAR};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, FeedMode, Units};

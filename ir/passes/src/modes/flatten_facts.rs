@@ -6,8 +6,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::EVERY;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{exact, rebuild, unit_of};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Fact, Motion};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;

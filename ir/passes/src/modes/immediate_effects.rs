@@ -5,10 +5,10 @@
 //!
 //! It changes nothing. What depends on either is refused where the source says it.
 
-use crate::Target;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::AT_ONCE;
 use crate::support::walk::Walk;
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance, Fact, ReturnLevel};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault};

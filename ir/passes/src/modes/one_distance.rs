@@ -6,8 +6,9 @@
 use crate::pass::{Moment, Pass, Piece, Shared, Step};
 use crate::support::needs::{ARC, CORNER, FRAME, MEASURE};
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{at, is_absolute};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Point, Program, Stmt};

@@ -10,8 +10,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::MOVE;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::Rebuild;
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::FeedMode;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::kinds::{flow, frames, machine, miscellaneous, moves, tooling, variables};

@@ -7,8 +7,9 @@
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::PATH;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{AdviceKind, PathMode};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault};

@@ -8,7 +8,7 @@ use ncc_ir::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::cycle::Pattern;
 use ncc_ir::program::kinds::{conduct, flow, frames, miscellaneous, modes, tooling, variables};
-use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
+use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
 
 /// A tracker that knows stretches of skipped blocks.
@@ -239,5 +239,17 @@ pub(crate) fn has_holes(pattern: &Pattern) -> bool {
         Pattern::Circle { count, .. } | Pattern::Line { count, .. } => *count > 0,
         Pattern::List(points) => !points.is_empty(),
         Pattern::Grid { columns, rows, .. } => columns.count > 0 && rows.count > 0,
+    }
+}
+
+/// Runs a pass over each procedure; what holds before a subprogram is not known.
+pub(crate) fn each_body(
+    program: &mut Program,
+    entry: &Tracker,
+    mut over: impl FnMut(&mut Vec<Stmt>, &mut Walk),
+) {
+    for (at, procedure) in program.procedures.iter_mut().enumerate() {
+        let mut walk = Walk::new(if at == 0 { entry.clone() } else { Tracker::unknown() });
+        over(&mut procedure.body, &mut walk);
     }
 }

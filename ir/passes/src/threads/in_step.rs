@@ -10,9 +10,10 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::{CYCLE, THREAD};
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, at, rebuild};
+use crate::target::Target;
 use crate::threads::taps::{self, Said};
-use crate::{Target, each_body};
 use ncc_ir::canon::{AXES, Axis, Fact, ReturnLevel, Spindle, Turn};
 use ncc_ir::caps::Threads;
 use ncc_ir::diag::{Diagnostic, Fault};

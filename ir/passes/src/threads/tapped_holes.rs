@@ -8,11 +8,11 @@
 //! another feed on the way out, along several axes, or where the tool stands is not known; dwells and turns of which the
 //! target's cycle makes others. In and out in one block is `threads`'.
 
-use crate::Target;
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::{CYCLE, THREAD};
 use crate::support::walk::Walk;
 use crate::support::write::at;
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Fact, Plane, ReturnLevel, Spindle, Turn};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::expr::Expr;

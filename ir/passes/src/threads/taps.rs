@@ -8,8 +8,9 @@
 //!
 //! Not here: tapping for a target without a cycle for it, which `expand-cycles` writes out or refuses.
 
+use crate::support::walk::each_body;
 use crate::support::write::{exact, rebuild, rounded};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::{FeedMode, Motion, Spindle, Units};
 use ncc_ir::caps::{CycleCap, CycleForm};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};

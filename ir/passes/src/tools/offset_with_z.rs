@@ -7,8 +7,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::LENGTH;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::Rebuild;
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;

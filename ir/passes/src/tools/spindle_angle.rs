@@ -4,8 +4,8 @@
 //! granted and told. Where the target has no stop at an angle of its own, the angle must be stated: that of the
 //! source's control, if its profile says it.
 
-use crate::Target;
 use crate::pass::{Moment, Pass, Step};
+use crate::target::Target;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Program, Stmt};

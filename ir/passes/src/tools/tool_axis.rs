@@ -9,8 +9,9 @@
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::TOOL_AXIS;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, rebuild};
-use crate::{Target, each_body};
+use crate::target::Target;
 use ncc_exec::TiltedPlane;
 use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::caps::{TiltForm, TipForm};

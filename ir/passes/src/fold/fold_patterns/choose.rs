@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::Target;
 use crate::fold::fold_patterns::circle::{self, Circle, Wanted};
 use crate::fold::fold_patterns::decimal::Decimal;
 use crate::fold::fold_patterns::rows::{self, Line, Rows, Start, Step};
@@ -10,6 +9,7 @@ use crate::fold::fold_patterns::{Hole, LEAST_DIGITS, Spot, here, may_lead_in, pl
 use crate::holes::expand_patterns::sayable;
 use crate::support::walk::Walk;
 use crate::support::write::exact;
+use crate::target::Target;
 use ncc_ir::canon::{Axis, Plane};
 use ncc_ir::caps::GridWay;
 use ncc_ir::expr::num::{Nanos, ONE, POW10, Unit};

@@ -25,8 +25,9 @@ mod rows;
 
 use crate::pass::Pass;
 use crate::support::walk::Walk;
+use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, at, is_absolute, traverse};
-use crate::{Target, each_body};
+use crate::target::Target;
 use choose::{Found, Stretch};
 use ncc_ir::canon::{Axis, Plane, ReturnLevel};
 use ncc_ir::diag::{Diagnostic, Fault};
