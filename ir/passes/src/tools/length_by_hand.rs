@@ -7,7 +7,7 @@
 //!
 //! The operator sets the zero of Z by the tool that is put in, so that Z counts from its tip. That is the same cut if all
 //! of a tool's moves along Z are measured by its own length, or all of them by none. Anything else is refused: another
-//! tool's length, and a tool that moves along Z with its length and without.
+//! tool's length, a tool that moves along Z with its length and without, and an incremental first move of a tool.
 //!
 //! Not here: the change itself (the writer), and edges of tools (`tool_edge`, which comes before).
 
@@ -15,6 +15,7 @@ use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::TABLE;
 use crate::support::walk::Walk;
 use crate::support::write::rebuild;
+use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Stmt};
 
@@ -119,6 +120,10 @@ impl LengthByHandState {
         let own = entry.is_none_or(|entry| walk.at.tool == Some(i64::from(entry)));
         if !own {
             self.refuse("a move along Z by the length of another tool".to_owned(), stmt, diags);
+        } else if by_length && self.used.is_none() && counts_from_z(&stmt.op) {
+            // The source adds the length to where Z is. The operator may have left Z anywhere.
+            let what = "an incremental move along Z with which the length of a new tool takes effect";
+            self.refuse(what.to_owned(), stmt, diags);
         } else if self.used.is_some_and(|used| used != by_length) {
             self.refuse("moves of one tool along Z with its length and without".to_owned(), stmt, diags);
         }
@@ -130,4 +135,10 @@ impl LengthByHandState {
             diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
         }
     }
+}
+
+/// Whether a straight move along Z is incremental.
+fn counts_from_z(op: &Op) -> bool {
+    let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = op else { return false };
+    m.to.get(Axis::Z).is_some_and(|z| z.distance.known() == Some(Distance::Incremental))
 }

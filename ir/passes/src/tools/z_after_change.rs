@@ -84,6 +84,8 @@ impl ZAfterChangeState {
                 flow!() | Op::StartCycle(_) | Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
                     (self.left, self.up) = (None, false);
                 }
+                // With another length, its end is another.
+                Op::UseToolLengthOffset(_) | Op::UseToolLength(_) => self.left = None,
                 op if changes_place(op) => self.left = None,
                 op => {
                     let moves = words_of(op).is_some_and(|to| to.get(Axis::Z).is_some());
