@@ -50,15 +50,17 @@ pub(crate) fn check(
     usage(&format!("{text} is no folder"), "name one for them, with a slash if it is new: `-o FOLDER/`")
 }
 
-/// Files of an earlier run: their names are of the same program, and no file of this run has them.
+/// Files of an earlier run: their names are of the same program and name a tool, and no file of this run has them. (A name
+/// without a tool may be another program's.)
 pub(crate) fn left_over(written: &[PathBuf]) -> Vec<PathBuf> {
-    let Some((folder, stem, extension)) = written.first().and_then(|path| named(path)) else {
+    let Some(Named { folder, program, extension, .. }) = written.first().and_then(|path| named(path)) else {
         return Vec::new();
     };
     let entries = fs::read_dir(if folder.as_os_str().is_empty() { Path::new(".") } else { &folder });
     let of_program = |path: &PathBuf| {
         let own = named(path);
-        own.is_some_and(|(_, own, ending)| own == stem && ending == extension) && !written.contains(path)
+        own.is_some_and(|own| own.tool && own.program == program && own.extension == extension)
+            && !written.contains(path)
     };
     let paths = entries.into_iter().flatten().filter_map(|entry| Some(folder.join(entry.ok()?.file_name())));
     let mut found: Vec<PathBuf> = paths.filter(of_program).collect();
@@ -66,18 +68,24 @@ pub(crate) fn left_over(written: &[PathBuf]) -> Vec<PathBuf> {
     found
 }
 
-/// Folder, name of the program, and extension of a file per tool.
-fn named(path: &Path) -> Option<(PathBuf, String, String)> {
+/// The name of a file per tool.
+struct Named {
+    folder: PathBuf,
+    program: String,
+    extension: String,
+    /// Whether it names a tool.
+    tool: bool,
+}
+
+fn named(path: &Path) -> Option<Named> {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let stem = path.file_stem()?.to_str()?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-    let without_tool = match stem.rsplit_once("-T") {
-        Some((rest, tool)) if is_number(tool) => rest,
-        Some(_) | None => stem,
-    };
-    let (program, number) = without_tool.rsplit_once('-')?;
-    is_number(number).then(|| (folder, program.to_owned(), extension))
+    let of_tool = stem.rsplit_once("-T").filter(|(_, tool)| is_number(tool));
+    let (program, number) = of_tool.map_or(stem, |(rest, _)| rest).rsplit_once('-')?;
+    let named = || Named { folder, program: program.to_owned(), extension, tool: of_tool.is_some() };
+    is_number(number).then(named)
 }
 
 #[cfg(test)]
@@ -98,7 +106,7 @@ mod tests {
         ] {
             fs::write(path(name), "").unwrap();
         }
-        assert_eq!(left_over(&[path("part-1-T3.gcode")]), [path("part-2-T5.gcode"), path("part-2.gcode")]);
+        assert_eq!(left_over(&[path("part-1-T3.gcode")]), [path("part-2-T5.gcode")]);
         assert_eq!(left_over(&[]), [] as [PathBuf; 0]);
     }
 }

@@ -369,6 +369,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             if what.contains("relies on where") {
                 all.insert(0, "state it here: a rapid move in G90 with all axes, above the work".into());
             }
+            if what.contains("comes before the first") {
+                all.insert(0, "move it behind the first tool change".into());
+            }
             all
         }
         Fault::ModeNotSet { .. } => own("say it at the head of the program"),

@@ -20,6 +20,7 @@ use std::io;
 use std::ops::Range;
 
 use ncc_backends::{Head, Layout, Numbering, Writer};
+use ncc_dialects::Meaning;
 use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
@@ -29,7 +30,7 @@ use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 
 use self::origins::{Cut, PerTool};
-use self::scan::{Change, Scanned, scan};
+use self::scan::{BEFORE_FIRST, Change, Scanned, scan};
 use super::translation::Translation;
 use crate::job::{Job, Output, ToolFile};
 use crate::render::source::Lines;
@@ -79,22 +80,39 @@ impl Translation<'_> {
         let scanned = scan(self.job, text).map_err(|(at, what)| refused(at, &what))?;
         let Scanned { changes, cuts_before, used } = scanned;
         let Some(first) = changes.first() else { return Ok(Vec::new()) };
-        let (mut begins, mut parts) = (Vec::new(), Vec::new());
+        let (mut begins, mut offsets, mut parts) = (Vec::new(), Vec::new(), Vec::new());
         if cuts_before {
             begins.push([0, 0]);
             let mut file = Text::default();
             file.body(text, 0..first.comments);
             file.joint(&self.end_of_file(&first.modes)?);
-            parts.push(Part { tool: None, changes: 0, bodies: file.bodies, text: file.text });
+            offsets.push(Vec::new());
+            parts.push(Part {
+                tool: None,
+                changes: 0,
+                own_beginning: 0,
+                bodies: file.bodies,
+                text: file.text,
+            });
         }
         for (at, change) in changes.iter().enumerate() {
             let next = changes.get(at + 1);
             let mut file = Text::default();
             let whole = at == 0 && !cuts_before;
             begins.push([if whole { 0 } else { change.comments }, change.block.start]);
+            if let Some(place) = change.relative_z {
+                return Err(refused(
+                    place,
+                    "this first move along Z relies on where Z was at the tool change",
+                ));
+            }
+            let own_beginning = if whole { change.block.start } else { 0 };
             if whole {
-                file.body(text, 0..change.block.start);
-                file.joint(&self.written(&up(change.modes.units), Some(&change.modes))?);
+                file.joint(&text[..own_beginning]);
+                self.places(change, |at| at.map(|_| None))?;
+                let mut stmts = up(change.modes.units);
+                stmts.extend(remark(change));
+                file.joint(&self.written(&stmts, Some(&change.modes))?);
             } else {
                 file.body(text, change.comments..change.block.start);
                 file.joint(&self.beginning(change).and_then(|stmts| self.written(&stmts, None))?);
@@ -104,17 +122,24 @@ impl Translation<'_> {
                 file.joint(&self.end_of_file(&next.modes)?);
             }
             let tool = Some(change.tool);
-            parts.push(Part { tool, changes: 1, bodies: file.bodies, text: file.text });
+            offsets.push(change.offsets.clone());
+            let own_beginning = own_beginning as u32;
+            parts.push(Part { tool, changes: 1, own_beginning, bodies: file.bodies, text: file.text });
         }
-        per_tool::verify(self.job, text, &parts, &used, inherited)
-            .map_err(|found| Uncut::Differs { at: found.at, difference: found.difference })?;
-        let cut = |(part, begins): (Part, [usize; 2])| Cut {
+        per_tool::verify(self.job, text, &parts, &used, inherited).map_err(|found| {
+            match found.difference {
+                Some(difference) => Uncut::Differs { at: found.at, difference },
+                None => refused(found.at, BEFORE_FIRST),
+            }
+        })?;
+        let cut = |((part, begins), offsets): ((Part, [usize; 2]), Vec<u16>)| Cut {
             tool: part.tool,
+            offsets,
             lines: None,
             begins,
             text: part.text,
         };
-        Ok(parts.into_iter().zip(begins).map(cut).collect())
+        Ok(parts.into_iter().zip(begins).zip(offsets).map(cut).collect())
     }
 
     /// What a file states before the moves of its tool.
@@ -134,17 +159,8 @@ impl Translation<'_> {
         ops.extend(no_origin_shift.filter(|none| *none).map(|_| Op::ClearFrame(FrameSlot::Shift)));
         let mut stmts: Vec<Stmt> = ops.into_iter().map(|op| Stmt::new(Span::default(), op)).collect();
         stmts.append(&mut up(units));
-        let mut to = Point::default();
-        for axis in Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]) {
-            let name = char::from(axis.letter());
-            let at = change.position[axis as usize].ok_or_else(|| {
-                refused(format!("this first move relies on where {name} was at the tool change"))
-            })?;
-            let word = place(at, axis, units).ok_or_else(|| {
-                refused(format!("inches cannot state exactly where {name} is at the tool change"))
-            })?;
-            to.set(axis, word);
-        }
+        stmts.extend(remark(change));
+        let to = self.places(change, |at| at.map(Some))?;
         let mut after = Vec::new();
         if !to.is_empty() {
             after.push(Op::StraightTraverse(Move { to, said: true }));
@@ -162,6 +178,30 @@ impl Translation<'_> {
         }
         stmts.extend(after.into_iter().map(|op| Stmt::new(Span::default(), op)));
         Ok(stmts)
+    }
+
+    /// The places on which the first move after a tool change relies, as words of a rapid move; `says` is whether one that is
+    /// known is said.
+    fn places(
+        &self,
+        change: &Change,
+        says: impl Fn(Option<Nanos>) -> Option<Option<Nanos>>,
+    ) -> Result<Point, Uncut> {
+        let refused =
+            |what: String| Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), what };
+        let mut to = Point::default();
+        for axis in Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]) {
+            let name = char::from(axis.letter());
+            let at = says(change.position[axis as usize]).ok_or_else(|| {
+                refused(format!("this first move relies on where {name} was at the tool change"))
+            })?;
+            let Some(at) = at else { continue };
+            let word = place(at, axis, change.modes.units).ok_or_else(|| {
+                refused(format!("inches cannot state exactly where {name} is at the tool change"))
+            })?;
+            to.set(axis, word);
+        }
+        Ok(to)
     }
 
     /// What a file ends with that another one follows: at rest, as at the tool change of the whole.
@@ -190,6 +230,20 @@ impl Translation<'_> {
         if found.is_empty() { Ok(text) } else { Err(Uncut::Found(found)) }
     }
 
+    /// The codes of work offsets: ` in G54 and G55`.
+    fn named(&self, offsets: &[u16]) -> String {
+        let mut codes: Vec<&str> = Vec::new();
+        for number in offsets {
+            let row = self.job.to.dialect.code_for(Meaning::SetOriginOffsets(*number));
+            codes.extend(row.map(|row| row.code.as_str()).filter(|code| !codes.contains(code)));
+        }
+        match codes.split_last() {
+            Some((last, [])) => format!(" in {last}"),
+            Some((last, others)) => format!(" in {} and {last}", others.join(", ")),
+            None => String::new(),
+        }
+    }
+
     /// The files with their heads. `hash` is that of the source.
     ///
     /// # Errors
@@ -198,17 +252,21 @@ impl Translation<'_> {
         let cut = self.per_tool.take().map(|own| own.cut).unwrap_or_default();
         let count = cut.len();
         let mut files = Vec::new();
-        for (at, Cut { tool, lines, text, .. }) in cut.into_iter().enumerate() {
+        for (at, Cut { tool, offsets, lines, text, .. }) in cut.into_iter().enumerate() {
             let mut head = Head { lines: self.head_lines_of(hash, Some(tool)), ..head.clone() };
             head.lines.push(about(tool, at + 1, count, lines));
             if self.job.head {
+                let by_tool = |d: &Diagnostic| matches!(d.fault, Fault::LengthByHand { tool: own } if tool == Some(own.into()));
                 let put_in = match tool {
-                    Some(_) => {
-                        "begin at rest, after a reset, with this tool put in and the zero of Z set by it"
+                    Some(_) if self.diagnostics.iter().any(by_tool) => {
+                        format!("with this tool put in and the zero of Z set by it{}", self.named(&offsets))
                     }
-                    None => "begin at rest, after a reset, with the tool that is in the spindle",
+                    Some(_) => {
+                        "with this tool put in, and the zero of Z as it was for the tool before".to_owned()
+                    }
+                    None => "with the tool that is in the spindle".to_owned(),
                 };
-                head.lines.push(put_in.to_owned());
+                head.lines.push(format!("begin at rest, after a reset, {put_in}"));
             }
             let mut own = Vec::new();
             // What becomes of the program's name is told once.
@@ -260,6 +318,11 @@ fn up(units: Option<Units>) -> Vec<Stmt> {
     // Two blocks: what is off before Z goes up depends on no order within one.
     let joined = |(at, op)| Stmt { joined: at % 2 > 0, ..Stmt::new(Span::default(), op) };
     ops.into_iter().enumerate().map(joined).collect()
+}
+
+/// The comment of a change's block.
+fn remark(change: &Change) -> impl Iterator<Item = Stmt> + '_ {
+    change.remark.iter().map(|text| Stmt::new(Span::default(), Op::Comment(text.clone())))
 }
 
 /// A place in program coordinates as a word in the active unit; `None` if inches cannot state it exactly.

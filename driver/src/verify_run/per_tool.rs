@@ -42,8 +42,10 @@ const ELSEWHERE: u32 = 1000;
 pub struct Part {
     /// The tool that is put in; `None` is the one in the spindle.
     pub tool: Option<i64>,
-    /// How many tool changes of the whole it begins behind, or has within it: none or one.
+    /// How many tool changes of the whole it begins behind: none or one.
     pub changes: usize,
+    /// How much of its text is the program's own beginning, before the first tool change of the whole.
+    pub own_beginning: u32,
     /// The stretches of it that stand in the whole as well.
     pub bodies: Vec<Range<u32>>,
     /// Its text.
@@ -55,8 +57,8 @@ pub struct Part {
 pub struct Differs {
     /// Where, in the text of the whole.
     pub at: usize,
-    /// In what.
-    pub difference: String,
+    /// In what; `None` if the program does more than to rest before its first tool change.
+    pub difference: Option<String>,
 }
 
 /// Pieces of whole lines of a text.
@@ -89,16 +91,19 @@ pub fn verify(
         // The whole is run with the tool of its first file put in, too: nothing is cut before its change.
         let first = parts.first().and_then(|part| part.tool);
         let mut program = Running::new(job, whole, control(job, &world, first, inherited));
-        for (at, part) in parts.iter().enumerate() {
+        for part in parts {
             let mut exec = control(job, &world, part.tool, inherited);
-            if at > 0 {
+            if part.changes > 0 {
                 let here = exec.machine();
                 let moved = |axis: Axis| !axis.is_rotary() || used[axis as usize];
                 let place = |axis| if moved(axis) { elsewhere[axis as usize] } else { here[axis as usize] };
                 exec.be_at(Axis::ALL.map(place));
             }
+            if part.own_beginning > 0 {
+                program.go_to_change().map_err(|found| unread(0, &found))?;
+            }
             let file = Running::new(job, &part.text, exec);
-            compare(&mut program, file, part, at > 0)?;
+            compare(&mut program, file, part)?;
         }
     }
     Ok(())
@@ -179,6 +184,12 @@ impl<'t> Running<'t> {
         }
     }
 
+    /// Executes what comes before the next tool change.
+    fn go_to_change(&mut self) -> Result<(), Diagnostic> {
+        while let Next::Event(_) = self.next()? {}
+        Ok(())
+    }
+
     /// Executes the tool change at hand. What it does besides is no matter of a file.
     fn change(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
         self.done += 1;
@@ -202,11 +213,12 @@ impl<'t> Running<'t> {
     }
 }
 
-/// Executes a file and its part of the whole. Where it begins `elsewhere`, what happens before its first move happens where
-/// the operator has left the axes.
-fn compare(whole: &mut Running, mut file: Running, part: &Part, mut elsewhere: bool) -> Result<(), Differs> {
+/// Executes a file and its part of the whole. What happens before the first move of its tool happens where the operator has
+/// left the axes.
+fn compare(whole: &mut Running, mut file: Running, part: &Part) -> Result<(), Differs> {
     let mut last = 0;
-    let differs = |at: u32, difference: String| Differs { at: at as usize, difference };
+    let mut elsewhere = part.changes > 0;
+    let differs = |at: u32, difference: String| Differs { at: at as usize, difference: Some(difference) };
     let mut changes = part.changes;
     let mut begun = file.exec.machine();
     loop {
@@ -219,7 +231,13 @@ fn compare(whole: &mut Running, mut file: Running, part: &Part, mut elsewhere: b
             if within {
                 break Some(event);
             }
-            rests(&event, from).map_err(|what| differs(last, what))?;
+            let at = event.span.start;
+            match rests(&event, from) {
+                Err(_) if at < part.own_beginning => {
+                    return Err(Differs { at: at as usize, difference: None });
+                }
+                rested => rested.map_err(|what| differs(last, what))?,
+            }
         };
         match (own, theirs) {
             (None, None) => break,
@@ -258,7 +276,7 @@ fn next_of_part(whole: &mut Running, changes: &mut usize) -> Result<Option<Event
 
 fn unread(at: u32, found: &Diagnostic) -> Differs {
     let difference = format!("the file of a tool is not read back (NC{:04})", found.fault.code());
-    Differs { at: at as usize, difference }
+    Differs { at: at as usize, difference: Some(difference) }
 }
 
 /// What stands in no other text does no more than to rest.

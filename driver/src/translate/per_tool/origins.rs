@@ -22,6 +22,8 @@ pub(in crate::translate) struct PerTool {
 #[derive(Debug)]
 pub(in crate::translate) struct Cut {
     pub(super) tool: Option<i64>,
+    /// Work offsets that are active in it, by their numbers.
+    pub(super) offsets: Vec<u16>,
     /// First and last line of the source, where the tool changes follow one another there.
     pub(super) lines: Option<(u64, u64)>,
     /// Where it begins in the text of the whole, and where its tool change is.

@@ -7,12 +7,16 @@ use ncc_ir::canon::{AXES, Axis, Distance, Fact, Modes, Motion};
 use ncc_ir::diag::Gravity;
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::kinds::{machine, moves};
-use ncc_ir::program::{Op, Point, Stmt};
+use ncc_ir::program::{Op, Point, Stmt, Text};
 use ncc_ir::track::Tracker;
 
 use crate::job::Job;
 use crate::verify_run::facts::reader_of_output;
 use crate::verify_run::per_tool::pieces;
+
+/// Why a program has no files that does more than to rest before its first tool change.
+pub(super) const BEFORE_FIRST: &str =
+    "this comes before the first tool change, and in the file its tool is in the spindle already";
 
 /// What was found of a text.
 #[derive(Debug, Default)]
@@ -50,6 +54,12 @@ pub(super) struct Change {
     pub(super) needs_feed: bool,
     /// Whether the spindle starts before its speed is stated.
     pub(super) needs_speed: bool,
+    /// Where the first word of Z after it is incremental.
+    pub(super) relative_z: Option<usize>,
+    /// Work offsets that are active after it, by their numbers.
+    pub(super) offsets: Vec<u16>,
+    /// The comment in its block, without the tool's name.
+    pub(super) remark: Option<Text>,
 }
 
 /// Looks through a text. What no file could state by itself is an error: its place, and what it is.
@@ -87,6 +97,8 @@ struct Walk<'t> {
     shifted: bool,
     /// A length that the program states may be active.
     length: bool,
+    /// Where the spindle is started before the first tool change.
+    started: Option<usize>,
     /// What has come since the last change.
     since: Since,
 }
@@ -94,6 +106,7 @@ struct Walk<'t> {
 #[derive(Debug, Default)]
 struct Since {
     moved: bool,
+    moved_z: bool,
     fed: bool,
     speed: bool,
 }
@@ -129,6 +142,9 @@ impl Walk<'_> {
             // Its holes go at the feed of its own block.
             Op::StartCycle(cycle) => self.since.fed |= cycle.feed.is_some(),
             Op::SetSpindleSpeed(_) => self.since.speed = true,
+            Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise if self.found.changes.is_empty() => {
+                self.started.get_or_insert(place);
+            }
             Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise if !self.since.speed => {
                 self.last_change(|change| change.needs_speed = true);
             }
@@ -197,7 +213,20 @@ impl Walk<'_> {
         {
             self.found.used[axis as usize] = true;
         }
+        if let Some(to) = words.filter(|to| to.get(Axis::Z).is_some())
+            && !std::mem::replace(&mut self.since.moved_z, true)
+            && !states(to, Axis::Z, self.at.raw, self.at.modes.distance)
+        {
+            self.last_change(|change| change.relative_z = Some(place));
+        }
         let any = cuts || matches!(op, moves!() | machine!() | Op::Position(_) | Op::Polar(_));
+        if let Some(offset) = self.at.modes.work_offset.filter(|_| any) {
+            self.last_change(|change| {
+                if !change.offsets.contains(&offset) {
+                    change.offsets.push(offset);
+                }
+            });
+        }
         if !any || std::mem::replace(&mut self.since.moved, true) {
             return;
         }
@@ -236,6 +265,8 @@ impl Walk<'_> {
         let Some(tool) = self.at.selected else { return refused("the number of this tool is computed") };
         if self.found.cuts_before || !self.found.changes.is_empty() {
             self.leaves_nothing(place)?;
+        } else if let Some(place) = self.started {
+            return Err((place, BEFORE_FIRST.to_owned()));
         }
         let line =
             |from: usize| memchr::memchr(b'\n', &self.text[from..]).map_or(self.text.len(), |n| from + n + 1);
@@ -253,6 +284,9 @@ impl Walk<'_> {
             next_move: None,
             needs_feed: false,
             needs_speed: false,
+            relative_z: None,
+            offsets: Vec::new(),
+            remark: stmt.comment.as_ref().and_then(|comment| remark(comment, tool)),
             block,
         };
         self.last = change.block.end.saturating_sub(1);
@@ -268,4 +302,11 @@ fn states(to: &Point, axis: Axis, raw: bool, modal: Option<Distance>) -> bool {
         let own = if let Fact::Known(own) = word.distance { Some(own) } else { modal };
         raw || own == Some(Distance::Absolute)
     })
+}
+
+/// The comment of a tool change without the tool's name: `TOOL 1 6MM ENDMILL`.
+fn remark(comment: &Text, tool: i64) -> Option<Text> {
+    let comment = comment.to_string();
+    let own = comment.strip_prefix(&format!("TOOL {tool}")).unwrap_or(&comment).trim();
+    (!own.is_empty()).then(|| own.into())
 }

@@ -9,27 +9,29 @@ const BEGINS: &str = "G21 G18 G40 G49 G90 G94\nG55\nM5 M9\nG53 G0 Z0\nG0 Y7\nF10
 const WORKS: &str = "M3\nM8\nX5\nZ5\nG1 Z-1\nG2 X9 I2 K0\nG0 Z20\nM5\nM9\nM2\n";
 const ENDS: &str = "M5 M9\nG90 G53 G0 Z0\nM2\n";
 
-fn part(tool: i64, begins: &str, works: &[&str], ends: &str) -> Part {
-    let (mut text, mut bodies) = (begins.to_owned(), Vec::new());
-    for (at, body) in works.iter().enumerate() {
-        if at > 0 {
-            text += "M5 M9\nG53 G0 Z0\n";
-        }
-        bodies.push(text.len() as u32..(text.len() + body.len()) as u32);
-        text += body;
-    }
-    Part { tool: Some(tool), changes: 1, bodies, text: (text + ends).into_bytes() }
+fn part(tool: i64, begins: &str, works: &str, ends: &str) -> Part {
+    let body = begins.len() as u32..(begins.len() + works.len()) as u32;
+    let text = [begins, works, ends].concat().into_bytes();
+    Part { tool: Some(tool), changes: 1, own_beginning: 0, bodies: vec![body], text }
+}
+
+/// The files of the whole, the first one with this before its tool change.
+fn verified_behind(before: &str, begins: &str, works: &str, ends: &str) -> Result<(), Option<String>> {
+    let settings = Settings::new(builtin("grbl").expect("a built-in dialect"));
+    let job = Job::new(settings.clone(), settings, "part.gcode");
+    let whole = WHOLE.replacen("G55\n", before, 1);
+    let (before, rest) = whole.split_once("M5 M9 G53 G0 Z0 T1 M0\n").expect("the first change");
+    let (first, _) = rest.split_once("M5 M9 G53 G0 Z0 T2 M0\n").expect("the second change");
+    let mut parts =
+        [part(1, &format!("{before}M5 M9\nG90 G53 G0 Z0\n"), first, ends), part(2, begins, works, "")];
+    parts[0].own_beginning = before.len() as u32;
+    let used = [true, true, true, false, false, false];
+    verify(&job, whole.as_bytes(), &parts, &used, &Modes { no_origin_shift: Some(true), ..Modes::default() })
+        .map_err(|found| found.difference)
 }
 
 fn verified(begins: &str, works: &str, ends: &str) -> Result<(), String> {
-    let settings = Settings::new(builtin("grbl").expect("a built-in dialect"));
-    let job = Job::new(settings.clone(), settings, "part.gcode");
-    let (before, rest) = WHOLE.split_once("M5 M9 G53 G0 Z0 T1 M0\n").expect("the first change");
-    let (first, _) = rest.split_once("M5 M9 G53 G0 Z0 T2 M0\n").expect("the second change");
-    let parts = [part(1, "", &[before, first], ends), part(2, begins, &[works], "")];
-    let used = [true, true, true, false, false, false];
-    verify(&job, WHOLE.as_bytes(), &parts, &used, &Modes { no_origin_shift: Some(true), ..Modes::default() })
-        .map_err(|found| found.difference)
+    verified_behind("G55\n", begins, works, ends).map_err(Option::unwrap_or_default)
 }
 
 #[test]
@@ -69,5 +71,15 @@ fn moves_that_are_not_those_of_the_part_are_found() {
     {
         let works = WORKS.replacen(own, other, 1);
         assert_eq!(verified(BEGINS, &works, ENDS).is_ok(), own == other, "{other} for {own}");
+    }
+}
+
+/// Before the first tool change a file may only go up along Z, and about there; its tool is in the spindle already.
+#[test]
+fn more_than_rest_before_the_first_change_is_refused() {
+    let of = |before: &str| verified_behind(before, BEGINS, WORKS, ENDS);
+    assert_eq!(of("G55\nG53 G0 Z0\nG53 G0 X0 Y0\n"), Ok(()));
+    for before in ["G55\nG0 X200 Y100\n", "G55\nM8\n", "G55\nG53 G0 X0 Y0\n", "G55\nG0 Z5\n"] {
+        assert_eq!(of(before), Err(None), "{before}");
     }
 }

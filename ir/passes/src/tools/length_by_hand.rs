@@ -7,7 +7,8 @@
 //!
 //! The operator sets the zero of Z by the tool that is put in, so that Z counts from its tip. That is the same cut if all
 //! of a tool's moves along Z are measured by its own length, or all of them by none. Anything else is refused: another
-//! tool's length, a tool that moves along Z with its length and without, and an incremental first move of a tool.
+//! tool's length, a tool that moves along Z with its length and without, an incremental first move of a tool, and Z of a
+//! work offset that the program sets.
 //!
 //! Not here: the change itself (the writer), and edges of tools (`tool_edge`, which comes before).
 
@@ -17,7 +18,8 @@ use crate::support::walk::Walk;
 use crate::support::write::rebuild;
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::program::{Data, Op, Stmt};
+use ncc_ir::source::Span;
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -46,6 +48,8 @@ pub(crate) struct LengthByHandState {
     reported: Vec<u32>,
     /// A refusal stands, so that no further one follows from it.
     refused: bool,
+    /// Where the program last sets Z of a work offset.
+    offset_z: Option<Span>,
 }
 
 impl LengthByHandState {
@@ -83,6 +87,11 @@ pub(crate) fn drop_lengths(
                 state.stated = true;
                 false
             }
+            Op::SetData(data) if sets_z_of_offset(data) => {
+                state.offset_z = Some(stmt.span);
+                state.no_offset_z(diags);
+                false
+            }
             _ => false,
         };
         walk.step(&stmt);
@@ -101,6 +110,7 @@ impl LengthByHandState {
                     self.reported.push(tool);
                     diags.push(Diagnostic::new(Fault::LengthByHand { tool }, stmt.span));
                 }
+                self.no_offset_z(diags);
             }
             (Some(entry), _) => {
                 self.refuse(
@@ -130,6 +140,16 @@ impl LengthByHandState {
         self.used = Some(by_length);
     }
 
+    /// Refuses that the program sets Z of a work offset, where lengths are left out: the operator sets it by each tool.
+    fn no_offset_z(&mut self, diags: &mut Vec<Diagnostic>) {
+        if !self.reported.is_empty()
+            && let Some(span) = self.offset_z.take()
+        {
+            let what = "Z of a work offset, which the operator sets by each tool".into();
+            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+        }
+    }
+
     fn refuse(&mut self, what: String, stmt: &Stmt, diags: &mut Vec<Diagnostic>) {
         if !std::mem::replace(&mut self.refused, true) {
             diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
@@ -141,4 +161,9 @@ impl LengthByHandState {
 fn counts_from_z(op: &Op) -> bool {
     let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = op else { return false };
     m.to.get(Axis::Z).is_some_and(|z| z.distance.known() == Some(Distance::Incremental))
+}
+
+/// Whether a statement sets Z of a work offset.
+fn sets_z_of_offset(data: &Data) -> bool {
+    matches!(data, Data::Offset { words, .. } if words[Axis::Z as usize].is_some())
 }
