@@ -25,10 +25,10 @@ pub struct Batch {
     pub whole: bool,
     /// What was found.
     pub diagnostics: Vec<Diagnostic>,
-    /// Numbers without a point that count increments; only after [`Reader::watch`].
+    /// Numbers without a point that count increments; only after [`Reader::watch`](crate::Reader::watch).
     pub bare: Vec<BareNumber>,
     /// Whether a length has been met that is written with a point and is not zero; only after
-    /// [`Reader::watch`], and of dialects where the point matters.
+    /// [`Reader::watch`](crate::Reader::watch), and of dialects where the point matters.
     pub pointed: bool,
     /// Whether the text has been found to be a subprogram without its main program.
     pub subprogram: bool,
@@ -68,7 +68,7 @@ pub struct BareNumber {
 }
 
 /// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after
-/// [`Reader::watch`].
+/// [`Reader::watch`](crate::Reader::watch).
 pub const REFUSED: &str = "";
 
 /// A statement for a block that was refused.
