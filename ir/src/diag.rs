@@ -28,6 +28,39 @@ impl Diagnostic {
     }
 }
 
+/// What the file of a tool would need of the program before it, and cannot state by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileNeeds {
+    /// Its first move relies on the place of this axis at the tool change, which is not known.
+    Place(Axis),
+    /// The same, and inches cannot state the place exactly.
+    PlaceInInches(Axis),
+    /// It comes before the first tool change, and would be executed with the tool of the first file in the spindle.
+    AnotherTool,
+    /// The feed that another tool has set, where that is not known.
+    Feed,
+    /// The spindle speed that another tool has set, where that is not known.
+    Speed,
+    /// A shift of program zero that is active at the tool change.
+    Shift,
+    /// A tool length that is active at the tool change.
+    Length,
+    /// A canned cycle that is active at the tool change.
+    Cycle,
+    /// Cutter compensation that is active at the tool change.
+    Compensation,
+    /// A value that stays in the control's tables.
+    TableValue,
+    /// A setting that lasts beyond its tool.
+    Setting,
+    /// A block that a switch of the operator decides.
+    Switch,
+    /// The number of a tool that is computed.
+    ToolNumber,
+    /// Calls, labels or loops of the output.
+    Control,
+}
+
 /// What becomes of the question of a macro whether it is given an argument, where every call gives it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ArgumentCheck {
@@ -462,7 +495,7 @@ faults! {
     NotInMap { what: Numbered, number: u32, name: Option<Box<str>> } = 506, Error;
 
     /// A file per tool is asked for, and one of them could not state this by itself.
-    NoFileOfTool { what: Box<str> } = 510, Error;
+    NoFileOfTool { needs: FileNeeds } = 510, Error;
 
     /// What the target's control does by itself at a code, and the source's does not, and what comes after it needs.
     DoneByTarget { behaviour: Behaviour } = 508, Error;

@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ncc_tests::corpus::root;
 use ncc_tests::expect::Failures;
 
+use crate::rooms::leaves;
 use crate::tidy::{code, files, text};
 
 /// Crates, by their folders.
@@ -68,39 +69,22 @@ fn product(source: &str) -> String {
     code(&out, false)
 }
 
-/// The paths at the leaves of a `use` tree, or the single path of an expression.
-fn leaves(tree: &str, before: &[String], found: &mut Vec<Module>) {
-    let is_path = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == ':';
-    let end = tree.find(|c| !is_path(c)).unwrap_or(tree.len());
-    let mut path = before.to_vec();
-    for part in tree[..end].split("::").filter(|part| !part.is_empty() && *part != "self") {
-        if part == "super" {
-            path.pop();
-        } else {
-            path.push(part.to_owned());
-        }
-    }
-    let Some(inner) = tree[end..].strip_prefix('{').filter(|_| tree[..end].ends_with("::")) else {
-        return found.push(path);
-    };
-    let (mut open, mut from) = (0, 0);
-    for (at, c) in inner.char_indices() {
-        match c {
-            '{' => open += 1,
-            ',' | '}' if open == 0 => {
-                let leaf = inner[from..at].trim();
-                if !leaf.is_empty() {
-                    leaves(leaf, &path, found);
-                }
-                from = at + 1;
-                if c == '}' {
-                    return;
-                }
+/// The modules that a `use` tree or a single path names, from a module on.
+fn named_from(start: &Module, tree: &str) -> Vec<Module> {
+    let mut paths = BTreeSet::new();
+    leaves(tree, "", &mut paths);
+    let module = |path: &String| {
+        let mut module = start.clone();
+        for part in path.split("::") {
+            match part {
+                "" | "self" => {}
+                "super" => drop(module.pop()),
+                part => module.push(part.to_owned()),
             }
-            '}' => open -= 1,
-            _ => {}
         }
-    }
+        module
+    };
+    paths.iter().map(module).collect()
 }
 
 /// The paths from the root that the code of a module names by the names of its children. What it offers further by
@@ -114,7 +98,7 @@ fn named_by_children(own: &Module, code: &str, modules: &BTreeSet<Module>) -> Ve
             let line = code[..at].rsplit('\n').next().unwrap_or_default();
             let offered = line.starts_with("pub use ") || line.starts_with("pub(crate) use ");
             if !offered && !before.is_ascii_alphanumeric() && !['_', '$', ':'].contains(&before) {
-                leaves(&code[at..], own, &mut found);
+                found.extend(named_from(own, &code[at..]));
             }
         }
     }
@@ -130,7 +114,7 @@ fn named(own: &Module, code: &str) -> Vec<Module> {
             let before = code[..at].chars().next_back().unwrap_or(' ');
             // `$crate` is another crate's, and within a path it has been looked at with what is before it.
             if !before.is_ascii_alphanumeric() && !['_', '$', ':'].contains(&before) {
-                leaves(&code[at + word.len() - 2..], start, &mut found);
+                found.extend(named_from(start, &code[at + word.len()..]));
             }
         }
     }

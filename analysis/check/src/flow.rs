@@ -107,15 +107,15 @@ impl Jumps {
         }
     }
 
-    /// The last block jumps to the name `to`; `None` if the name is computed. `told` is the place of the jump; `None` if
-    /// the control goes on where no block has that name.
-    pub fn jump(&mut self, to: Option<String>, told: Option<Span>, always: bool) {
+    /// The last block jumps to the name `to`; `None` if the name is computed. `reported_at` is the place of the jump, where a
+    /// jump to a missing name is reported; `None` if the control continues without such a block.
+    pub fn jump(&mut self, to: Option<String>, reported_at: Option<Span>, always: bool) {
         match to {
             Some(name) => {
                 self.targets.insert(name.clone());
-                self.jumps.extend(told.map(|at| (name, at)));
+                self.jumps.extend(reported_at.map(|at| (name, at)));
             }
-            None => self.computed |= told.is_some(),
+            None => self.computed |= reported_at.is_some(),
         }
         self.left |= always;
     }

@@ -1,4 +1,4 @@
-//! What rules have met so far, each in a form of its own.
+//! What each rule remembers of the program so far.
 
 use std::collections::VecDeque;
 
@@ -22,12 +22,13 @@ pub(crate) struct FeedMet {
     pub(crate) axes: [Option<usize>; AXES],
 }
 
-/// Whether it has been told.
+/// What the rules of the spindle remember.
 #[derive(Debug, Default)]
 pub(crate) struct SpindleMet {
-    pub(crate) told: bool,
-    /// Where it has been told that it stands.
-    pub(crate) stands: Option<Span>,
+    /// Whether NC0805 has been reported since the spindle was last switched.
+    pub(crate) reported: bool,
+    /// Where a feed move with a stopped spindle has been reported.
+    pub(crate) stopped_at: Option<Span>,
     /// Whether the tool in it probes.
     pub(crate) probes: bool,
 }
@@ -35,7 +36,7 @@ pub(crate) struct SpindleMet {
 impl SpindleMet {
     /// The program has stopped it at an angle.
     pub(crate) fn held() -> SpindleMet {
-        SpindleMet { told: true, ..SpindleMet::default() }
+        SpindleMet { reported: true, ..SpindleMet::default() }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the rules know and note: limits, what the program has done so far, findings.
+//! The data that all rules of a program share: limits, what the program has done, findings.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::limits::{Limits, Unchecked};
 use crate::met::{FeedMet, PointsMet, SpindleMet, TravelMet};
 use crate::seen::Seen;
 
-/// What the rules of one program share.
+/// The data that the rules share while one program is checked.
 #[derive(Debug)]
 pub(crate) struct Watched {
     pub(crate) limits: Limits,
@@ -32,12 +32,12 @@ pub(crate) struct Watched {
 /// Work offset in force, entry of the length table, and edge where the length is no entry.
 pub(crate) type Based = (u16, Option<u32>, Option<(i64, u32)>);
 
-/// What of the statement a rule may need besides its events.
+/// The statement that a rule looks at, and the state before it.
 pub(crate) struct Step<'s> {
     pub(crate) stmt: &'s Stmt,
-    /// Where the axes stood before it, program coordinates.
+    /// Positions of the axes before the statement: program coordinates, nanos of a millimetre or of a degree.
     pub(crate) from: [Nanos; AXES],
-    /// Of which axes that was known.
+    /// Axes whose position was known.
     pub(crate) from_known: [bool; AXES],
     /// Whether its words are machine coordinates.
     pub(crate) raw: bool,

@@ -17,8 +17,7 @@ pub struct Tape<'t> {
     pub styles: Vec<Style>,
     /// Texts of messages and functions.
     pub texts: Vec<Text>,
-    /// Where the tool stands before the next record; where the axes are that have not moved yet is not
-    /// known.
+    /// Positions of the axes before the next record, machine coordinates. The value of an axis that has not moved yet means nothing.
     pub(crate) stands: [Nanos; AXES],
 }
 
@@ -36,7 +35,7 @@ impl<'t> Tape<'t> {
         }
     }
 
-    /// What is there, at least so many if the stream has them.
+    /// Reads on until `wanted` records are at hand, or the stream ends; gives how many there are.
     pub(crate) fn fill(&mut self, wanted: usize) -> usize {
         while self.records.len() - self.from < wanted && !self.over {
             match (self.next)() {

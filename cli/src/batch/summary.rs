@@ -298,7 +298,7 @@ fn of_tools(row: &Row, out: &mut String) -> std::fmt::Result {
     }
     writeln!(
         out,
-        "  {}: reset the control, put the tool in, set the zero of Z by it, run its file:",
+        "  {}: reset the control, put the tool in, set the zero of Z as the head of its file says, run the file:",
         row.file
     )?;
     let wide = row.tool_files.iter().map(|file| file.output.chars().count()).max().unwrap_or_default();

@@ -9,6 +9,7 @@ use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
 
+use super::file_needs;
 use super::numbers::{millimetres, signed};
 use super::spelled::mode;
 use super::text::{plain, plain_upto};
@@ -364,16 +365,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TargetLacks { what } => unwritable::help(what, at.from, at.to),
         Fault::RotaryTurnOpen { by, or, .. } => rotary_turn([*by, *or], at),
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
-        Fault::NoFileOfTool { what } => {
-            let mut all = own("`--to-option tool_change=manual` writes one file, which stops for each tool");
-            if what.contains("relies on where") {
-                all.insert(0, "state it here: a rapid move in G90 with all axes, above the work".into());
-            }
-            if what.contains("comes before the first") {
-                all.insert(0, "move it behind the first tool change".into());
-            }
-            all
-        }
+        Fault::NoFileOfTool { needs } => file_needs::advice(*needs),
         Fault::ModeNotSet { .. } => own("say it at the head of the program"),
         Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
         Fault::TargetRange { .. } => Vec::new(),

@@ -11,6 +11,7 @@ mod about;
 pub mod advice;
 pub mod dialects;
 pub mod explain;
+mod file_needs;
 pub mod head;
 pub mod human;
 pub mod json;

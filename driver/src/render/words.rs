@@ -11,6 +11,7 @@ use ncc_dialects::Dialect;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::Fault;
 
+use super::file_needs;
 use super::numbers::{calls, given_number, millimetres, numbered, plural, rotary_turn, thousands};
 use super::spelled::{
     Counted, character, found_words, kept, mode, radii_of, radius_unknown, return_path, variables,
@@ -525,8 +526,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("a second work offset, and {to} has one"),
             format!("offset {second} here; the program began with offset {first}"),
         ),
-        Fault::NoFileOfTool { what } => {
-            ("a tool cannot have a file of its own here".into(), plain(what).to_string())
+        Fault::NoFileOfTool { needs } => {
+            ("a tool cannot have a file of its own here".into(), file_needs::label(*needs))
         }
         Fault::ModeNotSet { fact } => (
             format!("the program never says its {}", mode(*fact)),

@@ -22,7 +22,7 @@ use std::ops::Range;
 use ncc_backends::{Head, Layout, Numbering, Writer};
 use ncc_dialects::Meaning;
 use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
-use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault, FileNeeds, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Coord, FrameSlot, Move, Op, Point, Stmt};
@@ -30,7 +30,7 @@ use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 
 use self::origins::{Cut, PerTool};
-use self::scan::{BEFORE_FIRST, Change, Scanned, scan};
+use self::scan::{Change, Scanned, scan};
 use super::translation::Translation;
 use crate::job::{Job, Output, ToolFile};
 use crate::render::source::Lines;
@@ -57,8 +57,8 @@ impl Translation<'_> {
                 own.cut = cut;
                 own.number_lines(source, &text, self.job)?;
             }
-            Err(Uncut::Refused { at, what }) => {
-                let fault = Fault::NoFileOfTool { what: what.into() };
+            Err(Uncut::Refused { at, needs }) => {
+                let fault = Fault::NoFileOfTool { needs };
                 let found = Diagnostic::new(fault, own.source_of(&text, at));
                 self.take(vec![found], Told::Writer);
             }
@@ -76,8 +76,8 @@ impl Translation<'_> {
 
     /// The files without their heads; none if the program changes no tool.
     fn cut(&self, text: &[u8], inherited: &Modes) -> Result<Vec<Cut>, Uncut> {
-        let refused = |at: usize, what: &str| Uncut::Refused { at, what: what.to_owned() };
-        let scanned = scan(self.job, text).map_err(|(at, what)| refused(at, &what))?;
+        let refused = |at, needs| Uncut::Refused { at, needs };
+        let scanned = scan(self.job, text).map_err(|(at, needs)| refused(at, needs))?;
         let Scanned { changes, cuts_before, used } = scanned;
         let Some(first) = changes.first() else { return Ok(Vec::new()) };
         let (mut begins, mut offsets, mut parts) = (Vec::new(), Vec::new(), Vec::new());
@@ -101,15 +101,12 @@ impl Translation<'_> {
             let whole = at == 0 && !cuts_before;
             begins.push([if whole { 0 } else { change.comments }, change.block.start]);
             if let Some(place) = change.relative_z {
-                return Err(refused(
-                    place,
-                    "this first move along Z relies on where Z was at the tool change",
-                ));
+                return Err(refused(place, FileNeeds::Place(Axis::Z)));
             }
             let own_beginning = if whole { change.block.start } else { 0 };
             if whole {
                 file.joint(&text[..own_beginning]);
-                self.places(change, |at| at.map(|_| None))?;
+                places(change)?;
                 let mut stmts = up(change.modes.units);
                 stmts.extend(remark(change));
                 file.joint(&self.written(&stmts, Some(&change.modes))?);
@@ -129,7 +126,7 @@ impl Translation<'_> {
         per_tool::verify(self.job, text, &parts, &used, inherited).map_err(|found| {
             match found.difference {
                 Some(difference) => Uncut::Differs { at: found.at, difference },
-                None => refused(found.at, BEFORE_FIRST),
+                None => refused(found.at, FileNeeds::AnotherTool),
             }
         })?;
         let cut = |((part, begins), offsets): ((Part, [usize; 2]), Vec<u16>)| Cut {
@@ -144,8 +141,7 @@ impl Translation<'_> {
 
     /// What a file states before the moves of its tool.
     fn beginning(&self, change: &Change) -> Result<Vec<Stmt>, Uncut> {
-        let refused =
-            |what: String| Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), what };
+        let refused = |needs| refused(change, needs);
         let Modes { units, plane, feed_mode, work_offset, return_level, distance, no_origin_shift, .. } =
             change.modes;
         let mut ops: Vec<Op> = Vec::new();
@@ -160,7 +156,10 @@ impl Translation<'_> {
         let mut stmts: Vec<Stmt> = ops.into_iter().map(|op| Stmt::new(Span::default(), op)).collect();
         stmts.append(&mut up(units));
         stmts.extend(remark(change));
-        let to = self.places(change, |at| at.map(Some))?;
+        let mut to = Point::default();
+        for (axis, at) in places(change)? {
+            to.set(axis, place(at, axis, units).ok_or_else(|| refused(FileNeeds::PlaceInInches(axis)))?);
+        }
         let mut after = Vec::new();
         if !to.is_empty() {
             after.push(Op::StraightTraverse(Move { to, said: true }));
@@ -169,39 +168,15 @@ impl Translation<'_> {
             after.push(Op::SetDistanceMode(Distance::Incremental));
         }
         if change.needs_feed {
-            let feed = change.feed.ok_or_else(|| refused("F of another tool is active here".to_owned()))?;
+            let feed = change.feed.ok_or_else(|| refused(FileNeeds::Feed))?;
             after.push(Op::SetFeedRate(Expr::Num(feed)));
         }
         if change.needs_speed {
-            let speed = change.speed.ok_or_else(|| refused("S of another tool is active here".to_owned()))?;
+            let speed = change.speed.ok_or_else(|| refused(FileNeeds::Speed))?;
             after.push(Op::SetSpindleSpeed(Expr::Num(speed)));
         }
         stmts.extend(after.into_iter().map(|op| Stmt::new(Span::default(), op)));
         Ok(stmts)
-    }
-
-    /// The places on which the first move after a tool change relies, as words of a rapid move; `says` is whether one that is
-    /// known is said.
-    fn places(
-        &self,
-        change: &Change,
-        says: impl Fn(Option<Nanos>) -> Option<Option<Nanos>>,
-    ) -> Result<Point, Uncut> {
-        let refused =
-            |what: String| Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), what };
-        let mut to = Point::default();
-        for axis in Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]) {
-            let name = char::from(axis.letter());
-            let at = says(change.position[axis as usize]).ok_or_else(|| {
-                refused(format!("this first move relies on where {name} was at the tool change"))
-            })?;
-            let Some(at) = at else { continue };
-            let word = place(at, axis, change.modes.units).ok_or_else(|| {
-                refused(format!("inches cannot state exactly where {name} is at the tool change"))
-            })?;
-            to.set(axis, word);
-        }
-        Ok(to)
     }
 
     /// What a file ends with that another one follows: at rest, as at the tool change of the whole.
@@ -285,7 +260,7 @@ impl Translation<'_> {
 /// Why there are no files.
 enum Uncut {
     /// A file could not state something that it relies on.
-    Refused { at: usize, what: String },
+    Refused { at: usize, needs: FileNeeds },
     /// The writer has no words for its beginning or its end.
     Found(Vec<Diagnostic>),
     /// A file does not do by itself what its part of the whole does: a fault of the compiler.
@@ -318,6 +293,21 @@ fn up(units: Option<Units>) -> Vec<Stmt> {
     // Two blocks: what is off before Z goes up depends on no order within one.
     let joined = |(at, op)| Stmt { joined: at % 2 > 0, ..Stmt::new(Span::default(), op) };
     ops.into_iter().enumerate().map(joined).collect()
+}
+
+/// A file is refused for what the first move after its tool change needs.
+fn refused(change: &Change, needs: FileNeeds) -> Uncut {
+    Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), needs }
+}
+
+/// The places on which the first move after a tool change relies. One that is not known is refused.
+fn places(change: &Change) -> Result<Vec<(Axis, Nanos)>, Uncut> {
+    let relied_on = Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]);
+    let known = |axis: Axis| {
+        let at = change.position[axis as usize].ok_or_else(|| refused(change, FileNeeds::Place(axis)))?;
+        Ok((axis, at))
+    };
+    relied_on.map(known).collect()
 }
 
 /// The comment of a change's block.

@@ -13,10 +13,10 @@ use crate::watched::Watched;
 
 /// A move until something is touched: what is in the spindle is a probe.
 pub(crate) fn probed(checker: &mut Watched) {
-    if let Some(at) = checker.spindle.stands.take() {
+    if let Some(at) = checker.spindle.stopped_at.take() {
         checker.findings.retain(|finding| finding.span != at || !matches!(finding.what, What::SpindleStands));
     }
-    checker.spindle.told = true;
+    checker.spindle.reported = true;
     checker.spindle.probes = true;
 }
 
@@ -31,15 +31,15 @@ pub(crate) fn changed(checker: &mut Watched) {
 #[inline]
 pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     let stands = event.state.spindle == Spindle::Stopped;
-    if !(stands || event.state.speed == 0) || checker.spindle.told {
+    if !(stands || event.state.speed == 0) || checker.spindle.reported {
         return;
     }
     let known = if stands { checker.seen.spindle } else { checker.seen.speed };
     if known == Known::Lost || same_point(&event.end, &last) {
         return;
     }
-    checker.spindle.told = true;
-    checker.spindle.stands = stands.then_some(event.span);
+    checker.spindle.reported = true;
+    checker.spindle.stopped_at = stands.then_some(event.span);
     let what = if stands { What::SpindleStands } else { What::SpindleWithoutSpeed };
     let at_entry = known == Known::Entry;
     checker.findings.add(Finding { at_entry, ..Finding::new(what, event.span) });

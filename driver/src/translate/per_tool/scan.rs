@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ncc_frontends::Batch;
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Modes, Motion};
-use ncc_ir::diag::Gravity;
+use ncc_ir::diag::{FileNeeds, Gravity};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::program::kinds::{machine, moves};
 use ncc_ir::program::{Op, Point, Stmt, Text};
@@ -13,10 +13,6 @@ use ncc_ir::track::Tracker;
 use crate::job::Job;
 use crate::verify_run::facts::reader_of_output;
 use crate::verify_run::per_tool::pieces;
-
-/// Why a program has no files that does more than to rest before its first tool change.
-pub(super) const BEFORE_FIRST: &str =
-    "this comes before the first tool change, and in the file its tool is in the spindle already";
 
 /// What was found of a text.
 #[derive(Debug, Default)]
@@ -63,7 +59,7 @@ pub(super) struct Change {
 }
 
 /// Looks through a text. What no file could state by itself is an error: its place, and what it is.
-pub(super) fn scan(job: &Job, text: &[u8]) -> Result<Scanned, (usize, String)> {
+pub(super) fn scan(job: &Job, text: &[u8]) -> Result<Scanned, (usize, FileNeeds)> {
     let mut reader = reader_of_output(job);
     let mut batch = Batch::default();
     let mut walk = Walk { text, ..Walk::default() };
@@ -92,13 +88,14 @@ struct Walk<'t> {
     /// The end of the last statement that is more than a comment.
     last: usize,
     /// What a later file would need of what came so far, by its place: lasting settings, values in tables.
-    lasting: Option<(usize, &'static str)>,
+    lasting: Option<(usize, FileNeeds)>,
     /// A shift of program zero may be active.
     shifted: bool,
     /// A length that the program states may be active.
     length: bool,
-    /// Where the spindle is started before the first tool change.
-    started: Option<usize>,
+    /// Where the spindle is started, or a value put into a table, before the first tool change: the executor makes no event
+    /// of the one, and knows nothing of what the operator sets by the tool.
+    early: Option<(usize, FileNeeds)>,
     /// What has come since the last change.
     since: Since,
 }
@@ -112,10 +109,10 @@ struct Since {
 }
 
 impl Walk<'_> {
-    fn piece(&mut self, batch: &mut Batch) -> Result<(), (usize, String)> {
+    fn piece(&mut self, batch: &mut Batch) -> Result<(), (usize, FileNeeds)> {
         let error = batch.diagnostics.iter().find(|d| d.fault.gravity() == Gravity::Error);
         if batch.whole || !batch.procedures.is_empty() || error.is_some() {
-            return Err((self.last, "its text has calls, labels or loops".to_owned()));
+            return Err((self.last, FileNeeds::Control));
         }
         for stmt in batch.stmts.drain(..) {
             self.stmt(&stmt)?;
@@ -125,13 +122,13 @@ impl Walk<'_> {
         Ok(())
     }
 
-    fn stmt(&mut self, stmt: &Stmt) -> Result<(), (usize, String)> {
+    fn stmt(&mut self, stmt: &Stmt) -> Result<(), (usize, FileNeeds)> {
         let place = stmt.span.start as usize;
         if matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)) {
             return Ok(());
         }
         if stmt.skip.is_some() {
-            return Err((place, "a switch decides whether this block is executed".to_owned()));
+            return Err((place, FileNeeds::Switch));
         }
         if stmt.op == Op::ChangeTool {
             return self.change(stmt);
@@ -143,12 +140,17 @@ impl Walk<'_> {
             Op::StartCycle(cycle) => self.since.fed |= cycle.feed.is_some(),
             Op::SetSpindleSpeed(_) => self.since.speed = true,
             Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise if self.found.changes.is_empty() => {
-                self.started.get_or_insert(place);
+                self.early.get_or_insert((place, FileNeeds::AnotherTool));
             }
             Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise if !self.since.speed => {
                 self.last_change(|change| change.needs_speed = true);
             }
-            Op::SetData(_) => self.lasts(place, "a value that stays in the control's tables"),
+            Op::SetData(_) => {
+                if self.found.changes.is_empty() {
+                    self.early.get_or_insert((place, FileNeeds::TableValue));
+                }
+                self.lasts(place, FileNeeds::TableValue);
+            }
             Op::SetMotionControlMode(_)
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
@@ -156,7 +158,7 @@ impl Walk<'_> {
             | Op::TurnRotaryAxes(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
-            | Op::MachineFunction(_) => self.lasts(place, "a setting that lasts beyond its tool"),
+            | Op::MachineFunction(_) => self.lasts(place, FileNeeds::Setting),
             Op::SetPosition(_) | Op::SetSlot(_) | Op::SetFrame(_) | Op::UseOriginShift(true) => {
                 self.shifted = true;
             }
@@ -174,7 +176,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    fn lasts(&mut self, place: usize, what: &'static str) {
+    fn lasts(&mut self, place: usize, what: FileNeeds) {
         self.lasting.get_or_insert((place, what));
     }
 
@@ -239,34 +241,34 @@ impl Walk<'_> {
     }
 
     /// Refuses a tool change, which a file ends with, where the next one would go on with more than modes.
-    fn leaves_nothing(&self, place: usize) -> Result<(), (usize, String)> {
-        let refused = |what: &str| Err((place, what.to_owned()));
+    fn leaves_nothing(&self, place: usize) -> Result<(), (usize, FileNeeds)> {
+        let refused = |what: FileNeeds| Err((place, what));
         if let Some((place, what)) = self.lasting {
-            return Err((place, what.to_owned()));
+            return Err((place, what));
         }
         if self.shifted || self.at.framed || self.at.turned {
-            return refused("a shift of program zero is active at this tool change");
+            return refused(FileNeeds::Shift);
         }
         if self.length {
-            return refused("a tool length is active at this tool change");
+            return refused(FileNeeds::Length);
         }
         if self.at.cycle.is_some() || self.at.cycle_in_doubt {
-            return refused("a canned cycle is active at this tool change");
+            return refused(FileNeeds::Cycle);
         }
         if self.at.compensated {
-            return refused("cutter compensation is active at this tool change");
+            return refused(FileNeeds::Compensation);
         }
         Ok(())
     }
 
-    fn change(&mut self, stmt: &Stmt) -> Result<(), (usize, String)> {
+    fn change(&mut self, stmt: &Stmt) -> Result<(), (usize, FileNeeds)> {
         let place = stmt.span.start as usize;
-        let refused = |what: &str| Err((place, what.to_owned()));
-        let Some(tool) = self.at.selected else { return refused("the number of this tool is computed") };
+        let refused = |what: FileNeeds| Err((place, what));
+        let Some(tool) = self.at.selected else { return refused(FileNeeds::ToolNumber) };
         if self.found.cuts_before || !self.found.changes.is_empty() {
             self.leaves_nothing(place)?;
-        } else if let Some(place) = self.started {
-            return Err((place, BEFORE_FIRST.to_owned()));
+        } else if let Some(early) = self.early {
+            return Err(early);
         }
         let line =
             |from: usize| memchr::memchr(b'\n', &self.text[from..]).map_or(self.text.len(), |n| from + n + 1);

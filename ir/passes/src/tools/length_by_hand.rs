@@ -48,14 +48,14 @@ pub(crate) struct LengthByHandState {
     reported: Vec<u32>,
     /// A refusal stands, so that no further one follows from it.
     refused: bool,
-    /// Where the program last sets Z of a work offset.
+    /// Where the program has last set Z of a work offset since the tool change.
     offset_z: Option<Span>,
 }
 
 impl LengthByHandState {
     /// Whether further moves are to be looked at.
     pub(crate) fn is_busy(&self) -> bool {
-        self.used.is_none()
+        self.used.is_none() || self.offset_z.is_some()
     }
 }
 
@@ -73,7 +73,8 @@ pub(crate) fn drop_lengths(
         }
         let leaves_out = match &stmt.op {
             Op::ChangeTool => {
-                (state.used, state.refused) = (None, false);
+                // The operator sets Z anew.
+                (state.used, state.refused, state.offset_z) = (None, false, None);
                 false
             }
             Op::UseToolLengthOffset(entry) => {
@@ -89,7 +90,6 @@ pub(crate) fn drop_lengths(
             }
             Op::SetData(data) if sets_z_of_offset(data) => {
                 state.offset_z = Some(stmt.span);
-                state.no_offset_z(diags);
                 false
             }
             _ => false,
@@ -110,7 +110,6 @@ impl LengthByHandState {
                     self.reported.push(tool);
                     diags.push(Diagnostic::new(Fault::LengthByHand { tool }, stmt.span));
                 }
-                self.no_offset_z(diags);
             }
             (Some(entry), _) => {
                 self.refuse(
@@ -138,13 +137,7 @@ impl LengthByHandState {
             self.refuse("moves of one tool along Z with its length and without".to_owned(), stmt, diags);
         }
         self.used = Some(by_length);
-    }
-
-    /// Refuses that the program sets Z of a work offset, where lengths are left out: the operator sets it by each tool.
-    fn no_offset_z(&mut self, diags: &mut Vec<Diagnostic>) {
-        if !self.reported.is_empty()
-            && let Some(span) = self.offset_z.take()
-        {
+        if let Some(span) = self.offset_z.take_if(|_| by_length) {
             let what = "Z of a work offset, which the operator sets by each tool".into();
             diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
         }
