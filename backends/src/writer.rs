@@ -44,8 +44,8 @@ impl Writer {
     /// Records from now on where every line comes from.
     pub fn trace(&mut self) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.trace(),
-            Kind::Siemens(writer) => writer.trace(),
+            Kind::Word(writer) => writer.words.trace(),
+            Kind::Siemens(writer) => writer.words.trace(),
             Kind::Canon(writer) => writer.trace = Some(Trace::default()),
             Kind::Ir(writer) => writer.trace = Some(Trace::default()),
         }
@@ -59,8 +59,8 @@ impl Writer {
 
     fn tracing(&mut self) -> Option<&mut Trace> {
         match &mut self.kind {
-            Kind::Word(writer) => writer.trace.as_deref_mut(),
-            Kind::Siemens(writer) => writer.tracing(),
+            Kind::Word(writer) => writer.words.trace.as_deref_mut(),
+            Kind::Siemens(writer) => writer.words.trace.as_deref_mut(),
             Kind::Canon(writer) => writer.trace.as_mut(),
             Kind::Ir(writer) => writer.trace.as_mut(),
         }
@@ -80,8 +80,8 @@ impl Writer {
     pub fn beside(&mut self, text: &str, out: &mut Vec<u8>) -> bool {
         let start = out.len();
         let written = match &mut self.kind {
-            Kind::Word(writer) => writer.beside(text, out),
-            Kind::Siemens(writer) => writer.beside(text, out),
+            Kind::Word(writer) => writer.words.beside(text, out),
+            Kind::Siemens(writer) => writer.words.beside(text, out),
             Kind::Ir(_) => {
                 out.extend_from_slice(b" # ");
                 out.extend(
@@ -100,8 +100,8 @@ impl Writer {
     pub fn set_form(&mut self, form: Form) {
         self.characters = form.characters;
         match &mut self.kind {
-            Kind::Word(writer) => writer.set_form(form),
-            Kind::Siemens(writer) => writer.set_form(form),
+            Kind::Word(writer) => writer.words.set_form(form),
+            Kind::Siemens(writer) => writer.words.set_form(form),
             // A call a line: there are no blocks to choose.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }
@@ -111,8 +111,8 @@ impl Writer {
     /// axes of its block move before it or after it.
     pub fn changes_apart(&mut self) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.changes_apart(),
-            Kind::Siemens(writer) => writer.changes_apart(),
+            Kind::Word(writer) => writer.words.changes_apart(),
+            Kind::Siemens(writer) => writer.words.changes_apart(),
             // A call a line.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }
@@ -134,7 +134,7 @@ impl Writer {
     /// program that does not compute.
     pub fn know_modes(&mut self, program: &Program, entries: HashMap<u32, Modes>) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.know_modes(entries),
+            Kind::Word(writer) => writer.words.know_modes(entries),
             Kind::Siemens(writer) => writer.know_modes(&program.procedures, entries),
             // The text form says what is in force with every word; the other writes no subprograms.
             Kind::Canon(_) | Kind::Ir(_) => {}
@@ -146,7 +146,7 @@ impl Writer {
     pub fn stands_alone(&mut self, taken: &Modes, moves_end_cycles: bool, name: &str) {
         match &mut self.kind {
             Kind::Word(writer) => {
-                writer.stands_alone(taken);
+                writer.words.stands_alone(taken);
                 if writer.has_o_words() {
                     writer.o_alone(name);
                 }
@@ -160,8 +160,8 @@ impl Writer {
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.stand_at(start),
-            Kind::Siemens(writer) => writer.stand_at(start),
+            Kind::Word(writer) => writer.words.stand_at(start),
+            Kind::Siemens(writer) => writer.words.stand_at(start),
             Kind::Canon(writer) => writer.stand_at(start),
             // The text form names no position that the program does not.
             Kind::Ir(_) => {}
@@ -171,8 +171,8 @@ impl Writer {
     /// Says which tool is in the spindle before the program begins.
     pub fn hold_tool(&mut self, tool: u32) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.hold_tool(tool),
-            Kind::Siemens(writer) => writer.hold_tool(tool),
+            Kind::Word(writer) => writer.words.hold_tool(tool),
+            Kind::Siemens(writer) => writer.words.hold_tool(tool),
             // These name no tool that the program does not.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }
@@ -231,7 +231,7 @@ impl Writer {
     pub fn stated(&self) -> Modes {
         match &self.kind {
             Kind::Word(writer) => writer.stated(),
-            Kind::Siemens(writer) => writer.stated(),
+            Kind::Siemens(writer) => writer.words.stated(),
             Kind::Canon(writer) => writer.stated(),
             Kind::Ir(writer) => writer.stated(),
         }

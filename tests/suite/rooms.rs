@@ -51,8 +51,7 @@ const NEIGHBOURS: &[(&str, &str, &[&str])] = &[
     ("frontends", "ir", &["common"]),
     ("backends", "common", &[]),
     ("backends", "word", &["common"]),
-    // Blocks of letters and numbers are written by a writer of `word` within.
-    ("backends", "siemens", &["common", "word::Writer"]),
+    ("backends", "siemens", &["common"]),
     ("backends", "canon", &["common"]),
     ("backends", "ir", &["common"]),
 ];

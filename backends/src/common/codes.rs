@@ -350,6 +350,11 @@ impl Codes {
         self.spindle_modes.iter().any(|(_, feed, _)| feed.is_some())
     }
 
+    /// The code of a word without effect.
+    pub(crate) fn code_without_effect(&self, name: &str) -> Option<Code> {
+        self.no_effect.iter().find(|(own, _)| own == name).map(|(_, code)| *code)
+    }
+
     /// The row of a cycle: of its kind, with a word for the dwell if and only if there is one.
     pub(crate) fn cycle(&self, kind: &str, dwell: bool) -> Option<&CycleCode> {
         self.cycles.iter().find(|c| c.kind == kind && c.dwell.is_some() == dwell)

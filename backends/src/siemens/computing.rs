@@ -1,7 +1,7 @@
 //! Statements of programs that compute, in the language's own words: assignments, decisions with their blocks, loops,
 //! and jumps to labels.
 //!
-//! A jump says whether its label stands before it or behind. Expressions are the word writer's, by the dictionary.
+//! A jump says whether its label stands before it or behind. Expressions are spelt by the dictionary (`common::formula`).
 //!
 //! Not here: which variables there are (`passes/variables`), their types, and calls with arguments (`variable`).
 

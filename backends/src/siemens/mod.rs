@@ -1,6 +1,6 @@
 //! The back-end of the Sinumerik's own language.
 //!
-//! Blocks of letters and numbers are written as in every other dialect, by a writer of `crate::word` within; this room
+//! Blocks of letters and numbers are written as in every other dialect, by a writer of words within; this room
 //! has what is said in another form: cycles and patterns called with arguments, frames, arcs by
 //! name, edges of tools, messages, labels and units. Codes, names and the order of arguments come
 //! from the dictionary. What it has no word for is a fault at the statement, never silent.
@@ -31,7 +31,7 @@ mod variable;
 use std::collections::BTreeSet;
 
 use ncc_dialects::{CallRow, Dialect, Meaning, Quantity, Settings};
-use ncc_ir::canon::{AXES, Modes, Units};
+use ncc_ir::canon::{Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
@@ -42,14 +42,13 @@ use computing::Computing;
 use names::Names;
 use variable::Variables;
 
+use crate::Layout;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Letter;
 use crate::common::fault::{cannot, unwritable};
 use crate::common::number::{Format, Shaped};
+use crate::common::words::Words;
 use crate::common::{Sink, number};
-use crate::origin::Trace;
-use crate::word::Writer as WordWriter;
-use crate::{Form, Layout};
 
 /// Whether the text has a cycle in force for the blocks that follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +108,7 @@ impl Standing {
 /// Writes a program in the Sinumerik's language.
 #[derive(Clone, Debug)]
 pub struct Writer {
-    words: WordWriter,
+    pub(crate) words: Words,
     dialect: &'static Dialect,
     /// Whether a tool change makes edge 1 active.
     edge_with_tool: bool,
@@ -158,7 +157,7 @@ impl Writer {
             edge_with_tool: settings.get("edge_after_change") == "1",
             leave_edge: BTreeSet::new(),
             inch_machine: settings.get("feed_unit") == "inch",
-            words: WordWriter::new(settings, layout),
+            words: Words::new(settings, &layout),
             standing: Standing::START,
             stale: false,
             inches: false,
@@ -177,47 +176,6 @@ impl Writer {
             main: None,
             reported: BTreeSet::new(),
         }
-    }
-
-    /// Where the axes stand before the first statement, in program coordinates, as far as the user
-    /// has said it.
-    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
-        self.words.stand_at(start);
-    }
-
-    /// The tool that is in the spindle before the program begins.
-    pub fn hold_tool(&mut self, tool: u32) {
-        self.words.hold_tool(tool);
-    }
-
-    /// Begins to record where lines come from.
-    pub(crate) fn trace(&mut self) {
-        self.words.trace();
-    }
-
-    /// The record, if there is one.
-    pub(crate) fn tracing(&mut self) -> Option<&mut Trace> {
-        self.words.trace.as_deref_mut()
-    }
-
-    /// A comment to stand at the end of a line.
-    pub(crate) fn beside(&mut self, text: &str, out: &mut Vec<u8>) -> bool {
-        self.words.beside(text, out)
-    }
-
-    /// Takes a shop's choices for the form of the text.
-    pub fn set_form(&mut self, form: Form) {
-        self.words.set_form(form);
-    }
-
-    /// A tool change stands in no block with a move.
-    pub fn changes_apart(&mut self) {
-        self.words.changes_apart();
-    }
-
-    /// Facts that the written text states by itself, in its safe start line.
-    pub fn stated(&self) -> Modes {
-        self.words.stated()
     }
 
     /// A program that is called by another states nothing before its first event: it would go on in its caller.
@@ -284,6 +242,7 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.words.open_block(first);
+        self.words.numbers.seen(first);
         if self.alone && self.standing.modal == Modal::Doubtful && !self.cycled && executed(&first.op) {
             if let Err(fault) = self.end_modal(sink) {
                 sink.report(fault, first.span);

@@ -72,6 +72,7 @@ impl Writer {
             }
             Op::Return => {
                 self.before_return(sink)?;
+                self.words.restore_distance(false, sink)?;
                 self.words.statement(stmt, sink)
             }
             Op::TurnRotaryAxes(ways) => {

@@ -94,7 +94,9 @@ impl Writer {
 
     /// Writes the end of the text. A program that does not say its own end is left so.
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        self.words.finish(out, diags);
+        let mut sink = Sink { out, diags };
+        self.words.no_event(&mut sink);
+        self.words.finish(&mut sink);
     }
 
     pub(super) fn program_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {

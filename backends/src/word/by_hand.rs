@@ -27,35 +27,35 @@ impl Writer {
     /// # Errors
     /// The option refuses it, or the tool's number is not known.
     pub(super) fn change_by_hand(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        self.rely(TOOL_CHANGE, span, sink);
+        self.words.rely(TOOL_CHANGE, span, sink);
         // Of a file per tool, this block is where one ends and the next begins.
-        if ![BY_HAND, FILE_PER_TOOL].contains(&self.settings.get(TOOL_CHANGE)) {
+        if ![BY_HAND, FILE_PER_TOOL].contains(&self.words.settings.get(TOOL_CHANGE)) {
             return Err(cannot("a tool change by hand, which the option tool_change refuses"));
         }
-        let tool = self.tracker.selected.filter(|tool| *tool >= 0);
+        let tool = self.words.tracker.selected.filter(|tool| *tool >= 0);
         let tool = tool.ok_or_else(|| cannot("a tool change by hand to a tool that is not known"))?;
-        let (codes, z) = (&self.codes, self.codes.axes[Axis::Z as usize]);
+        let (codes, z) = (&self.words.codes, self.words.codes.axes[Axis::Z as usize]);
         let all = [codes.spindle_stop, codes.coolant_off, codes.machine[0], codes.traverse, codes.stop];
         let ([Some(off), Some(dry), Some(machine), Some(rapid), Some(stop)], Some(z), Some(letter)) =
             (all, z, codes.tool)
         else {
             return Err(cannot("a tool change"));
         };
-        let number = self.number(&letter, &Expr::int(tool), span, sink)?;
-        let zero = self.number(&z, &Expr::int(0), span, sink)?;
+        let number = self.words.number(&letter, &Expr::int(tool), span, sink)?;
+        let zero = self.words.number(&z, &Expr::int(0), span, sink)?;
         // A tool word of its own says no more.
-        self.block.drop_alone(letter.letter);
+        self.words.block.drop_alone(letter.letter);
         let need = all.into_iter().fold(Need::new(Rank::Alone), Need::code);
-        self.admit(&need.letter(z.letter).letter(letter.letter), sink)?;
+        self.words.admit(&need.letter(z.letter).letter(letter.letter), sink)?;
         for code in [off, dry, machine, rapid] {
-            self.block.code(Part::Mode, &code);
+            self.words.block.code(Part::Mode, &code);
         }
-        self.block.word(Part::Axes, z.letter, zero);
-        self.block.word(Part::Tail, letter.letter, number);
-        self.block.code(Part::Tail, &stop);
-        self.comment(&format!("TOOL {tool}"), span, sink);
-        self.active.motion = Some(Motion::Traverse);
-        self.residue[Axis::Z as usize] = 0;
+        self.words.block.word(Part::Axes, z.letter, zero);
+        self.words.block.word(Part::Tail, letter.letter, number);
+        self.words.block.code(Part::Tail, &stop);
+        self.words.comment(&format!("TOOL {tool}"), span, sink);
+        self.words.active.motion = Some(Motion::Traverse);
+        self.words.residue[Axis::Z as usize] = 0;
         Ok(())
     }
 }

@@ -7,7 +7,6 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
 
 use super::Writer;
-use crate::common::block::Part;
 use crate::common::codes::Letter;
 use crate::common::fault::cannot;
 use crate::common::{Sink, number};
@@ -23,28 +22,21 @@ impl Writer {
     ) -> Result<(), Fault> {
         let none = || cannot("a rounded or chamfered corner");
         let word = self.dialect.corner.word(shape).ok_or_else(none)?;
-        let axis = self.codes.axes[0].ok_or_else(none)?;
+        let axis = self.words.codes.axes[0].ok_or_else(none)?;
         let n = size.literal().ok_or_else(|| cannot("a computed value"))?;
         let sign = if word.negative { -1 } else { 1 };
         let n = Num { mantissa: n.mantissa * sign, ..n };
         let letter = Letter { letter: word.letter as u8, format: axis.format };
-        let value = self.number(&letter, &Expr::Num(n), span, sink)?;
+        let value = self.words.number(&letter, &Expr::Num(n), span, sink)?;
         let mut text = Vec::new();
         number::append(&mut text, value);
         let comma = if word.comma { "," } else { "" };
-        self.corner = Some(format!("{comma}{}{}", word.letter, String::from_utf8_lossy(&text)));
+        self.words.corner = Some(format!("{comma}{}{}", word.letter, String::from_utf8_lossy(&text)));
         let unsure = self.dialect.address_row(word.letter as u8).is_some_and(|row| !row.sure && !word.comma);
         if unsure && !std::mem::replace(&mut self.told_corner, true) {
             let (code, meaning) = (word.letter.to_string().into(), "corner rounding or chamfer".into());
             sink.report(Fault::AssumedRow { code, meaning }, span);
         }
         Ok(())
-    }
-
-    /// Puts it into the block of the move.
-    pub(crate) fn put_corner(&mut self) {
-        if let Some(corner) = self.corner.take() {
-            self.block.text(Part::Corner, &corner);
-        }
     }
 }

@@ -80,7 +80,7 @@ impl Writer {
             return Err(cannot("a skippable cycle behind one without a hole"));
         }
         match self.held.take() {
-            Some(before) if before.in_text && self.active.motion == Some(Motion::Cycle) => {
+            Some(before) if before.in_text && self.words.active.motion == Some(Motion::Cycle) => {
                 held.feed = before.feed;
                 held.before = Some(Box::new(before.cycle));
             }
@@ -96,7 +96,7 @@ impl Writer {
         }
         // A cycle without a row is a fault here, not at its first hole.
         self.cycle_code(cycle)?;
-        held.number = self.block.number.filter(|_| self.block.is_empty());
+        held.number = self.words.block.number.filter(|_| self.words.block.is_empty());
         self.held = Some(held);
         Ok(())
     }
@@ -109,7 +109,7 @@ impl Writer {
             // One block has one distance mode, so the call stands alone.
             self.call_up_now(stmt, sink)?;
         }
-        let in_force = self.active.motion == Some(Motion::Cycle);
+        let in_force = self.words.active.motion == Some(Motion::Cycle);
         match self.held.take() {
             Some(held) if !held.in_text || !in_force || (with_call && to.to.is_empty()) => {
                 if held.skip.is_some() && held.skip != stmt.skip {
@@ -139,30 +139,30 @@ impl Writer {
             return Err(cannot("a rotary axis in a canned cycle"));
         }
         let mut inserted = Inserted::default();
-        self.need_distance(to.axes.iter().flatten(), &mut inserted)?;
-        let need = self.point_need(Need::new(Rank::Motion), to)?;
-        self.admit_with(need, inserted, sink)?;
-        self.point(to, span, sink)
+        self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
+        let need = self.words.point_need(Need::new(Rank::Motion), to)?;
+        self.words.admit_with(need, inserted, sink)?;
+        self.words.point(to, span, sink)
     }
 
     /// Words for the position where the tool stands, on a control that needs some for a hole.
     fn stand_words(&self) -> Result<Point, Fault> {
-        let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.active.plane);
+        let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.words.active.plane);
         let (first, second, _) = plane.unwrap_or(Plane::Xy).axes();
-        let distance = self.active.distance;
+        let distance = self.words.active.distance;
         let absolute = Some(ncc_ir::canon::Distance::Absolute);
         if distance != absolute {
             return Err(cannot("a hole where the tool stands, in incremental coordinates"));
         }
-        let unit = match self.active.units {
+        let unit = match self.words.active.units {
             Some(ncc_ir::canon::Units::Inch) => Unit::Inch,
             Some(ncc_ir::canon::Units::Mm) => Unit::Mm,
             None => return Err(cannot("a position in a unit that is not known")),
         };
         let mut to = Point::default();
         for axis in [first, second] {
-            let letter = self.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
-            let n = number::from_nanos(self.axis_position(axis)?, &letter.format, unit);
+            let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
+            let n = number::from_nanos(self.words.axis_position(axis)?, &letter.format, unit);
             to.set(axis, Coord { value: Expr::Num(n), distance: distance.into() });
         }
         Ok(to)
@@ -172,20 +172,20 @@ impl Writer {
         let held = self.held.take().filter(|h| !h.in_text);
         let dropped = held.is_some() && self.dialect.cycles.hole_on_definition;
         if let Some(feed) = held.and_then(|h| h.cycle.feed) {
-            let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
-            let value = self.value(&letter, &feed, span, sink)?;
-            self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
-            self.block.word(Part::Feed, letter.letter, value);
-            self.active.feed = feed.literal();
+            let letter = self.words.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
+            let value = self.words.value(&letter, &feed, span, sink)?;
+            self.words.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
+            self.words.block.word(Part::Feed, letter.letter, value);
+            self.words.active.feed = feed.literal();
         }
-        let other_motion = self.active.motion.is_some_and(|m| m != Motion::Cycle);
+        let other_motion = self.words.active.motion.is_some_and(|m| m != Motion::Cycle);
         if dropped && other_motion {
             return Ok(());
         }
-        let code = self.setting(Setting::NoCycle)?.ok_or_else(|| cannot("the end of a cycle"))?;
-        self.admit(&Need::new(Rank::CycleEnd).code(Some(code)), sink)?;
-        self.block.code(Part::Mode, &code);
-        self.now_in_force(Setting::NoCycle);
+        let code = self.words.setting(Setting::NoCycle)?.ok_or_else(|| cannot("the end of a cycle"))?;
+        self.words.admit(&Need::new(Rank::CycleEnd).code(Some(code)), sink)?;
+        self.words.block.code(Part::Mode, &code);
+        self.words.now_in_force(Setting::NoCycle);
         Ok(())
     }
 
@@ -198,25 +198,25 @@ impl Writer {
         if !by_code(&held.cycle) || held.before.as_deref().is_some_and(by_code) {
             return Ok(());
         }
-        let code = self.codes.rigid_tapping.ok_or_else(|| cannot("rigid tapping"))?;
-        let number = self.block.number.take();
-        if !self.block.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        let code = self.words.codes.rigid_tapping.ok_or_else(|| cannot("rigid tapping"))?;
+        let number = self.words.block.number.take();
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
-        self.admit(&Need::new(Rank::Alone).code(Some(code)), sink)?;
-        self.block.code(Part::Tail, &code);
-        self.flush(false, sink);
-        self.block.number = number;
+        self.words.admit(&Need::new(Rank::Alone).code(Some(code)), sink)?;
+        self.words.block.code(Part::Tail, &code);
+        self.words.flush(false, sink);
+        self.words.block.number = number;
         Ok(())
     }
 
     /// A pitch that is said by the feed per revolution has as many digits as that.
     fn check_pitch(&self, cycle: &Cycle) -> Result<(), Fault> {
-        let feed = cycle.feed.as_ref().map_or(self.active.feed, Expr::literal);
-        let by_feed =
-            matches!(cycle.kind, CycleKind::Tap(_)) && self.active.feed_mode == Some(FeedMode::PerRevolution);
-        match (feed.filter(|_| by_feed), self.codes.feed_word) {
+        let feed = cycle.feed.as_ref().map_or(self.words.active.feed, Expr::literal);
+        let by_feed = matches!(cycle.kind, CycleKind::Tap(_))
+            && self.words.active.feed_mode == Some(FeedMode::PerRevolution);
+        match (feed.filter(|_| by_feed), self.words.codes.feed_word) {
             (Some(feed), Some(letter)) if number::shape(feed, &letter.format).is_ok_and(|s| s.rounded) => {
                 Err(cannot("a pitch with so many digits"))
             }
@@ -233,11 +233,11 @@ impl Writer {
             return Err(cannot("a cycle that is called up without a hole"));
         }
         let Some(held) = self.held.take() else { return Ok(()) };
-        let (number, split) = (self.block.number.take(), self.split);
-        self.flush(false, sink);
+        let (number, split) = (self.words.block.number.take(), self.words.split);
+        self.words.flush(false, sink);
         self.call_up(held, None, true, stmt, sink)?;
-        self.flush(false, sink);
-        (self.block.number, self.split) = (number, split);
+        self.words.flush(false, sink);
+        (self.words.block.number, self.words.split) = (number, split);
         Ok(())
     }
 
@@ -256,8 +256,8 @@ impl Writer {
         let mut inserted = Inserted::default();
         let cycle = &held.cycle;
         let coords = at.into_iter().flat_map(|p| p.axes.iter().flatten());
-        self.need_distance(coords.chain([&cycle.retract, &cycle.depth]), &mut inserted)?;
-        self.need_plane(cycle.plane, &mut inserted)?;
+        self.words.need_distance(coords.chain([&cycle.retract, &cycle.depth]), &mut inserted)?;
+        self.words.need_plane(cycle.plane, &mut inserted)?;
         let words = self.call_words(&held, at, said, stmt.span, sink)?;
         let mut need = Need::new(Rank::Motion).code(words.level).code(words.code);
         for (letter, _) in [&words.depth, &words.retract].into_iter().flatten() {
@@ -272,10 +272,10 @@ impl Writer {
             if Axis::ALL.iter().any(along) {
                 return Err(cannot("a hole position along the drilling axis"));
             }
-            need = self.point_need(need, at)?;
+            need = self.words.point_need(need, at)?;
         }
         // Where the call makes a hole, none is made by counting to zero.
-        let repeat = self.settings.repeat_word().filter(|_| !self.dialect.cycles.repeat_once);
+        let repeat = self.words.settings.repeat_word().filter(|_| !self.dialect.cycles.repeat_once);
         let none = match (at, self.dialect.cycles.hole_on_definition, repeat) {
             (None, true, Some(letter)) => Some(letter as u8),
             _ => None,
@@ -283,32 +283,32 @@ impl Writer {
         if let Some(letter) = none {
             need = need.letter(letter);
         }
-        self.admit_with(need, inserted, sink)?;
-        if self.block.number.is_none() {
-            self.block.number = held.number.take();
+        self.words.admit_with(need, inserted, sink)?;
+        if self.words.block.number.is_none() {
+            self.words.block.number = held.number.take();
         }
-        self.block.calls_up = true;
+        self.words.block.calls_up = true;
         for code in [&words.level, &words.code].into_iter().flatten() {
-            self.block.code(Part::Motion, code);
+            self.words.block.code(Part::Motion, code);
         }
         self.call_axes(at, words.depth.as_ref(), stmt.span, sink)?;
         if let Some((letter, coord)) = &words.retract {
-            let retract = self.value(letter, &coord.value, stmt.span, sink)?;
-            self.block.word(Part::Axes, letter.letter, retract);
+            let retract = self.words.value(letter, &coord.value, stmt.span, sink)?;
+            self.words.block.word(Part::Axes, letter.letter, retract);
         }
         for (letter, value) in words.pecks.iter().chain(&words.dwell) {
-            self.block.word(Part::Axes, *letter, *value);
+            self.words.block.word(Part::Axes, *letter, *value);
         }
         if let Some((letter, value)) = words.feed {
-            self.block.word(Part::Feed, letter, value);
+            self.words.block.word(Part::Feed, letter, value);
         }
         if let Some(letter) = none {
-            self.block.digits(Part::Tail, letter, "0");
+            self.words.block.digits(Part::Tail, letter, "0");
         }
         if let Some(feed) = &held.cycle.feed {
-            self.active.feed = feed.literal();
+            self.words.active.feed = feed.literal();
         }
-        self.active.motion = Some(Motion::Cycle);
+        self.words.active.motion = Some(Motion::Cycle);
         held.in_text = stmt.skip.is_none() || stmt.skip == held.skip;
         held.before = None;
         if stmt.skip.is_none() {
@@ -330,7 +330,7 @@ impl Writer {
         let cycle = &held.cycle;
         let row = self.cycle_code(cycle)?.clone();
         let mut row = row;
-        let normal = cycle.plane.known().or(self.active.plane).map(|p| p.axes().2.letter());
+        let normal = cycle.plane.known().or(self.words.active.plane).map(|p| p.axes().2.letter());
         if let Some(normal) = normal.filter(|normal| *normal != row.depth.letter) {
             let text = String::from_utf8_lossy(row.code.text());
             let one_plane = self.dialect.cycle_row(&text).is_some_and(|row| row.one_plane);
@@ -364,21 +364,21 @@ impl Writer {
             !said
                 && moves
                 && self.dialect.cycles.retained
-                && self.active.motion == Some(Motion::Cycle)
+                && self.words.active.motion == Some(Motion::Cycle)
                 && b.plane == cycle.plane
                 && b.kind.name() == cycle.kind.name()
                 && self.cycle_code(b).is_ok_and(|r| r.code == row.code)
         });
         let same_kind = before.is_some_and(|b| b.kind == cycle.kind);
         let pecks = self.peck_words(&row, &cycle.kind, peck.filter(|_| !same_kind), span, sink)?;
-        if self.active.motion != Some(Motion::Cycle) && !self.dialect.cycles.dwell_left {
+        if self.words.active.motion != Some(Motion::Cycle) && !self.dialect.cycles.dwell_left {
             self.dwell_left = false;
         }
         let left = self.dwell_left;
         let dwell = match (row.dwell, dwell.filter(|_| !same_kind)) {
             (Some(word), Some(dwell)) => {
                 if let Some(option) = row.asked {
-                    self.rely(option, span, sink);
+                    self.words.rely(option, span, sink);
                 }
                 Some((word.word.letter, self.dwell_value(&word, dwell, span, sink)?))
             }
@@ -391,8 +391,8 @@ impl Writer {
         self.dwell_left |=
             dwell.is_some() && (self.dialect.cycles.dwell_left || self.dialect.cycles.retained);
         let stated = before.and(held.feed.as_ref());
-        let feed = match (cycle.feed.as_ref().filter(|f| Some(*f) != stated), self.codes.feed_word) {
-            (Some(feed), Some(letter)) => Some((letter.letter, self.value(&letter, feed, span, sink)?)),
+        let feed = match (cycle.feed.as_ref().filter(|f| Some(*f) != stated), self.words.codes.feed_word) {
+            (Some(feed), Some(letter)) => Some((letter.letter, self.words.value(&letter, feed, span, sink)?)),
             (Some(_), None) => return Err(cannot("a feed")),
             (None, _) => None,
         };
@@ -400,7 +400,8 @@ impl Writer {
         let same_retract = before.is_some_and(|b| b.retract == cycle.retract);
         let level = match before {
             Some(b)
-                if b.return_level == cycle.return_level && self.active.level == b.return_level.known() =>
+                if b.return_level == cycle.return_level
+                    && self.words.active.level == b.return_level.known() =>
             {
                 None
             }
@@ -440,7 +441,7 @@ impl Writer {
             | CycleKind::BoreStop(_) => (&None, &None),
         };
         let Some(peck) = peck else { return Ok(Vec::new()) };
-        if self.active.motion != Some(Motion::Cycle) || !self.dialect.cycles.retained {
+        if self.words.active.motion != Some(Motion::Cycle) || !self.dialect.cycles.retained {
             self.pecks_left = None;
         }
         let shrinks = less.is_some();
@@ -460,7 +461,7 @@ impl Writer {
         self.pecks_left = Some(shrinks);
         let mut written = Vec::with_capacity(words.len());
         for (letter, value) in words {
-            written.push((letter.letter, self.value(&letter, value, span, sink)?));
+            written.push((letter.letter, self.words.value(&letter, value, span, sink)?));
         }
         Ok(written)
     }
@@ -472,22 +473,22 @@ impl Writer {
             (Fact::Known(level), Some(fixed)) if level == fixed => Ok(None),
             (Fact::Known(_), Some(_)) => Err(cannot("a cycle that returns to the other level")),
             (Fact::Entry, Some(_)) => Err(cannot("a cycle whose return level is the caller's")),
-            (Fact::Entry, None) if self.active.our_level => {
+            (Fact::Entry, None) if self.words.active.our_level => {
                 Err(cannot("a cycle whose return level is not known"))
             }
             (Fact::Entry, None) => Ok(None),
             (Fact::Known(level), None)
-                if self.active.level == Some(level)
-                    && !self.active.our_level
+                if self.words.active.level == Some(level)
+                    && !self.words.active.our_level
                     // Else the last move has ended it.
                     && !self.dialect.cycles.level_lost =>
             {
                 Ok(None)
             }
             (Fact::Known(level), None) => {
-                let code = self.setting(Setting::Level(level))?;
-                self.active.level = Some(level);
-                self.active.our_level = true;
+                let code = self.words.setting(Setting::Level(level))?;
+                self.words.active.level = Some(level);
+                self.words.active.our_level = true;
                 Ok(code)
             }
         }
@@ -504,11 +505,11 @@ impl Writer {
         for axis in Axis::ALL {
             if let Some((letter, coord)) = depth.take_if(|(l, _)| l.letter <= axis.letter() || axis > Axis::Z)
             {
-                let value = self.value(letter, &coord.value, span, sink)?;
-                self.block.word(Part::Axes, letter.letter, value);
+                let value = self.words.value(letter, &coord.value, span, sink)?;
+                self.words.block.word(Part::Axes, letter.letter, value);
             }
             if let Some(coord) = at.and_then(|p| p.get(axis)) {
-                self.axis_word(axis, coord, span, sink)?;
+                self.words.axis_word(axis, coord, span, sink)?;
             }
         }
         Ok(())

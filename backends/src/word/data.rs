@@ -10,12 +10,12 @@ use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
 
 use super::Writer;
-use super::macros::formula::rounding;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::DataCode;
 use crate::common::codes::{Code, Letter};
 use crate::common::fault::cannot;
+use crate::common::formula::rounding;
 use crate::common::number::WordValue;
 use crate::common::setting::Inserted;
 
@@ -24,23 +24,23 @@ impl Writer {
     pub(crate) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         // The code's words count as the distance mode says; where nobody knows it, the control's variable is set.
         if self.dialect.program.macro_b
-            && self.active.distance != Some(Distance::Absolute)
+            && self.words.active.distance != Some(Distance::Absolute)
             && let Some(text) = self.data_setting(data, span, sink)?
         {
             return self.statement_alone(&text, sink);
         }
-        let tables = &self.codes.tables;
+        let tables = &self.words.codes.tables;
         match data {
             Data::Position(place) => {
-                let code = self.codes.store_position[usize::from(*place == 2)];
+                let code = self.words.codes.store_position[usize::from(*place == 2)];
                 let code = code.ok_or_else(|| cannot("storing where the axes stand"))?;
                 self.alone(code, Vec::new(), sink)
             }
             Data::ToolInSpindle(tool) => {
-                let code = self.codes.tool_number.filter(|_| tool.literal().is_some());
+                let code = self.words.codes.tool_number.filter(|_| tool.literal().is_some());
                 let (code, letter) =
                     code.ok_or_else(|| cannot("setting the number of the tool in the spindle"))?;
-                let value = self.value(&letter, tool, span, sink)?;
+                let value = self.words.value(&letter, tool, span, sink)?;
                 self.alone(code, vec![(letter.letter, value)], sink)
             }
             Data::Offset { offset, mode, words, turn } => {
@@ -54,7 +54,7 @@ impl Writer {
                 };
                 let what = || cannot(format!("the zero of work offset {offset}"));
                 let table = tables.iter().find(has).ok_or_else(what)?.clone();
-                let mut own = self.along(&words[..])?;
+                let mut own = self.words.along(&words[..])?;
                 if let Some(turn) = turn {
                     let letter = table.turn.ok_or_else(|| cannot("rotation of a work offset"))?;
                     own.push((letter, turn.clone()));
@@ -71,7 +71,7 @@ impl Writer {
                 };
                 let table =
                     tables.iter().find(has).ok_or_else(|| cannot("a tool measured where the axes stand"))?;
-                let own = self.along(&words[..])?;
+                let own = self.words.along(&words[..])?;
                 self.stored(&table.clone(), &entry.to_string(), false, &own, span, sink)
             }
             Data::Tool { entry, which, added, value, .. } => {
@@ -83,11 +83,11 @@ impl Writer {
                 let (table, letter) = found.ok_or_else(|| cannot("this value in the control's tables"))?;
                 let radius = matches!(which, ToolValue::Radius | ToolValue::RadiusWear);
                 let mut value = value.clone();
-                if radius && self.settings.get(RADIUS_DATA) == "diameter" {
+                if radius && self.words.settings.get(RADIUS_DATA) == "diameter" {
                     value = twice(&value).ok_or_else(|| cannot("this diameter"))?;
                 }
                 if radius {
-                    self.rely(RADIUS_DATA, span, sink);
+                    self.words.rely(RADIUS_DATA, span, sink);
                 }
                 self.stored(&table, &entry.to_string(), *added, &[(letter, value)], span, sink)
             }
@@ -113,7 +113,7 @@ impl Writer {
             | Data::Position(_)
             | Data::ToolInSpindle(_) => return Ok(None),
         };
-        let Ok(name) = self.spelling(None)?.target(&Target::Var(Var::System(system.clone()))) else {
+        let Ok(name) = self.words.spelling(None)?.target(&Target::Var(Var::System(system.clone()))) else {
             return Ok(None);
         };
         self.data_setting_of(&name, &system, data, span, sink)
@@ -134,12 +134,12 @@ impl Writer {
             Data::Measured { .. } | Data::Position(_) | Data::ToolInSpindle(_) => None,
         };
         let Some(value) = value else { return Ok(None) };
-        let rounds = self.codes.axes[Axis::X as usize].and_then(|letter| letter.format.rounds);
+        let rounds = self.words.codes.axes[Axis::X as usize].and_then(|letter| letter.format.rounds);
         let (said, value) = rounding(value);
         let mut value = value.clone();
         match (said, rounds, &mut value) {
             (None, _, Expr::Num(num)) if num.unit != Unit::Entry => {
-                self.check_unit(Num::int(1, num.unit), span)?;
+                self.words.check_unit(Num::int(1, num.unit), span)?;
                 num.unit = Unit::One;
             }
             // What counts in the unit in force does so in the control's variable as well.
@@ -149,13 +149,13 @@ impl Writer {
             (Some(said), Some([mm, inch]), _) if mm == inch && said == mm => {}
             (Some(said), Some([mm, inch]), _) if said == mm || said == inch => {
                 let unit = if said == mm { Unit::Mm } else { Unit::Inch };
-                self.check_unit(Num::int(1, unit), span)?;
+                self.words.check_unit(Num::int(1, unit), span)?;
             }
             _ => return Ok(None),
         }
         let own = Expr::Node(Box::new(Node::Var(Var::System(system.clone()))));
-        self.rely_on(&own, span, sink);
-        let value = self.expression(&value, span, sink)?;
+        self.words.rely_on(&own, span, sink);
+        let value = self.words.expression(&value, span, sink)?;
         Ok(Some(self.sets(name, &value)))
     }
 
@@ -166,39 +166,39 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let [stated, added] = self.codes.stated_length;
-        let z = self.codes.axes[Axis::Z as usize];
+        let [stated, added] = self.words.codes.stated_length;
+        let z = self.words.codes.axes[Axis::Z as usize];
         let (code, letter, value) = match length {
             ToolLength::Value(value) => (stated, z, value),
             ToolLength::Added(value) => (added, z, value),
-            ToolLength::AddedEntry(entry) => (added, self.codes.entry, entry),
+            ToolLength::AddedEntry(entry) => (added, self.words.codes.entry, entry),
             ToolLength::Offsets { added: adds, words } => {
                 let code = if *adds { added } else { stated };
                 let code = code.ok_or_else(|| cannot("a tool's offsets by their values"))?;
-                let own = self.along(&words[..])?;
+                let own = self.words.along(&words[..])?;
                 let mut said = Vec::with_capacity(own.len());
                 for (letter, value) in &own {
-                    said.push((letter.letter, self.value(letter, value, span, sink)?));
+                    said.push((letter.letter, self.words.value(letter, value, span, sink)?));
                 }
                 return self.alone(code, said, sink);
             }
         };
         let (code, letter) = code.zip(letter).ok_or_else(|| cannot("a tool's length by its value"))?;
-        let value = self.value(&letter, value, span, sink)?;
+        let value = self.words.value(&letter, value, span, sink)?;
         self.alone(code, vec![(letter.letter, value)], sink)
     }
 
     /// A code in a block of its own, with its words.
     fn alone(&mut self, code: Code, words: Vec<(u8, WordValue)>, sink: &mut Sink) -> Result<(), Fault> {
-        if !self.block.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
         let need = Need::new(Rank::Alone).code(Some(code));
-        self.admit(&words.iter().fold(need, |need, (letter, _)| need.letter(*letter)), sink)?;
-        self.block.code(Part::Mode, &code);
+        self.words.admit(&words.iter().fold(need, |need, (letter, _)| need.letter(*letter)), sink)?;
+        self.words.block.code(Part::Mode, &code);
         for (letter, value) in words {
-            self.block.word(Part::Mode, letter, value);
+            self.words.block.word(Part::Mode, letter, value);
         }
         Ok(())
     }
@@ -215,34 +215,34 @@ impl Writer {
         let mut inserted = Inserted::default();
         if table.row.adds {
             // Whether values are added, the text says where it is read.
-            if std::mem::take(&mut self.computing.unsaid) {
-                self.active.distance = None;
+            if std::mem::take(&mut self.words.facts.unsaid) {
+                self.words.active.distance = None;
             }
             let distance = if added { Distance::Incremental } else { Distance::Absolute };
             let counted =
                 |(_, value): &(Letter, Expr)| Coord { value: value.clone(), distance: Fact::Known(distance) };
             let coords: Vec<Coord> = own.iter().map(counted).collect();
-            self.need_distance(coords.iter(), &mut inserted)?;
+            self.words.need_distance(coords.iter(), &mut inserted)?;
         } else if added {
             return Err(cannot("a value added to one in the control's tables"));
         }
-        if !self.block.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
         let mut need =
             Need::new(Rank::Alone).code(Some(table.code)).letter(table.select.0).letter(table.entry);
         let mut shaped = Vec::new();
         for (letter, value) in own {
             need = need.letter(letter.letter);
-            shaped.push((letter.letter, self.value(letter, value, span, sink)?));
+            shaped.push((letter.letter, self.words.value(letter, value, span, sink)?));
         }
-        self.admit_with(need, inserted, sink)?;
-        self.block.code(Part::Mode, &table.code);
-        self.block.digits(Part::Mode, table.select.0, &table.select.1.to_string());
-        self.block.digits(Part::Mode, table.entry, entry);
+        self.words.admit_with(need, inserted, sink)?;
+        self.words.block.code(Part::Mode, &table.code);
+        self.words.block.digits(Part::Mode, table.select.0, &table.select.1.to_string());
+        self.words.block.digits(Part::Mode, table.entry, entry);
         for (letter, value) in shaped {
-            self.block.word(Part::Axes, letter, value);
+            self.words.block.word(Part::Axes, letter, value);
         }
         Ok(())
     }

@@ -20,7 +20,7 @@ impl Writer {
         let rules = &self.dialect.program;
         if !rules.frame.is_empty() {
             out.extend_from_slice(rules.frame.as_bytes());
-            out.extend_from_slice(self.eol);
+            out.extend_from_slice(self.words.eol);
         }
         let title = head.name.title.as_deref();
         let letter = rules.main_number();
@@ -37,21 +37,13 @@ impl Writer {
                 (None, None) => None,
             };
             if let Some(kept) = kept {
-                self.comment_line(&kept, out);
+                self.words.comment_line(&kept, out);
                 diags.push(Diagnostic::new(Fault::NameAsComment, Span::default()));
             }
         }
         for line in &head.lines {
-            self.comment_line(line, out);
+            self.words.comment_line(line, out);
         }
-    }
-
-    pub(crate) fn comment_line(&self, text: &str, out: &mut Vec<u8>) {
-        let (mut line, mut after) = (Vec::new(), Vec::new());
-        self.comments.clone().write(text, &mut line, &mut after, self.eol);
-        out.append(&mut line);
-        out.extend_from_slice(self.eol);
-        out.append(&mut after);
     }
 
     fn program_line(&self, letter: char, number: u32, title: Option<&str>, out: &mut Vec<u8>) {
@@ -67,9 +59,9 @@ impl Writer {
                 if self.dialect.block.blanks {
                     out.push(b' ');
                 }
-                self.comment_line(title, out);
+                self.words.comment_line(title, out);
             }
-            None => out.extend_from_slice(self.eol),
+            None => out.extend_from_slice(self.words.eol),
         }
     }
 
@@ -79,7 +71,7 @@ impl Writer {
             return;
         }
         let mut sink = Sink { out, diags };
-        self.no_event(&mut sink);
+        self.words.no_event(&mut sink);
         let span = p.body.first().map_or(Span::default(), |s| s.span);
         let number = match self.dialect.program.number.filter(|_| self.dialect.program.subprograms) {
             None => Err(cannot("a subprogram")),
@@ -101,11 +93,11 @@ impl Writer {
             Ok(None) => self.title_line(&format!("<{}>", p.name), p.title.as_deref(), sink.out),
             Err(fault) => return sink.report(fault, span),
         }
-        if let Some(trace) = &mut self.trace {
+        if let Some(trace) = &mut self.words.trace {
             trace.frame(sink.out);
         }
         self.forget();
-        self.tracker = Tracker::default();
+        self.words.tracker = Tracker::default();
         self.number_jumps(&p.body);
         self.body(&p.body, &mut sink);
         let ends =
@@ -122,31 +114,16 @@ impl Writer {
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let mut sink = Sink { out, diags };
         self.o_alone_ends(&mut sink);
-        self.no_event(&mut sink);
+        self.words.no_event(&mut sink);
         if self.stop_text.take().is_some() {
             // No stop has come behind it that could say it.
             sink.report(cannot("a message to the operator"), Span::default());
         }
-        if self.dialect.program.o_words && !self.main_ends && self.tracker.compensated {
+        if self.dialect.program.o_words && !self.main_ends && self.words.tracker.compensated {
             // The last move is made when the program says its end (LinuxCNC's interpreter, run).
             sink.report(cannot("the end of the text under cutter radius compensation"), Span::default());
         }
-        let frame = &self.dialect.program.frame;
-        if !frame.is_empty() {
-            sink.out.extend_from_slice(frame.as_bytes());
-            sink.out.extend_from_slice(self.eol);
-        }
-        if let Some(trace) = &mut self.trace {
-            trace.frame(sink.out);
-        }
-        if let Some(span) = self.first_left.take() {
-            sink.report(Fault::NumbersLeftOut { count: self.numbers_left }, span);
-        }
-        if let Some((units, span)) = self.units_relied
-            && self.units_stated[1 - units as usize]
-        {
-            sink.report(cannot("lengths in a unit that the caller decides"), span);
-        }
+        self.words.finish(&mut sink);
     }
 }
 

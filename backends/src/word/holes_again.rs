@@ -15,7 +15,8 @@ impl Writer {
     /// The letter of repetitions, where the dictionary alone says it.
     fn repeat_letter(&self) -> Option<u8> {
         let open = self.dialect.option.iter().any(|row| row.name == REPEAT_WORD);
-        let letter = self.settings.repeat_word().filter(|_| !open || self.settings.is_chosen(REPEAT_WORD));
+        let letter =
+            self.words.settings.repeat_word().filter(|_| !open || self.words.settings.is_chosen(REPEAT_WORD));
         letter.filter(|_| self.dialect.cycles.hole_on_definition).map(|letter| letter as u8)
     }
 
@@ -48,7 +49,7 @@ impl Writer {
         let repeats = std::mem::take(&mut self.repeats);
         self.hole(to, stmt, sink)?;
         if let Some(letter) = self.repeat_letter().filter(|_| repeats > 0) {
-            self.block.digits(Part::Tail, letter, &(repeats + 1).to_string());
+            self.words.block.digits(Part::Tail, letter, &(repeats + 1).to_string());
         }
         Ok(())
     }

@@ -18,19 +18,19 @@ impl Writer {
     /// # Errors
     /// The dialect has no such mode, or the point is not one of it.
     pub(crate) fn polar(&mut self, polar: &Polar, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        let on = self.codes.polar[1].ok_or_else(|| cannot("a point by radius and angle"))?;
+        let on = self.words.codes.polar[1].ok_or_else(|| cannot("a point by radius and angle"))?;
         if stmt.skip.is_some() {
             return Err(cannot("a point by radius and angle in a block that can be skipped"));
         }
-        let plane = polar.plane.known().or(self.active.plane);
+        let plane = polar.plane.known().or(self.words.active.plane);
         let plane =
             plane.ok_or_else(|| cannot("a point by radius and angle in a plane that is not known"))?;
         let mut inserted = crate::common::setting::Inserted::default();
-        self.need_plane(polar.plane, &mut inserted)?;
-        self.admit_with(Need::new(Rank::Setting), inserted, sink)?;
+        self.words.need_plane(polar.plane, &mut inserted)?;
+        self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
         if !self.polar {
-            self.admit(&Need::new(Rank::Setting).code(Some(on)), sink)?;
-            self.block.code(Part::Mode, &on);
+            self.words.admit(&Need::new(Rank::Setting).code(Some(on)), sink)?;
+            self.words.block.code(Part::Mode, &on);
             self.polar = true;
         }
         let (first, second, _) = plane.axes();
@@ -43,9 +43,9 @@ impl Writer {
         }
         let span = stmt.span;
         if let Op::StraightTraverse(to) = &op {
-            self.straight(to, true, span, sink)
+            self.words.straight(to, true, span, sink)
         } else if let Op::StraightFeed(to) = &op {
-            self.straight(to, false, span, sink)
+            self.words.straight(to, false, span, sink)
         } else if let Op::ArcFeed(arc) = &op {
             self.arc(arc, span, sink)
         } else if let Op::Hole(to) = &op {
@@ -57,17 +57,17 @@ impl Writer {
 
     /// Goes back to coordinates before a statement that the mode would change.
     pub(crate) fn leave_polar(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        if !self.polar || !polar::leaves_points(&stmt.op, self.active.plane) {
+        if !self.polar || !polar::leaves_points(&stmt.op, self.words.active.plane) {
             return Ok(());
         }
-        let off = self.codes.polar[0].ok_or_else(|| cannot("the end of points by radius and angle"))?;
+        let off = self.words.codes.polar[0].ok_or_else(|| cannot("the end of points by radius and angle"))?;
         // A block that is skipped must not say it.
-        let skip = self.block.skip.take();
-        self.admit(&Need::new(Rank::Setting).code(Some(off)), sink)?;
-        self.block.code(Part::Mode, &off);
+        let skip = self.words.block.skip.take();
+        self.words.admit(&Need::new(Rank::Setting).code(Some(off)), sink)?;
+        self.words.block.code(Part::Mode, &off);
         if skip.is_some() {
-            self.flush(false, sink);
-            self.block.skip = skip;
+            self.words.flush(false, sink);
+            self.words.block.skip = skip;
         }
         self.polar = false;
         Ok(())

@@ -13,11 +13,12 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::{HIGHEST_NUMBER, Writer};
+use super::Writer;
 use crate::Numbering;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::fault::cannot;
+use crate::common::words::HIGHEST_NUMBER;
 
 /// Most passes of a repetition.
 const MOST_TIMES: u32 = 9999;
@@ -36,18 +37,12 @@ pub(crate) struct Label {
     end: Option<u32>,
 }
 
-/// Labels of the program, and where the text is.
+/// Labels of the program.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Labels {
     all: Vec<Label>,
-    /// Number that the next line with words has.
-    pub(crate) waiting: Option<u32>,
-    /// Whether the line at hand is a number alone.
-    pub(crate) bare: bool,
     /// The label that ends with the block at hand.
     ending: Option<usize>,
-    /// Lines with words since the last label.
-    pub(crate) lines: u32,
     /// Whether units, plane and distance mode are changed behind the first label.
     changed: [bool; 3],
     /// Whether cycles are called up, or end, within repeated blocks.
@@ -114,24 +109,24 @@ impl Writer {
         if self.held.as_ref().is_some_and(|held| !held.in_text) {
             return Err(cannot("repeated blocks that begin or end within a cycle's own block"));
         }
-        if !self.block.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
-        if let Numbering::Every { first, step } = self.numbering {
-            let numbers = [self.count_number(first, step), self.count_number(first, step)];
+        if let Numbering::Every { first, step } = self.words.numbers.numbering {
+            let numbers = [self.words.numbers.count(first, step), self.words.numbers.count(first, step)];
             self.labels.all[at].numbers = numbers;
         }
         let label = &self.labels.all[at];
         if begins {
-            self.labels.waiting = Some(label.numbers[0]);
+            self.words.numbers.waiting = Some(label.numbers[0]);
         }
         if ends {
             self.labels.ending = Some(at);
         }
         // The label's number stands in one line alone.
-        self.block.number = None;
-        self.labels.lines = 0;
+        self.words.block.number = None;
+        self.words.numbers.lines = 0;
         if begins {
             self.forget_all_but_cycle();
         }
@@ -141,22 +136,22 @@ impl Writer {
     /// What is in force is not known, but for modes that nothing changes, and the cycle, which is called up
     /// again.
     fn forget_all_but_cycle(&mut self) {
-        let (held, force) = (self.held.take(), self.active);
+        let (held, force) = (self.held.take(), self.words.active);
         self.forget();
         let [units, plane, distance] = self.labels.changed;
         if !units {
-            self.active.units = force.units;
+            self.words.active.units = force.units;
         }
         if !plane && !force.our_plane {
-            self.active.plane = force.plane;
+            self.words.active.plane = force.plane;
         }
         if !distance && !force.our_distance {
-            self.active.distance = force.distance;
+            self.words.active.distance = force.distance;
         }
         self.held = held;
         match &mut self.held {
             Some(held) if self.labels.cycles => held.in_text = false,
-            Some(_) => self.active.motion = force.motion.filter(|motion| *motion == Motion::Cycle),
+            Some(_) => self.words.active.motion = force.motion.filter(|motion| *motion == Motion::Cycle),
             None => {}
         }
     }
@@ -165,12 +160,12 @@ impl Writer {
     pub(crate) fn label_ends(&mut self) {
         let Some(at) = self.labels.ending.take() else { return };
         let Some(label) = self.labels.all.get_mut(at) else { return };
-        let written = !self.block.is_empty();
-        label.end = match (written, self.labels.waiting, self.labels.lines) {
+        let written = !self.words.block.is_empty();
+        label.end = match (written, self.words.numbers.waiting, self.words.numbers.lines) {
             // Its only line is still to be written.
             (true, Some(number), _) => Some(number),
             (true, None, _) => {
-                self.labels.waiting = Some(label.numbers[1]);
+                self.words.numbers.waiting = Some(label.numbers[1]);
                 Some(label.numbers[1])
             }
             (false, None, 1) if label.begins => Some(label.numbers[0]),
@@ -193,19 +188,19 @@ impl Writer {
         let named = |name: &Text| self.labels.all.iter().find(|label| label.name == *name);
         let from = named(&repeat.from).map(|label| label.numbers[0]);
         let to = repeat.to.as_ref().and_then(named).and_then(|label| label.end);
-        let (Some(from), Some(to), None) = (from, to, self.labels.waiting) else {
+        let (Some(from), Some(to), None) = (from, to, self.words.numbers.waiting) else {
             return Err(cannot("a repetition of these blocks"));
         };
-        let total = self.settings.get(REPEAT_COUNT) == "total";
+        let total = self.words.settings.get(REPEAT_COUNT) == "total";
         let times = times.saturating_add(u32::from(total));
         if times > MOST_TIMES {
             return Err(Fault::TargetRange { word: times.to_string().into() });
         }
-        self.rely(REPEAT_COUNT, span, sink);
+        self.words.rely(REPEAT_COUNT, span, sink);
         let need = letters.iter().fold(Need::new(Rank::Alone), |need, letter| need.letter(*letter));
-        self.admit(&need, sink)?;
+        self.words.admit(&need, sink)?;
         for (letter, value) in letters.into_iter().zip([from, to, times]) {
-            self.block.digits(Part::Tail, letter, &value.to_string());
+            self.words.block.digits(Part::Tail, letter, &value.to_string());
         }
         self.forget_all_but_cycle();
         Ok(())

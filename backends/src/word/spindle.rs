@@ -1,125 +1,41 @@
-//! What a speed counts, and its limit.
+//! A limit of the spindle's speed.
 //!
-//! Not here: a code that says both what a speed and what a feed counts, for two statements at once.
+//! Not here: what a speed counts (`common::words`).
 
 use ncc_ir::canon::{Spindle, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
 use super::Writer;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
-use crate::common::codes::Code;
 use crate::common::fault::cannot;
 
-/// The option that says whose coordinate is the radius of a surface speed.
-const AXIS: &str = "surface_axis";
-
-/// The option that says how long a stop of the spindle at an angle is waited for, seconds.
-const WAIT: &str = "orient_wait";
-
-/// What the text has said of surface speeds.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Surfaces {
-    /// Whether any was in force so far.
-    pub(crate) met: bool,
-    /// Whether any limit was.
-    limited: bool,
-    /// Whether any has no limit in its block, where that is the place for it.
-    unlimited: bool,
-    /// A code whose speed must follow it in its block.
-    waits: Option<Span>,
-    /// A limit that is to be said with the surface speed that follows.
-    pub(super) unsaid: Option<Span>,
-}
-
 impl Writer {
-    /// The code by which a speed counts turns a minute. None is needed where a control has no other way, and
-    /// where a code of the feed says so: both are of one group there, and it is in force already.
-    pub(super) fn turns_code(&self) -> Result<Option<Code>, Fault> {
-        let Some(code) = self.codes.spindle_mode(SpindleMode::Turns, self.active.feed_mode) else {
-            return match self.surfaces.met {
-                true => Err(cannot("the end of a constant surface speed, with this feed")),
-                false => Ok(None),
-            };
-        };
-        let surface = self.surfaces.met && self.active.spindle_mode != Some(SpindleMode::Turns);
-        let said = self.codes.spindle_with_feed() && self.block.says(code.group) && !surface;
-        Ok((!said).then_some(code))
-    }
-
-    /// Whether a code of the feed must say that the speed is still a surface's.
-    pub(super) fn surface_joins_feed(&self) -> Result<bool, Fault> {
-        match self.active.spindle_mode {
-            _ if !self.surfaces.met || !self.codes.spindle_with_feed() => Ok(false),
-            Some(mode) => Ok(mode == SpindleMode::Surface),
-            None => Err(cannot("what a feed counts where it is not known what a speed does")),
-        }
-    }
-
-    /// The speed of the block is a surface's.
-    pub(super) fn surface_speed(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        let code = self.codes.spindle_mode(SpindleMode::Surface, self.active.feed_mode);
-        let code = code.ok_or_else(|| cannot("a constant surface speed"))?;
-        let mut need = Need::new(Rank::Setting).code(Some(code));
-        let limit = match self.codes.surface_limit {
-            None => None,
-            Some(letter) => match self.active.limit {
-                Some(limit) => {
-                    self.surfaces.unsaid = None;
-                    need = need.letter(letter.letter);
-                    Some((letter.letter, self.value(&letter, &Expr::Num(limit), stmt.span, sink)?))
-                }
-                None if self.surfaces.limited => {
-                    return Err(cannot("a limit that is not known to be in force"));
-                }
-                None => {
-                    self.surfaces.unlimited = true;
-                    None
-                }
-            },
-        };
-        self.admit(&need, sink)?;
-        self.block.code(Part::Mode, &code);
-        if let Some((letter, value)) = limit {
-            self.block.word(Part::Mode, letter, value);
-        }
-        self.surface_in_force(stmt.span, sink);
-        Ok(())
-    }
-
-    /// Notes that the text has said a surface speed, whose speed is to follow.
-    pub(crate) fn surface_in_force(&mut self, span: Span, sink: &mut Sink) {
-        self.rely(AXIS, span, sink);
-        self.active.spindle_mode = Some(SpindleMode::Surface);
-        self.surfaces.met = true;
-        self.surfaces.waits = Some(span);
-    }
-
     /// The highest speed under a surface speed.
     pub(super) fn speed_limit(&mut self, limit: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        if let (Some(code), Some(letter)) = (self.codes.speed_limit, self.codes.speed) {
-            let value = self.value(&letter, limit, span, sink)?;
-            if !self.block.is_empty() {
-                self.flush(false, sink);
-                self.split = true;
+        if let (Some(code), Some(letter)) = (self.words.codes.speed_limit, self.words.codes.speed) {
+            let value = self.words.value(&letter, limit, span, sink)?;
+            if !self.words.block.is_empty() {
+                self.words.flush(false, sink);
+                self.words.split = true;
             }
-            self.admit(&Need::new(Rank::Alone).code(Some(code)).letter(letter.letter), sink)?;
-            self.block.code(Part::Mode, &code);
-            self.block.word(Part::Mode, letter.letter, value);
+            self.words.admit(&Need::new(Rank::Alone).code(Some(code)).letter(letter.letter), sink)?;
+            self.words.block.code(Part::Mode, &code);
+            self.words.block.word(Part::Mode, letter.letter, value);
             return Ok(());
         }
-        let known = self.codes.surface_limit.and_then(|_| limit.literal());
+        let known = self.words.codes.surface_limit.and_then(|_| limit.literal());
         let limit = known.ok_or_else(|| cannot("a limit of the spindle speed"))?;
         // It is said with the surface speed that follows.
-        if self.surfaces.unlimited || self.active.spindle_mode == Some(SpindleMode::Surface) {
+        if self.words.surfaces.unlimited || self.words.active.spindle_mode == Some(SpindleMode::Surface) {
             return Err(cannot("a limit of the spindle behind the surface speed that it is for"));
         }
-        self.surfaces.limited = true;
-        self.surfaces.unsaid = Some(span);
-        self.active.limit = Some(limit);
+        self.words.surfaces.limited = true;
+        self.words.surfaces.unsaid = Some(span);
+        self.words.active.limit = Some(limit);
         Ok(())
     }
 
@@ -143,60 +59,12 @@ impl Writer {
                 | Op::Blank
                 | Op::NoEffect(_)
         );
-        let turns = matches!(self.tracker.spindle, Some(Spindle::Clockwise | Spindle::Counterclockwise));
+        let turns =
+            matches!(self.words.tracker.spindle, Some(Spindle::Clockwise | Spindle::Counterclockwise));
         if (starts || turns && !sets)
-            && let Some(span) = self.surfaces.unsaid.take()
+            && let Some(span) = self.words.surfaces.unsaid.take()
         {
             sink.report(cannot("a limit of the spindle under a speed in turns"), span);
         }
-    }
-
-    /// Tells of a surface speed whose speed does not stand in its block.
-    pub(super) fn surface_with_speed(&mut self, sink: &mut Sink) {
-        if let Some(span) = self.surfaces.waits.take()
-            && self.codes.speed.is_none_or(|speed| !self.block.has(speed.letter))
-        {
-            sink.report(cannot("a constant surface speed without its speed in the block"), span);
-        }
-    }
-
-    /// A stop of the spindle, at the control's own angle or at another one.
-    pub(super) fn orient(&mut self, angle: Option<&Expr>, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        const WHAT: &str = "a spindle stopped at an angle";
-        let code = self.codes.orient.ok_or_else(|| cannot(WHAT))?;
-        let words = self.codes.orient_words;
-        let wait = words.and_then(|words| words.wait);
-        let mut need = Need::new(Rank::SpindleOn).code(Some(code));
-        let Some(angle) = angle else {
-            if wait.is_some() {
-                return Err(cannot("a stop of the spindle at the control's own angle"));
-            }
-            self.admit(&need, sink)?;
-            self.block.code(Part::Tail, &code);
-            return Ok(());
-        };
-        // On some machines a choice says which letter it is.
-        let chosen = words.and_then(|words| words.option.as_deref()).map(|option| self.settings.get(option));
-        if self.tracker.cycle.is_some() && self.dialect.cycles.retained_by_all() {
-            // The cycles have the letter too; whether theirs changes with it, no source tells.
-            return Err(cannot("a spindle stopped at an angle while a cycle is in force"));
-        }
-        let counts = |letter: u8| chosen.is_none_or(|chosen| chosen.as_bytes() == [letter]);
-        let letter = self.codes.orient_angles.iter().find(|letter| counts(letter.letter)).copied();
-        let letter = letter.ok_or_else(|| cannot(WHAT))?;
-        let value = self.value(&letter, angle, span, sink)?;
-        need = need.letter(letter.letter);
-        if let Some(wait) = wait {
-            need = need.letter(wait as u8);
-            self.rely(WAIT, span, sink);
-        }
-        self.admit(&need, sink)?;
-        self.block.code(Part::Tail, &code);
-        self.block.word(Part::Tail, letter.letter, value);
-        if let Some(wait) = wait {
-            let text = format!("{wait}{}", self.settings.get(WAIT));
-            self.block.text(Part::Tail, &text);
-        }
-        Ok(())
     }
 }

@@ -24,7 +24,7 @@ impl Writer {
                 self.held = Some(held);
                 return Err(cannot("a pattern of holes"));
             }
-            Some(held) if !held.in_text || self.active.motion != Some(Motion::Cycle) => {
+            Some(held) if !held.in_text || self.words.active.motion != Some(Motion::Cycle) => {
                 self.call_up(held, None, true, stmt, sink)?;
             }
             Some(held) => self.held = Some(held),
@@ -53,34 +53,37 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let row = self.codes.circle.ok_or_else(|| cannot("a bolt circle"))?;
+        let row = self.words.codes.circle.ok_or_else(|| cannot("a bolt circle"))?;
         if centre.is_none() {
-            let at = [self.tracker.position[Axis::X as usize], self.tracker.position[Axis::Y as usize]];
+            let at = [
+                self.words.tracker.position[Axis::X as usize],
+                self.words.tracker.position[Axis::Y as usize],
+            ];
             if self.options.circle_about_zero {
-                let zero = self.axis_position(Axis::X)? == 0 && self.axis_position(Axis::Y)? == 0;
+                let zero = self.words.axis_position(Axis::X)? == 0 && self.words.axis_position(Axis::Y)? == 0;
                 if !zero {
                     return Err(cannot("a bolt circle about where the tool stands"));
                 }
             } else if at != [Some(0); 2] {
-                self.rely("g24_centre", span, sink);
+                self.words.rely("g24_centre", span, sink);
             }
         }
-        self.rely("g24_direction", span, sink);
+        self.words.rely("g24_direction", span, sink);
         let mut inserted = Inserted::default();
-        self.need_distance(first.iter().chain(centre.into_iter().flatten()), &mut inserted)?;
+        self.words.need_distance(first.iter().chain(centre.into_iter().flatten()), &mut inserted)?;
         let mut words = Vec::with_capacity(6);
         for (letter, coord) in row.first.iter().zip(first) {
-            words.push((letter.letter, self.value(letter, &coord.value, span, sink)?));
+            words.push((letter.letter, self.words.value(letter, &coord.value, span, sink)?));
         }
         for (letter, coord) in row.centre.iter().zip(centre.into_iter().flatten()) {
-            words.push((letter.letter, self.value(letter, &coord.value, span, sink)?));
+            words.push((letter.letter, self.words.value(letter, &coord.value, span, sink)?));
         }
         let step = match (step.literal(), self.options.circle_clockwise) {
             (Some(n), true) => Expr::Num(Num { mantissa: n.mantissa.saturating_neg(), ..n }),
             _ => step.clone(),
         };
-        words.push((row.step.letter, self.value(&row.step, &step, span, sink)?));
-        words.push((row.count.letter, self.value(&row.count, &Expr::int(count.into()), span, sink)?));
+        words.push((row.step.letter, self.words.value(&row.step, &step, span, sink)?));
+        words.push((row.count.letter, self.words.value(&row.count, &Expr::int(count.into()), span, sink)?));
         self.pattern_block(row.code, &words, inserted, sink)
     }
 
@@ -92,7 +95,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let row = self.codes.grid.ok_or_else(|| cannot("a grid of holes"))?;
+        let row = self.words.codes.grid.ok_or_else(|| cannot("a grid of holes"))?;
         let (x, y) = (Axis::from_letter(row.pitch[0].letter), Axis::from_letter(row.pitch[1].letter));
         // The order of the holes shows only where there is more than one row.
         let order = serpentine == row.serpentine || rows.count <= 1 || columns.count <= 1;
@@ -101,7 +104,7 @@ impl Writer {
             return Err(cannot("a grid in this order"));
         }
         if columns.count > 2 || rows.count > 2 {
-            self.rely("g25_xy", span, sink);
+            self.words.rely("g25_xy", span, sink);
         }
         let mut words = Vec::with_capacity(4);
         for (letter, line) in row.pitch.iter().zip([columns, rows]) {
@@ -114,10 +117,10 @@ impl Writer {
                 }
                 _ => line.pitch.clone(),
             };
-            words.push((letter.letter, self.value(letter, &pitch, span, sink)?));
+            words.push((letter.letter, self.words.value(letter, &pitch, span, sink)?));
         }
         for (letter, line) in row.counts.iter().zip([columns, rows]) {
-            words.push((letter.letter, self.value(letter, &Expr::int(line.count.into()), span, sink)?));
+            words.push((letter.letter, self.words.value(letter, &Expr::int(line.count.into()), span, sink)?));
         }
         self.pattern_block(row.code, &words, Inserted::default(), sink)
     }
@@ -130,10 +133,10 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let need = words.iter().fold(Need::new(Rank::Motion).code(Some(code)), |n, (l, _)| n.letter(*l));
-        self.admit_with(need, inserted, sink)?;
-        self.block.code(Part::Motion, &code);
+        self.words.admit_with(need, inserted, sink)?;
+        self.words.block.code(Part::Motion, &code);
         for (letter, value) in words {
-            self.block.word(Part::Axes, *letter, *value);
+            self.words.block.word(Part::Axes, *letter, *value);
         }
         Ok(())
     }

@@ -18,7 +18,7 @@ impl Writer {
             CycleKind::DrillDwell { dwell } => Some(dwell),
             CycleKind::DrillPeck { dwell, clearance, .. }
             | CycleKind::DrillBreak { dwell, lift: clearance, .. } => {
-                let of = self.codes.cycles.iter().filter(|row| row.kind == cycle.kind.name());
+                let of = self.words.codes.cycles.iter().filter(|row| row.kind == cycle.kind.name());
                 let mut fits = of.filter(|row| row.from_return == (*clearance == Clearance::FromReturn));
                 let Some(row) = fits.next().filter(|_| !matches!(clearance, Clearance::Stated(_))) else {
                     return Err(cannot("the clearance of a peck, which is a parameter of the machine"));
@@ -33,7 +33,7 @@ impl Writer {
                 return self.driven_code(cycle);
             }
         };
-        let row = |dwell| self.codes.cycle(cycle.kind.name(), dwell).filter(|row| ends(row, cycle));
+        let row = |dwell| self.words.codes.cycle(cycle.kind.name(), dwell).filter(|row| ends(row, cycle));
         // One that can have a dwell need have none, or has one of no seconds.
         let code = row(dwell.is_some()).or_else(|| row(true).filter(|_| dwell.is_none()));
         code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
@@ -54,7 +54,9 @@ impl Writer {
             | CycleKind::Bore { .. } => return Err(cannot()),
         };
         let name = |row: &CycleCode| match kind {
-            CycleKind::Tap(tap) if !tap.chuck && row.kind == "tap" => self.codes.rigid_tapping.is_some(),
+            CycleKind::Tap(tap) if !tap.chuck && row.kind == "tap" => {
+                self.words.codes.rigid_tapping.is_some()
+            }
             CycleKind::Tap(tap) if tap.chuck && row.kind == "tap" => !self.options.rigid_taps,
             _ => row.kind == kind.name(),
         };
@@ -62,7 +64,7 @@ impl Writer {
             CycleKind::Tap(tap) => row.hand == Some(tap.turn),
             _ => true,
         };
-        let mut rows = self.codes.cycles.iter();
+        let mut rows = self.words.codes.cycles.iter();
         let row = rows.find(|row| {
             name(row)
                 && hand(row)

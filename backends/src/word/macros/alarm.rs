@@ -63,7 +63,7 @@ impl Writer {
                 return Err(cannot("an alarm of this number"));
             }
         }
-        let value = self.expression(number, stmt.span, sink)?;
+        let value = self.words.expression(number, stmt.span, sink)?;
         if !alarm.text.is_empty() {
             self.comment_text(&alarm.text, stmt, sink)?;
         }
@@ -85,10 +85,10 @@ impl Writer {
             let most = self.dialect.formula.alarm_text;
             return Err(cannot(format!("a text for the operator of more than {most} characters")));
         }
-        if !self.comments.keeps(text) {
+        if !self.words.comments.keeps(text) {
             return Err(cannot("a text for the operator with these characters"));
         }
-        self.comment(text, stmt.span, sink);
+        self.words.comment(text, stmt.span, sink);
         Ok(())
     }
 }

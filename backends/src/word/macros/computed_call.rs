@@ -8,10 +8,10 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
-use super::formula::rounding;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::fault::cannot;
+use crate::common::formula::rounding;
 use crate::word::Writer;
 
 impl Writer {
@@ -22,7 +22,7 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
+        let words = self.words.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
         self.flow(stmt, sink)?;
         let number = match (call.number, call.name) {
             (Some(number), _) => self.whole_value(number, stmt.span, sink)?,
@@ -42,11 +42,11 @@ impl Writer {
         if let Some((letter, _)) = &times {
             need = need.letter(*letter);
         }
-        self.admit(&need, sink)?;
-        self.block.code(Part::Tail, &words.code);
-        self.block.digits(Part::Tail, words.number, &number);
+        self.words.admit(&need, sink)?;
+        self.words.block.code(Part::Tail, &words.code);
+        self.words.block.digits(Part::Tail, words.number, &number);
         if let Some((letter, times)) = times {
-            self.block.digits(Part::Tail, letter, &times);
+            self.words.block.digits(Part::Tail, letter, &times);
         }
         self.forget();
         Ok(())
@@ -55,8 +55,8 @@ impl Writer {
     /// A value that its address takes as the nearest whole number.
     fn whole_value(&mut self, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         match rounding(value) {
-            (Some(0), inner) => self.behind(inner, Some(0), span, sink),
-            _ => self.behind(value, None, span, sink),
+            (Some(0), inner) => self.words.behind(inner, Some(0), span, sink),
+            _ => self.words.behind(value, None, span, sink),
         }
     }
 }

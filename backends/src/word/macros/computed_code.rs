@@ -50,7 +50,7 @@ impl Writer {
             return Err(cannot_compute("a code whose number is a variable's"));
         }
         self.flow(stmt, sink)?;
-        let number = self.behind(code.number, None, stmt.span, sink)?;
+        let number = self.words.behind(code.number, None, stmt.span, sink)?;
         self.statement_alone(&format!("G{number}"), sink)?;
         self.forget();
         Ok(())

@@ -24,11 +24,15 @@ impl Writer {
     ) -> Result<(), Fault> {
         for place in &entry.reads {
             let spelt = self.place_by_number(place, entry.number)?;
-            self.rely_on(&Expr::Node(Box::new(Node::Var(Var::System(place.first.clone())))), stmt.span, sink);
-            self.variables.insert(place.name.clone(), spelt);
+            self.words.rely_on(
+                &Expr::Node(Box::new(Node::Var(Var::System(place.first.clone())))),
+                stmt.span,
+                sink,
+            );
+            self.words.variables.insert(place.name.clone(), spelt);
         }
         let done = self.entry_setting(entry, stmt, sink);
-        entry.reads.iter().for_each(|place| drop(self.variables.remove(&place.name)));
+        entry.reads.iter().for_each(|place| drop(self.words.variables.remove(&place.name)));
         done
     }
 
@@ -66,20 +70,20 @@ impl Writer {
             let of = |offset: &u16| offset.checked_sub(row.first).is_some_and(|n| n < row.count);
             row.kind == DataKind::Offset && ends.iter().all(of)
         };
-        let table = self.codes.tables.iter().find(has).ok_or_else(none)?.clone();
-        let own = self.along(&words[..])?;
+        let table = self.words.codes.tables.iter().find(has).ok_or_else(none)?.clone();
+        let own = self.words.along(&words[..])?;
         let base = place.base - i64::from(table.row.first) + 1;
         let number = number_of(&Place { base, ..place.clone() }, entry.number);
-        let number = self.behind(&number, None, stmt.span, sink)?;
+        let number = self.words.behind(&number, None, stmt.span, sink)?;
         self.stored(&table, &number, false, &own, stmt.span, sink)
     }
 
     /// The variable that a place is.
     fn place_by_number(&self, place: &Place, number: &Expr) -> Result<String, Fault> {
         // As they are said one by one, or not at all.
-        self.spelling(None)?.target(&Target::Var(Var::System(place.first.clone())))?;
+        self.words.spelling(None)?.target(&Target::Var(Var::System(place.first.clone())))?;
         let at = vec![number_of(place, number)];
         let element = Element { of: Many::Numbered(Box::new([])), at };
-        self.spelling(None)?.target(&Target::Element(Box::new(element)))
+        self.words.spelling(None)?.target(&Target::Element(Box::new(element)))
     }
 }

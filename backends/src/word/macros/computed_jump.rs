@@ -84,7 +84,7 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        self.spelling(None)?;
+        self.words.spelling(None)?;
         let own = |(number, label): &(i64, &str)| self.number_of_label(label).map(i64::from) == Some(*number);
         if !self.dialect.program.macro_b || !jump.to.iter().all(own) {
             return Err(cannot_compute("a jump to a block whose number is computed"));
@@ -92,10 +92,12 @@ impl Writer {
         self.flow(stmt, sink)?;
         let blank = if self.dialect.block.blanks { " " } else { "" };
         let condition = match jump.condition {
-            Some(condition) => format!("IF{blank}{}{blank}", self.condition(condition, stmt.span, sink)?),
+            Some(condition) => {
+                format!("IF{blank}{}{blank}", self.words.condition(condition, stmt.span, sink)?)
+            }
             None => String::new(),
         };
-        let value = self.behind(jump.value, None, stmt.span, sink)?;
+        let value = self.words.behind(jump.value, None, stmt.span, sink)?;
         self.statement_alone(&format!("{condition}GOTO{blank}{value}"), sink)
     }
 }

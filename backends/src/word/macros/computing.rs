@@ -3,12 +3,11 @@
 //! Each stands in a block of its own. A block that is jumped to keeps its number; another one gets a number that no
 //! other block has. Loops have the number of their depth.
 //!
-//! Not here: expressions (`formula`), and which structures the target has (`computes`).
+//! Not here: expressions (`common::formula`), and which structures the target has (`computes`).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use ncc_dialects::{ANGLE_RANGE, SystemRow};
-use ncc_ir::canon::{Distance, Modes, Units};
+use ncc_ir::canon::{Modes, Units};
 use ncc_ir::computed::computed_call::computed_call;
 use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::computed::computes::LETTERS;
@@ -18,12 +17,13 @@ use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::formula::{arcs, literal, number_of};
 use super::modal_call::AtMoves;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::fault::{cannot, cannot_compute};
-use crate::word::{HIGHEST_NUMBER, Writer};
+use crate::common::formula::{literal, number_of};
+use crate::common::words::HIGHEST_NUMBER;
+use crate::word::Writer;
 
 /// Most calls by one word.
 const MOST_TIMES: u32 = 9999;
@@ -33,39 +33,25 @@ const MOST_TIMES: u32 = 9999;
 pub(crate) struct Computing {
     /// Whether the program computes at all: then a call has its caller's variables, or its own.
     variables: bool,
-    /// Whether a program that computes is written with its structure, here or by whom these words are for.
-    pub(in crate::word) kept: bool,
-    /// Whether lengths count mm wherever the text does not say what they count.
-    pub(in crate::word) metric: bool,
     /// Parameters of procedures, by name.
     parameters: BTreeMap<Text, Vec<Var>>,
     /// Numbers of the blocks of the procedure at hand that are jumped to.
     numbers: BTreeMap<Text, u32>,
     /// Loops that are open.
     open: u8,
-    /// Modes in force where stretches of blocks begin, by the places of their first statements.
-    entries: HashMap<u32, Modes>,
-    /// The distance mode of the program where the stretch at hand begins, if it is known.
-    pub(in crate::word) entry: Option<Distance>,
-    /// The distance mode that the text had before this writer put in another one.
-    pub(in crate::word) replaced: Option<Distance>,
-    /// Whether the distance mode is known of the program as a whole, and not of the text where it is read.
-    pub(in crate::word) unsaid: bool,
-    /// Values of the control's own, by their numbers.
-    pub(in crate::word) own: Vec<(u32, Expr)>,
 }
 
 impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
     pub(crate) fn know(&mut self, program: &Program, entries: HashMap<u32, Modes>) {
         let procedures = program.procedures.as_slice();
-        self.is_kept(entries);
+        self.words.is_kept(entries);
         self.computing.variables = true;
-        self.computing.metric = Said::by(program).only() == Some(Units::Mm);
-        self.computing.own = self
+        self.words.facts.metric = Said::by(program).only() == Some(Units::Mm);
+        self.words.own_values = self
             .dialect
             .named_values()
-            .filter(|(row, ..)| row.counts(&self.settings))
+            .filter(|(row, ..)| row.counts(&self.words.settings))
             .map(|(_, number, value)| (number, value))
             .collect();
         let known = procedures.iter().skip(1).map(|p| (p.name.clone(), p.parameters.clone()));
@@ -73,34 +59,6 @@ impl Writer {
         if self.has_o_words() {
             self.know_o_words(procedures);
         }
-    }
-
-    /// A program that computes is written with its structure.
-    pub(crate) fn is_kept(&mut self, entries: HashMap<u32, Modes>) {
-        self.computing.kept = true;
-        self.know_modes(entries);
-    }
-
-    /// Takes which modes are in force where stretches of blocks begin.
-    pub(crate) fn know_modes(&mut self, entries: HashMap<u32, Modes>) {
-        self.computing.entries = entries;
-    }
-
-    /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
-    /// source: the text states each that the source does, and no other.
-    pub(crate) fn stand(&mut self, stmt: &Stmt) {
-        let known = self.computing.entries.get(&stmt.span.start);
-        self.computing.entry = known.and_then(|known| known.distance);
-        let Some(known) = known else { return };
-        if self.preamble.is_some() {
-            return;
-        }
-        self.forgotten = false;
-        self.computing.unsaid = self.active.distance.is_none();
-        self.active.distance = self.active.distance.or(known.distance);
-        self.active.plane = self.active.plane.or(known.plane);
-        self.active.units = self.active.units.or(known.units);
-        self.tracker.modes.work_offset = self.tracker.modes.work_offset.or(known.work_offset);
     }
 
     /// Whether the program computes when it runs.
@@ -135,11 +93,7 @@ impl Writer {
             });
             self.computing.numbers.insert(name.clone(), number);
         }
-    }
-
-    /// Whether blocks are jumped to.
-    pub(crate) fn has_jumps(&self) -> bool {
-        !self.computing.numbers.is_empty()
+        self.words.numbers.jumps = !self.computing.numbers.is_empty();
     }
 
     /// Whether a block of this label is jumped to.
@@ -151,77 +105,45 @@ impl Writer {
     pub(crate) fn jump_label(&mut self, name: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let Some(number) = self.computing.numbers.get(name).copied() else { return Ok(()) };
         self.flow(stmt, sink)?;
-        self.labels.waiting = Some(number);
-        self.block.number = None;
+        self.words.numbers.waiting = Some(number);
+        self.words.block.number = None;
         self.forget();
         Ok(())
     }
 
     /// The label of a block without words.
     pub(crate) fn number_alone(&mut self, sink: &mut Sink) {
-        if !self.has_jumps() || !self.block.is_empty() {
+        if !self.words.numbers.jumps || !self.words.block.is_empty() {
             return;
         }
-        if let (Some(number), Some(letter)) = (self.labels.waiting.take(), self.dialect.block.number) {
-            self.block.text(Part::Label, &format!("{}{number}", char::from(letter as u8)));
-            self.block.number = None;
-            self.labels.bare = true;
-            self.flush(false, sink);
-            self.labels.bare = false;
+        if let (Some(number), Some(letter)) = (self.words.numbers.waiting.take(), self.dialect.block.number) {
+            self.words.block.text(Part::Label, &format!("{}{number}", char::from(letter as u8)));
+            self.words.block.number = None;
+            self.words.numbers.bare = true;
+            self.words.flush(false, sink);
+            self.words.numbers.bare = false;
         }
     }
 
     /// What comes next goes another way: what waits is written, and the block is one of its own.
     pub(in crate::word) fn flow(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.call_up_now(stmt, sink)?;
-        if !self.block.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
         Ok(())
     }
 
     pub(in crate::word) fn statement_alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
-        if !self.has_o_words() && !self.block.is_empty() {
+        if !self.has_o_words() && !self.words.block.is_empty() {
             // It counts when what stands before it has been read.
-            self.flush(false, sink);
-            self.split = true;
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
-        self.admit(&Need::new(Rank::Alone), sink)?;
-        self.block.text(Part::Tail, text);
+        self.words.admit(&Need::new(Rank::Alone), sink)?;
+        self.words.block.text(Part::Tail, text);
         Ok(())
-    }
-
-    /// What is taken for granted of the machine where an expression stands.
-    pub(in crate::word) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
-        if arcs(e) {
-            self.rely(ANGLE_RANGE, span, sink);
-        }
-        let dialect = self.dialect;
-        if !e.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
-            return;
-        }
-        let reported = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
-        for row in dialect.system.iter().filter(reported) {
-            if !row.counts(&self.settings) {
-                continue;
-            }
-            let asks = |part: &Node| match part {
-                Node::Var(Var::System(system)) => row.says().any(|(says, _)| says == *system),
-                _ => false,
-            };
-            if !e.has(&asks) {
-                continue;
-            }
-            if !row.option.is_empty() {
-                self.rely(&row.option, span, sink);
-            }
-            if !row.assumes.is_empty() && !self.told_options.contains(&&*row.assumes) {
-                self.told_options.push(&row.assumes);
-                let parameter = row.assumes.as_str().into();
-                sink.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
-            }
-        }
     }
 
     /// A value for a variable.
@@ -240,9 +162,9 @@ impl Writer {
         }
         let text = self.assignment(to, value, span, sink)?;
         // What another language sets when its block is over stands behind the block here.
-        if !self.has_o_words() && !self.block.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        if !self.has_o_words() && !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
         self.statement_alone(&text, sink)
     }
@@ -254,14 +176,14 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<String, Fault> {
-        self.spelling(None)?;
+        self.words.spelling(None)?;
         self.variable_changes(to, span, sink)?;
         let value = match value {
             // Where a value is no sum without brackets.
-            Expr::Node(_) if self.has_o_words() => self.behind(value, None, span, sink)?,
-            _ => self.expression(value, span, sink)?,
+            Expr::Node(_) if self.has_o_words() => self.words.behind(value, None, span, sink)?,
+            _ => self.words.expression(value, span, sink)?,
         };
-        Ok(self.sets(&self.spelling(None)?.target(to)?, &value))
+        Ok(self.sets(&self.words.spelling(None)?.target(to)?, &value))
     }
 
     /// A text in which something is set to something.
@@ -286,7 +208,7 @@ impl Writer {
 
     /// A jump.
     pub(crate) fn go_to(&mut self, label: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        self.spelling(None)?;
+        self.words.spelling(None)?;
         self.flow(stmt, sink)?;
         let text = self.jump(label)?;
         self.statement_alone(&text, sink)
@@ -306,7 +228,7 @@ impl Writer {
 
     /// A decision or a loop.
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        self.spelling(None)?;
+        self.words.spelling(None)?;
         let computes = self.dialect.caps.flow.computes.as_ref();
         if let Some(entry) = computes.and_then(|computes| computes.computed_entry(control)) {
             return self.entry_of_number(&entry, stmt, sink);
@@ -341,17 +263,17 @@ impl Writer {
         let blank = if self.dialect.block.blanks { " " } else { "" };
         let text = if let Op::Goto(label) = &then.op {
             self.flow(stmt, sink)?;
-            let condition = self.condition(condition, stmt.span, sink)?;
+            let condition = self.words.condition(condition, stmt.span, sink)?;
             format!("IF{blank}{condition}{blank}{}", self.jump(label)?)
         } else if let Op::Assign(to, value) = &then.op {
-            let condition = self.condition(condition, stmt.span, sink)?;
+            let condition = self.words.condition(condition, stmt.span, sink)?;
             let assignment = self.assignment(to, value, stmt.span, sink)?;
             format!("IF{blank}{condition}{blank}THEN{blank}{assignment}")
         } else if let Op::Alarm(alarm) = &then.op {
-            let condition = self.condition(condition, stmt.span, sink)?;
+            let condition = self.words.condition(condition, stmt.span, sink)?;
             format!("IF{blank}{condition}{blank}THEN{blank}{}", self.alarm_setting(alarm, stmt, sink)?)
         } else if let Op::ProgramStop = &then.op {
-            let condition = self.condition(condition, stmt.span, sink)?;
+            let condition = self.words.condition(condition, stmt.span, sink)?;
             format!("IF{blank}{condition}{blank}THEN{blank}{}", self.stop_setting(stmt, sink)?)
         } else {
             return Err(cannot_compute("a decision about another statement"));
@@ -377,22 +299,22 @@ impl Writer {
         let blank = if self.dialect.block.blanks { " " } else { "" };
         let head = match condition {
             Some(condition) => {
-                format!("WHILE{blank}{}{blank}DO{number}", self.condition(condition, stmt.span, sink)?)
+                format!("WHILE{blank}{}{blank}DO{number}", self.words.condition(condition, stmt.span, sink)?)
             }
             None => format!("DO{number}"),
         };
         self.statement_alone(&head, sink)?;
-        let split = self.split;
-        self.flush(false, sink);
-        self.block_written(sink.out);
+        let split = self.words.split;
+        self.words.flush(false, sink);
+        self.words.block_written(sink.out);
         // Its beginning is come to from its end as well.
         self.forget();
         self.computing.open = number;
         self.body(body, sink);
         self.computing.open = number - 1;
         self.open_block(&Stmt::new(stmt.span, Op::Blank));
-        self.split = split;
-        if let Some(trace) = &mut self.trace {
+        self.words.split = split;
+        if let Some(trace) = &mut self.words.trace {
             trace.enter(std::slice::from_ref(stmt));
         }
         self.forget();
@@ -406,13 +328,13 @@ impl Writer {
 
     /// A call with variables of its own.
     pub(crate) fn macro_call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        self.spelling(None)?;
+        self.words.spelling(None)?;
         if self.has_o_words() {
             return self.o_call(call, stmt, sink);
         }
         let words = match self.at_moves {
-            AtMoves::Begins => self.codes.calls_at_moves.map(|(call, _)| call),
-            AtMoves::None | AtMoves::Within => self.codes.macro_call,
+            AtMoves::Begins => self.words.codes.calls_at_moves.map(|(call, _)| call),
+            AtMoves::None | AtMoves::Within => self.words.codes.macro_call,
         };
         let words = words.ok_or_else(|| cannot_compute("a call with arguments"))?;
         self.flow(stmt, sink)?;
@@ -432,14 +354,14 @@ impl Writer {
         if let Some(letter) = count {
             need = need.letter(letter);
         }
-        self.admit(&need, sink)?;
-        self.block.code(Part::Tail, &words.code);
-        self.block.digits(Part::Tail, words.number, &format!("{number:0least$}"));
+        self.words.admit(&need, sink)?;
+        self.words.block.code(Part::Tail, &words.code);
+        self.words.block.digits(Part::Tail, words.number, &format!("{number:0least$}"));
         if let Some(letter) = count {
-            self.block.digits(Part::Tail, letter, &call.times.to_string());
+            self.words.block.digits(Part::Tail, letter, &call.times.to_string());
         }
         for (letter, text) in arguments {
-            self.block.digits(Part::Tail, letter, &text);
+            self.words.block.digits(Part::Tail, letter, &text);
         }
         self.forget();
         Ok(())
@@ -480,7 +402,7 @@ impl Writer {
                 // To which digits it would round there, no manual says.
                 return Err(cannot_compute("a rounding in an argument"));
             }
-            return self.behind(value, None, span, sink);
+            return self.words.behind(value, None, span, sink);
         };
         let mut text = String::new();
         literal(n, n.point || !b"DHMST".contains(&letter), &mut text);

@@ -1,4 +1,4 @@
-//! Programs that compute: expressions, assignments, jumps, calls, and computed numbers in the place of
+//! Programs that compute: assignments, jumps, calls, and computed numbers in the place of
 //! codes and of entries in tables; in the macro language and in O words.
 //!
 //! ```text
@@ -6,16 +6,14 @@
 //! o100 if [#1 GT 5]          a branch in O words
 //! ```
 //!
-//! Not here: passes that bring expressions within the target's capabilities.
+//! Not here: expressions (`common::formula`), and passes that bring expressions within the target's capabilities.
 
 pub(super) mod alarm;
-pub(super) mod comparisons;
 pub(super) mod computed_call;
 pub(super) mod computed_code;
 pub(super) mod computed_entry;
 pub(super) mod computed_jump;
 pub(super) mod computing;
-pub(super) mod formula;
 pub(super) mod modal_call;
 pub(super) mod o_words;
 pub(super) mod output;

@@ -97,13 +97,13 @@ impl Writer {
         let mut runs: Vec<Run> = Vec::new();
         // A call in the block of something else is rare, and looked for first.
         let beside = |stmt: &Stmt| stmt.joined && matches!(stmt.op, Op::Call(_));
-        if self.codes.calls_at_moves.is_none() || !stmts.iter().any(beside) {
+        if self.words.codes.calls_at_moves.is_none() || !stmts.iter().any(beside) {
             return runs;
         }
         let mut open: Option<(Run, &Call)> = None;
         let mut at = 0;
         while at < stmts.len() {
-            let end = self.block_end(stmts, at);
+            let end = self.words.block_end(stmts, at);
             match kind(&stmts[at..end]) {
                 Kind::Calls(call) if self.calls_with_variables(call) => match &mut open {
                     Some((run, own)) if *own == call => run.to = end,
@@ -124,30 +124,30 @@ impl Writer {
     /// The block that says the call.
     pub(in crate::word) fn begin_calls_at_moves(&mut self, call: &Stmt, sink: &mut Sink) {
         let said = [Stmt::new(call.span, call.op.clone())];
-        self.pass_on(sink.out);
+        self.words.pass_on(sink.out);
         self.at_moves = AtMoves::Begins;
         self.source_block(&said, sink);
         self.at_moves = AtMoves::Within;
-        if self.trace.is_some() {
-            self.block_written(sink.out);
+        if self.words.trace.is_some() {
+            self.words.block_written(sink.out);
         }
     }
 
     /// The block that ends the calls.
     pub(in crate::word) fn end_calls_at_moves(&mut self, call: &Stmt, sink: &mut Sink) {
         self.at_moves = AtMoves::None;
-        let Some((_, code)) = self.codes.calls_at_moves else { return };
-        self.pass_on(sink.out);
+        let Some((_, code)) = self.words.codes.calls_at_moves else { return };
+        self.words.pass_on(sink.out);
         let said = [Stmt::new(call.span, Op::Blank)];
         self.open_block(&said[0]);
-        self.block.skip = None;
-        match self.admit(&Need::new(Rank::Alone).code(Some(code)), sink) {
-            Ok(()) => self.block.code(Part::Tail, &code),
+        self.words.block.skip = None;
+        match self.words.admit(&Need::new(Rank::Alone).code(Some(code)), sink) {
+            Ok(()) => self.words.block.code(Part::Tail, &code),
             Err(fault) => sink.report(fault, call.span),
         }
         self.close_block(&said, sink);
-        if self.trace.is_some() {
-            self.block_written(sink.out);
+        if self.words.trace.is_some() {
+            self.words.block_written(sink.out);
         }
     }
 }

@@ -5,7 +5,7 @@
 //! looks for a file of its name first (LinuxCNC's interp_o_word.cc, `control_back_to`). Programs that have their
 //! caller's variables are numbered ones, which end with their own code.
 //!
-//! Not here: expressions (`formula`), and jumps, which such a control has not.
+//! Not here: expressions (`common::formula`), and jumps, which such a control has not.
 
 mod messages;
 
@@ -20,10 +20,10 @@ use ncc_ir::source::Span;
 
 use ncc_ir::track::Tracker;
 
-use super::formula::number_of;
 use crate::common::Sink;
 use crate::common::block::Rank;
 use crate::common::fault::{cannot, cannot_compute};
+use crate::common::formula::number_of;
 use crate::word::Writer;
 
 /// Most arguments of a call, which are the first of the variables that a call has (LinuxCNC, O Codes, call).
@@ -96,7 +96,7 @@ impl Writer {
         }
         let mut stated = [false; 2];
         procedures.iter().for_each(|procedure| units(&procedure.body, &mut stated));
-        (0..2).for_each(|at| self.units_stated[at] |= stated[at]);
+        (0..2).for_each(|at| self.words.units_stated[at] |= stated[at]);
         for procedure in procedures.iter().skip(1) {
             if own.contains(&procedure.name) || !shared.contains(&procedure.name) {
                 o.subs.insert(procedure.name.clone());
@@ -119,26 +119,29 @@ impl Writer {
         }
         let lead = main.iter().take_while(|s| matches!(s.op, Op::Comment(_) | Op::Blank)).count();
         self.body(&main[..lead], sink);
-        if let Some(preamble) = &mut self.preamble {
-            if let Some(trace) = &mut self.trace {
+        if let Some(preamble) = &mut self.words.preamble {
+            if let Some(trace) = &mut self.words.trace {
                 trace.started(sink.out, &preamble.held);
             }
             sink.out.append(&mut preamble.held);
         }
         // They stand before the blocks that state the units of all.
-        let known = self.preamble.as_ref().and_then(|preamble| preamble.units()).or(self.assumed.units);
-        known.into_iter().for_each(|units| self.units_stated[units as usize] = true);
+        let known =
+            self.words.preamble.as_ref().and_then(|preamble| preamble.units()).or(self.words.assumed.units);
+        known.into_iter().for_each(|units| self.words.units_stated[units as usize] = true);
         // They are passed over where they stand: what is in force there stays.
-        let preamble = self.preamble.take();
-        let (force, tracker, held) = (self.active, self.tracker.clone(), self.held.take());
-        let (residue, residual, named, lost) = (self.residue, self.residual, self.named, self.lost);
+        let preamble = self.words.preamble.take();
+        let (force, tracker, held) = (self.words.active, self.words.tracker.clone(), self.held.take());
+        let (residue, residual, named, lost) =
+            (self.words.residue, self.words.residual, self.words.named, self.words.lost);
         for procedure in &waiting {
             self.o_sub(procedure, sink);
         }
-        self.preamble = preamble;
-        (self.active, self.tracker, self.held) = (force, tracker, held);
-        (self.residue, self.residual, self.named, self.lost) = (residue, residual, named, lost);
-        self.forgotten = false;
+        self.words.preamble = preamble;
+        (self.words.active, self.words.tracker, self.held) = (force, tracker, held);
+        (self.words.residue, self.words.residual, self.words.named, self.words.lost) =
+            (residue, residual, named, lost);
+        self.words.forgotten = false;
         lead
     }
 
@@ -171,10 +174,11 @@ impl Writer {
         if let Some(name) = self.o_words.alone.take().filter(|_| self.o_words.sub.is_some()) {
             self.o_end(&name, Span::default(), sink);
             // Its caller goes on before; the file by itself ends (O Codes, Calling Files).
-            if let Err(fault) = self.m_code(Rank::Stop, self.codes.end, "the program's end", sink) {
+            if let Err(fault) = self.words.m_code(Rank::Stop, self.words.codes.end, "the program's end", sink)
+            {
                 sink.report(fault, Span::default());
             }
-            self.flush(false, sink);
+            self.words.flush(false, sink);
         }
     }
 
@@ -185,7 +189,7 @@ impl Writer {
         }
         self.o_begin(&procedure.name, procedure.title.as_deref(), sink);
         self.forget();
-        self.tracker = Tracker::default();
+        self.words.tracker = Tracker::default();
         self.o_body(&procedure.body, sink);
         self.o_end(&procedure.name, procedure.body.last().map_or(span, |s| s.span), sink);
     }
@@ -195,11 +199,11 @@ impl Writer {
         match title {
             Some(title) => {
                 sink.out.push(b' ');
-                self.comment_line(title, sink.out);
+                self.words.comment_line(title, sink.out);
             }
-            None => sink.out.extend_from_slice(self.eol),
+            None => sink.out.extend_from_slice(self.words.eol),
         }
-        if let Some(trace) = &mut self.trace {
+        if let Some(trace) = &mut self.words.trace {
             trace.frame(sink.out);
         }
         self.o_words.sub = Some(name.clone());
@@ -234,8 +238,8 @@ impl Writer {
         if let Err(fault) = written {
             sink.report(fault, last);
         }
-        self.flush(false, sink);
-        if let Some(trace) = &mut self.trace {
+        self.words.flush(false, sink);
+        if let Some(trace) = &mut self.words.trace {
             trace.frame(sink.out);
         }
         self.o_words.sub = None;
@@ -272,27 +276,27 @@ impl Writer {
     /// A block of an O word: without a number, since nothing jumps there.
     fn o_line(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         self.statement_alone(text, sink)?;
-        self.labels.bare = true;
-        self.flush(false, sink);
-        self.labels.bare = false;
+        self.words.numbers.bare = true;
+        self.words.flush(false, sink);
+        self.words.numbers.bare = false;
         Ok(())
     }
 
     /// A block from which control goes on into others.
     fn o_head(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         self.o_line(text, sink)?;
-        self.block_written(sink.out);
+        self.words.block_written(sink.out);
         self.forget();
         Ok(())
     }
 
     /// The blocks of a decision or a loop.
     fn o_inner(&mut self, body: &[Stmt], stmt: &Stmt, sink: &mut Sink) {
-        let split = self.split;
+        let split = self.words.split;
         self.body(body, sink);
         self.open_block(&Stmt::new(stmt.span, Op::Blank));
-        self.split = split;
-        if let Some(trace) = &mut self.trace {
+        self.words.split = split;
+        if let Some(trace) = &mut self.words.trace {
             trace.enter(std::slice::from_ref(stmt));
         }
         if let Err(fault) = self.flow(stmt, sink) {
@@ -326,7 +330,7 @@ impl Writer {
                 self.o_decision(label, condition, then, otherwise, stmt, sink)
             }
             Control::While { condition, body } => {
-                let condition = self.condition(condition, stmt.span, sink)?;
+                let condition = self.words.condition(condition, stmt.span, sink)?;
                 self.o_head(&format!("o{label} while {condition}"), sink)?;
                 self.o_loop(label, [true, true, true], body, stmt, sink);
                 self.o_line(&format!("o{label} endwhile"), sink)
@@ -341,7 +345,7 @@ impl Writer {
                 self.o_head(&format!("o{label} while [1]"), sink)?;
                 self.o_loop(label, [true, false, true], body, stmt, sink);
                 let inner = self.o_label();
-                let holds = self.condition(condition, stmt.span, sink)?;
+                let holds = self.words.condition(condition, stmt.span, sink)?;
                 self.o_head(&format!("o{inner} if {holds}"), sink)?;
                 self.o_head(&format!("o{label} break"), sink)?;
                 self.o_head(&format!("o{inner} endif"), sink)?;
@@ -350,13 +354,13 @@ impl Writer {
             Control::Until { condition, body } => {
                 self.o_head(&format!("o{label} do"), sink)?;
                 self.o_loop(label, [true, true, false], body, stmt, sink);
-                let again = self.condition(&opposite(condition), stmt.span, sink)?;
+                let again = self.words.condition(&opposite(condition), stmt.span, sink)?;
                 self.o_line(&format!("o{label} while {again}"), sink)
             }
             Control::Repeat { times, body } => {
                 self.o_words.repeats = true;
                 self.undisturbed()?;
-                let times = self.condition(counted(times), stmt.span, sink)?;
+                let times = self.words.condition(counted(times), stmt.span, sink)?;
                 self.o_head(&format!("o{label} repeat {times}"), sink)?;
                 self.o_loop(label, [false, false, false], body, stmt, sink);
                 self.o_line(&format!("o{label} endrepeat"), sink)
@@ -374,7 +378,7 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let holds = self.condition(condition, stmt.span, sink)?;
+        let holds = self.words.condition(condition, stmt.span, sink)?;
         self.o_head(&format!("o{label} if {holds}"), sink)?;
         self.o_inner(then, stmt, sink);
         let mut rest = otherwise;
@@ -382,7 +386,7 @@ impl Writer {
             && let Control::If { condition, then, otherwise } = &**control
             && !may_fail(condition)
         {
-            let holds = self.condition(condition, stmt.span, sink)?;
+            let holds = self.words.condition(condition, stmt.span, sink)?;
             self.o_head(&format!("o{label} elseif {holds}"), sink)?;
             self.o_inner(then, stmt, sink);
             rest = otherwise;
@@ -461,7 +465,7 @@ impl Writer {
         for value in given {
             text.push(' ');
             let nothing = Expr::int(0);
-            text.push_str(&self.condition(value.unwrap_or(&nothing), stmt.span, sink)?);
+            text.push_str(&self.words.condition(value.unwrap_or(&nothing), stmt.span, sink)?);
         }
         self.o_line(&text, sink)?;
         self.forget();
@@ -505,7 +509,7 @@ impl Writer {
         match self.o_words.result.take() {
             None => Ok(String::new()),
             Some((value, Some(false))) if value.literal().is_some_and(|n| n.is_zero()) => Ok(String::new()),
-            Some((value, Some(true))) => Ok(format!(" {}", self.condition(&value, span, sink)?)),
+            Some((value, Some(true))) => Ok(format!(" {}", self.words.condition(&value, span, sink)?)),
             Some(_) => Err(unsaid()),
         }
     }

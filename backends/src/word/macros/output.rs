@@ -47,7 +47,7 @@ impl Writer {
                     if *short || *digits > 9 || *places > 9 || !(1..=most).contains(&(places + digits)) {
                         return Err(cannot("a value for a device with these digits"));
                     }
-                    let value = self.behind(value, None, stmt.span, sink)?;
+                    let value = self.words.behind(value, None, stmt.span, sink)?;
                     let number = value.strip_prefix('#').unwrap_or_default();
                     if number.is_empty() || !number.bytes().all(|byte| byte.is_ascii_digit()) {
                         return Err(cannot("a value for a device that is no variable"));

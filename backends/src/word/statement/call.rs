@@ -15,7 +15,7 @@ impl Writer {
         if self.calls_with_variables(call) {
             if self.at_moves == AtMoves::Within {
                 // The control makes it by itself.
-                self.flush(false, sink);
+                self.words.flush(false, sink);
                 self.forget();
                 return Ok(());
             }
@@ -24,7 +24,7 @@ impl Writer {
         if self.is_o_sub(&call.name) {
             return Err(cannot_compute("a call of a program that has variables of its own elsewhere"));
         }
-        let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
+        let words = self.words.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
         self.call_up_now(stmt, sink)?;
         if self.has_name(&call.name) {
             return self.call_by_name(call, &words, sink);
@@ -45,11 +45,11 @@ impl Writer {
         if let Some(letter) = count {
             need = need.letter(letter);
         }
-        self.admit(&need, sink)?;
-        self.block.code(Part::Tail, &words.code);
-        self.block.digits(Part::Tail, words.number, &digits);
+        self.words.admit(&need, sink)?;
+        self.words.block.code(Part::Tail, &words.code);
+        self.words.block.digits(Part::Tail, words.number, &digits);
         if let Some(letter) = count {
-            self.block.digits(Part::Tail, letter, &call.times.to_string());
+            self.words.block.digits(Part::Tail, letter, &call.times.to_string());
         }
         // The subprogram may change everything.
         self.forget();
@@ -65,11 +65,11 @@ impl Writer {
             (2..=9999, Some(letter)) => Some(letter),
             _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
         };
-        self.admit(&count.iter().fold(need, |need, letter| need.letter(*letter)), sink)?;
-        self.block.code(Part::Tail, &words.code);
-        self.block.text(Part::Tail, &format!("<{}>", call.name));
+        self.words.admit(&count.iter().fold(need, |need, letter| need.letter(*letter)), sink)?;
+        self.words.block.code(Part::Tail, &words.code);
+        self.words.block.text(Part::Tail, &format!("<{}>", call.name));
         if let Some(letter) = count {
-            self.block.digits(Part::Tail, letter, &call.times.to_string());
+            self.words.block.digits(Part::Tail, letter, &call.times.to_string());
         }
         self.forget();
         Ok(())
@@ -80,7 +80,7 @@ impl Writer {
         let fits = |b: u8| b.is_ascii_alphanumeric() || b"+-_.".contains(&b);
         let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
         let read_as_number = number(name) || name.strip_prefix('O').is_some_and(number);
-        self.settings.writes_names()
+        self.words.settings.writes_names()
             && (1..=32).contains(&name.len())
             && name.bytes().all(fits)
             && !read_as_number

@@ -42,7 +42,7 @@ impl Writer {
                             digits => format!("%.{digits}f"),
                         });
                     }
-                    let value = self.behind(value, None, span, sink)?;
+                    let value = self.words.behind(value, None, span, sink)?;
                     if !value.starts_with('#') || value.starts_with("#[") || value.starts_with("##") {
                         return Err(cannot("a message with a value that is no variable"));
                     }
@@ -78,12 +78,12 @@ impl Writer {
     /// A comment that does something, in a line of its own.
     fn o_remark(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         self.no_result()?;
-        if !self.block.is_empty() || !self.block.comment.is_empty() {
-            self.flush(false, sink);
-            self.split = true;
+        if !self.words.block.is_empty() || !self.words.block.comment.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
         }
-        self.block.comment.extend_from_slice(text.as_bytes());
-        self.flush(false, sink);
+        self.words.block.comment.extend_from_slice(text.as_bytes());
+        self.words.flush(false, sink);
         Ok(())
     }
 }

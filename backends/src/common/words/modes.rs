@@ -7,7 +7,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Coord;
 use ncc_ir::source::Span;
 
-use super::Writer;
+use super::Words;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Code;
@@ -18,7 +18,7 @@ fn said(code: Option<Code>, what: &str) -> Result<Option<Code>, Fault> {
     code.map(Some).ok_or_else(|| cannot(what))
 }
 
-impl Writer {
+impl Words {
     /// The code of a setting; `None` in `Ok` where the target needs no word for it, because it has
     /// that one state alone.
     pub(crate) fn setting(&self, setting: Setting) -> Result<Option<Code>, Fault> {
@@ -91,7 +91,7 @@ impl Writer {
     /// another one, as in `G91 G28 Z0`.
     /// `apart`: in a block of its own, which is not the one that is jumped to.
     pub(crate) fn restore_distance(&mut self, apart: bool, sink: &mut Sink) -> Result<(), Fault> {
-        let own = self.tracker.modes.distance.or(self.computing.entry).or(self.computing.replaced);
+        let own = self.tracker.modes.distance.or(self.facts.entry).or(self.facts.replaced);
         match own.filter(|_| self.active.our_distance && self.active.distance != own) {
             Some(own) => {
                 let number = self.block.number.take_if(|_| apart);
@@ -194,7 +194,7 @@ impl Writer {
         if let Some(d) = wanted.filter(|d| self.active.distance != Some(*d)) {
             inserted.distance = self.setting(Setting::Distance(d))?;
             if !self.active.our_distance {
-                self.computing.replaced = self.active.distance;
+                self.facts.replaced = self.active.distance;
             }
             self.active.distance = Some(d);
             self.active.our_distance = true;

@@ -9,13 +9,13 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Pitch, Synchronised};
 use ncc_ir::source::Span;
 
-use super::Writer;
+use super::Words;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::fault::{cannot, unwritable};
 use crate::common::setting::Inserted;
 use crate::common::{Sink, number};
 
-impl Writer {
+impl Words {
     /// Writes a move in step with the spindle.
     ///
     /// # Errors

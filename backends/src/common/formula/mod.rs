@@ -5,7 +5,7 @@
 //!
 //! Not here: statements (`computing`), and whether the target has variables at all (`computes`).
 
-mod words;
+pub(crate) mod comparisons;
 
 use std::collections::BTreeMap;
 
@@ -16,34 +16,34 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::program::Text;
 
-use super::comparisons::{exactly, flipped, holds_or_not, nearly, within};
 use crate::common::fault::cannot_compute;
+use comparisons::{exactly, flipped, holds_or_not, nearly, within};
 
 /// How tightly an operator binds: its group's place among those of the dictionary, of which the tightest is the
 /// first; a value binds more tightly than any.
-type Tie = usize;
+pub(crate) type Tie = usize;
 
 /// What binds as loosely as can be stands without brackets.
-const LOOSEST: Tie = usize::MAX;
+pub(crate) const LOOSEST: Tie = usize::MAX;
 
 /// How expressions are spelt where one stands.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spelling<'d> {
-    rules: &'d FormulaRules,
+    pub(crate) rules: &'d FormulaRules,
     /// Values of the control's own.
-    own: &'d [(u32, Expr)],
+    pub(crate) own: &'d [(u32, Expr)],
     /// What the control calls its own values.
-    system: &'d [SystemRow],
-    settings: &'d Settings,
+    pub(crate) system: &'d [SystemRow],
+    pub(crate) settings: &'d Settings,
     /// The machine's own unit, if the dialect asks for it.
-    machine: &'d str,
-    blanks: bool,
+    pub(crate) machine: &'d str,
+    pub(crate) blanks: bool,
     /// Whether angles of arcs go from 0 to a turn.
-    turn: bool,
+    pub(crate) turn: bool,
     /// The digits to which the address rounds; outside of an address, none.
-    digits: Option<u8>,
+    pub(crate) digits: Option<u8>,
     /// Names of the variables of the procedure at hand, as they are spelt.
-    names: &'d BTreeMap<Text, String>,
+    pub(crate) names: &'d BTreeMap<Text, String>,
 }
 
 impl Spelling<'_> {
@@ -161,7 +161,7 @@ impl Spelling<'_> {
     }
 
     /// An expression in brackets.
-    fn bracketed(&self, e: &Expr, depth: u8, out: &mut String) -> Result<(), Fault> {
+    pub(crate) fn bracketed(&self, e: &Expr, depth: u8, out: &mut String) -> Result<(), Fault> {
         if depth >= self.rules.brackets {
             return Err(cannot_compute("brackets within so many others"));
         }
@@ -172,7 +172,14 @@ impl Spelling<'_> {
     }
 
     /// An expression that binds at least so tightly, or in brackets; whether it is the first in its brackets.
-    fn expr(&self, e: &Expr, least: Tie, first: bool, depth: u8, out: &mut String) -> Result<(), Fault> {
+    pub(crate) fn expr(
+        &self,
+        e: &Expr,
+        least: Tie,
+        first: bool,
+        depth: u8,
+        out: &mut String,
+    ) -> Result<(), Fault> {
         let node = match e {
             Expr::Num(n) if n.unit != Unit::One => {
                 return Err(cannot_compute("a literal with a unit of its own in an expression"));
@@ -484,7 +491,7 @@ pub(crate) fn literal(n: Num, point: bool, out: &mut String) {
 }
 
 /// What is rounded to some digits, and to how many.
-pub(in crate::word) fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
+pub(crate) fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
     if let Expr::Node(node) = e
         && let Node::Call(Function::RoundTo, arguments) = &**node
         && let [a, Expr::Num(to)] = &arguments[..]
@@ -497,6 +504,6 @@ pub(in crate::word) fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
 }
 
 /// Whether there is an angle of an arc in an expression.
-pub(in crate::word) fn arcs(e: &Expr) -> bool {
+pub(crate) fn arcs(e: &Expr) -> bool {
     e.has(&|node| matches!(node, Node::Call(Function::Asin | Function::Atan2, _)))
 }

@@ -7,7 +7,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Move, Op, Stmt};
 
-use super::Writer;
+use super::{HIGHEST_NUMBER, Words};
 use crate::Numbering;
 use crate::common::codes::Code;
 use crate::common::number;
@@ -19,7 +19,7 @@ pub(crate) const PAGE: usize = 4096;
 /// Room for a line: number, motion code, six axes, feed, line end, and what the last word touches.
 const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
 
-impl Writer {
+impl Words {
     /// Writes a plain block, or returns `false` without having written or changed anything.
     #[inline]
     pub(crate) fn plain_block(&mut self, stmts: &[Stmt], out: &mut Vec<u8>) -> bool {
@@ -39,18 +39,16 @@ impl Writer {
         if stmt.skip.is_some()
             || stmt.comment.is_some()
             || self.preamble.is_some()
-            || self.held.is_some()
             || self.residual
             || self.corner.is_some()
-            || self.polar
             || self.surfaces.unsaid.is_some()
-            || self.labels.waiting.is_some()
+            || self.numbers.waiting.is_some()
         {
             return false;
         }
         let done = self.plain_move(stmts[0].number, to, motion, code, feed, out);
         if done {
-            self.number_seen(&stmts[0]);
+            self.numbers.seen(&stmts[0]);
         }
         done
     }
@@ -73,13 +71,13 @@ impl Writer {
             Units::Mm => Unit::Mm,
             Units::Inch => Unit::Inch,
         };
-        let mut next = self.next_number;
+        let mut next = self.numbers.next;
         if self.filled > PAGE - LINE {
             self.pass_on(out);
         }
         let line = &mut self.page;
         let mut at = self.filled;
-        match (self.numbering, self.dialect.block.number, number) {
+        match (self.numbers.numbering, self.dialect.block.number, number) {
             (Numbering::Off, _, _) => {}
             (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
                 line[at] = letter as u8;
@@ -94,7 +92,7 @@ impl Writer {
                 line[at] = b' ';
                 at += blanks;
                 next = next.saturating_add(step);
-                if next > super::HIGHEST_NUMBER {
+                if next > HIGHEST_NUMBER {
                     next = first;
                 }
             }
@@ -147,7 +145,7 @@ impl Writer {
         line[at..at + 2].copy_from_slice(&if self.eol.len() == 2 { *b"\r\n" } else { *b"\n\n" });
         at += self.eol.len();
         self.filled = at;
-        self.next_number = next;
+        self.numbers.next = next;
         self.named |= named;
         if distance == Distance::Incremental {
             self.settle();

@@ -5,7 +5,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
 
 /// A comparison that finds equal what is nearly so, as a control does it by itself.
-pub(in crate::word) fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
+pub(crate) fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
     fn equal(e: &Expr) -> Option<(&Expr, &Expr)> {
         let Expr::Node(node) = e else { return None };
         match &**node {
@@ -51,12 +51,12 @@ pub(in crate::word) fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
 }
 
 /// Whether an expression is worth 1 or 0.
-pub(in crate::word) fn holds_or_not(e: &Expr) -> bool {
+pub(crate) fn holds_or_not(e: &Expr) -> bool {
     matches!(e, Expr::Node(node) if decides(node))
 }
 
 /// Whether the value of this is a truth value.
-pub(in crate::word) fn decides(node: &Node) -> bool {
+pub(crate) fn decides(node: &Node) -> bool {
     match node {
         Node::Unary(operator, _) => *operator == Unary::Not,
         Node::Binary(operator, ..) => operator.decides(),
@@ -66,7 +66,7 @@ pub(in crate::word) fn decides(node: &Node) -> bool {
 }
 
 /// A comparison that finds equal what is less than this apart, as a control does it by itself.
-pub(in crate::word) fn within(node: &Node, tolerance: Num) -> Option<(Binary, &Expr, &Expr)> {
+pub(crate) fn within(node: &Node, tolerance: Num) -> Option<(Binary, &Expr, &Expr)> {
     fn apart(e: &Expr) -> Option<(&Expr, &Expr)> {
         let Expr::Node(node) = e else { return None };
         match &**node {
@@ -98,7 +98,7 @@ pub(in crate::word) fn within(node: &Node, tolerance: Num) -> Option<(Binary, &E
 
 /// A comparison to the least bit, in `LT` and `GT`, which are so on a control whose others are not; `true` where it is
 /// the opposite of what is given.
-pub(in crate::word) fn exactly(node: &Node) -> Option<(Expr, bool)> {
+pub(crate) fn exactly(node: &Node) -> Option<(Expr, bool)> {
     let Node::Binary(operator, a, b) = node else { return None };
     if [a, b].iter().any(|e| matches!(e, Expr::Node(node) if **node == Node::Vacant)) {
         return None;
@@ -116,7 +116,7 @@ pub(in crate::word) fn exactly(node: &Node) -> Option<(Expr, bool)> {
 }
 
 /// The opposite of a comparison, where one comparison says it too; `tolerance` is that of the control's own, if any.
-pub(in crate::word) fn flipped(e: &Expr, tolerance: Option<Num>) -> Option<Expr> {
+pub(crate) fn flipped(e: &Expr, tolerance: Option<Num>) -> Option<Expr> {
     let Expr::Node(node) = e else { return None };
     let Node::Binary(operator, a, b) = &**node else { return None };
     // Of those within a tolerance, only the same and not the same are each other's opposite.

@@ -1,20 +1,20 @@
 //! Words of a block whose value is an expression.
 
-use ncc_dialects::{ANGLE_RANGE, MACHINE_UNITS};
+use ncc_dialects::{ANGLE_RANGE, MACHINE_UNITS, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
+use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
 use ncc_ir::source::Span;
 
-use super::super::comparisons::decides;
-use super::{LOOSEST, Spelling, rounding};
+use super::Words;
 use crate::common::Sink;
 use crate::common::codes::Letter;
 use crate::common::fault::cannot_compute;
+use crate::common::formula::comparisons::decides;
+use crate::common::formula::{LOOSEST, Spelling, arcs, rounding};
 use crate::common::number::WordValue;
-use crate::word::Writer;
 
-impl Writer {
+impl Words {
     /// How expressions are spelt, in a word that rounds to digits or elsewhere.
     pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'_>, Fault> {
         if self.dialect.formula.operators.is_empty() {
@@ -22,7 +22,7 @@ impl Writer {
         }
         Ok(Spelling {
             rules: &self.dialect.formula,
-            own: &self.computing.own,
+            own: &self.own_values,
             system: &self.dialect.system,
             settings: &self.settings,
             machine: self.settings.get(MACHINE_UNITS),
@@ -38,6 +38,38 @@ impl Writer {
         match self.dialect.program.macro_b && e.has(&decides) {
             true => Err(cannot_compute("a condition as a value")),
             false => Ok(()),
+        }
+    }
+
+    /// What is taken for granted of the machine where an expression stands.
+    pub(crate) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
+        if arcs(e) {
+            self.rely(ANGLE_RANGE, span, sink);
+        }
+        let dialect = self.dialect;
+        if !e.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
+            return;
+        }
+        let reported = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
+        for row in dialect.system.iter().filter(reported) {
+            if !row.counts(&self.settings) {
+                continue;
+            }
+            let asks = |part: &Node| match part {
+                Node::Var(Var::System(system)) => row.says().any(|(says, _)| says == *system),
+                _ => false,
+            };
+            if !e.has(&asks) {
+                continue;
+            }
+            if !row.option.is_empty() {
+                self.rely(&row.option, span, sink);
+            }
+            if !row.assumes.is_empty() && !self.told_options.contains(&&*row.assumes) {
+                self.told_options.push(&row.assumes);
+                let parameter = row.assumes.as_str().into();
+                sink.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+            }
         }
     }
 

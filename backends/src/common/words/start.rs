@@ -8,7 +8,7 @@ use ncc_ir::canon::{Axis, Distance, Fact, Modes, ReturnLevel, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
-use super::Writer;
+use super::Words;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Code;
@@ -43,9 +43,9 @@ impl Preamble {
     }
 }
 
-impl Writer {
+impl Words {
     /// A program that is called by another states nothing before its first event: it would go on in its caller.
-    pub fn stands_alone(&mut self, taken: &Modes) {
+    pub(crate) fn stands_alone(&mut self, taken: &Modes) {
         self.preamble = None;
         if let Some(units) = taken.units {
             self.units_stated[units as usize] = true;
@@ -53,7 +53,7 @@ impl Writer {
     }
 
     /// The tool that is in the spindle before the program begins.
-    pub fn hold_tool(&mut self, tool: u32) {
+    pub(crate) fn hold_tool(&mut self, tool: u32) {
         let tool = Some(i64::from(tool));
         (self.tracker.tool, self.tracker.selected) = (tool, tool);
     }

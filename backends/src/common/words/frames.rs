@@ -7,14 +7,14 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, FrameSlot, Slot};
 use ncc_ir::source::Span;
 
-use super::Writer;
+use super::Words;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{Code, Letter};
 use crate::common::fault::cannot;
 use crate::common::setting::Inserted;
 
-impl Writer {
+impl Words {
     /// Fills a slot.
     pub(crate) fn slot(&mut self, slot: &Slot, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let frames = self.codes.frames;
@@ -121,7 +121,7 @@ impl Writer {
     }
 
     /// The words of axes, with their letters.
-    pub(super) fn along(&self, words: &[Option<Expr>]) -> Result<Vec<(Letter, Expr)>, Fault> {
+    pub(crate) fn along(&self, words: &[Option<Expr>]) -> Result<Vec<(Letter, Expr)>, Fault> {
         let mut out = Vec::new();
         for (axis, word) in Axis::ALL.into_iter().zip(words) {
             if let Some(word) = word {

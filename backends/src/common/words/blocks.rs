@@ -4,29 +4,23 @@ use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
-use super::{HIGHEST_NUMBER, Writer};
-use crate::Numbering;
+use super::Words;
 use crate::common::Sink;
 use crate::common::active_modes::ActiveModes;
 use crate::common::block::Need;
-use crate::common::fault::cannot_compute;
+use crate::common::fault::{cannot, cannot_compute};
 
-impl Writer {
+impl Words {
     /// Begins a block of the source.
     pub(crate) fn open_block(&mut self, first: &Stmt) {
         self.settle();
         self.split = false;
         self.block.forget_formulas();
         self.block.number = first.number;
-        if !self.is_jumped_to(&first.op) {
-            self.number_seen(first);
-        }
     }
 
     /// Ends a block of the source.
     pub(crate) fn close_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
-        self.label_ends();
-        self.number_alone(sink);
         self.flush(false, sink);
         if let (true, Some(first)) = (self.split, stmts.first()) {
             let span = stmts.iter().fold(first.span, |span, s| span.to(s.span));
@@ -117,20 +111,10 @@ impl Writer {
         if let Some(span) = self.offset_waits.take()
             && !self.block.has(Axis::Z.letter())
         {
-            sink.report(crate::common::fault::cannot("a length offset in a block without Z"), span);
+            sink.report(cannot("a length offset in a block without Z"), span);
         }
         self.surface_with_speed(sink);
-        let label = if empty { None } else { self.labels.waiting.take() };
-        self.labels.lines += u32::from(!empty);
-        let number = match self.numbering {
-            _ if self.labels.bare => None,
-            Numbering::Off | Numbering::Keep | Numbering::Every { .. } if label.is_some() => label,
-            Numbering::Off => None,
-            Numbering::Keep => self.block.number,
-            // Beside blocks that are jumped to no other has a number of ours.
-            Numbering::Every { .. } if empty || self.has_jumps() => None,
-            Numbering::Every { first, step } => Some(self.count_number(first, step)),
-        };
+        let number = self.numbers.of_line(empty, self.block.number);
         let mark = self.skip_mark(self.block.skip);
         let to = self.preamble.as_mut().map_or(&mut *sink.out, |p| &mut p.held);
         let start = to.len();
@@ -159,18 +143,8 @@ impl Writer {
         }
         let most = self.dialect.block.longest_bare;
         if most > 0 && bare > most as usize {
-            sink.report(
-                crate::common::fault::cannot(format!("a block of more than {most} characters")),
-                self.block.at,
-            );
+            sink.report(cannot(format!("a block of more than {most} characters")), self.block.at);
         }
-    }
-
-    pub(crate) fn count_number(&mut self, first: u32, step: u32) -> u32 {
-        let number = self.next_number;
-        let next = number.saturating_add(step);
-        self.next_number = if next > HIGHEST_NUMBER { first } else { next };
-        number
     }
 
     /// The mark of a skip level, and its digit if it needs one; `None` if there is no such mark.
@@ -185,14 +159,6 @@ impl Writer {
             // On a control whose plain mark is `/0`, `/1` is one more level: the tenth.
             (mark, 10) if level <= rules.skip_levels => Some((mark, Some(1))),
             _ => None,
-        }
-    }
-
-    /// Notes a block number of the source that is not written.
-    pub(crate) fn number_seen(&mut self, stmt: &Stmt) {
-        if stmt.number.is_some() && self.numbering == Numbering::Off {
-            self.numbers_left = self.numbers_left.saturating_add(1);
-            self.first_left.get_or_insert(stmt.span);
         }
     }
 }
