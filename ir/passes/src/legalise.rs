@@ -38,7 +38,6 @@ use crate::tools::length_axis::LengthAxisState;
 use crate::tools::length_by_hand::LengthByHandState;
 use crate::tools::offset_with_z::OffsetWithZState;
 use crate::tools::tool_axis::ToolAxisState;
-use crate::tools::tool_change::ToolChangeState;
 use crate::tools::tool_edge::ToolEdgeState;
 use crate::tools::z_after_change::ZAfterChangeState;
 
@@ -415,11 +414,8 @@ impl Legaliser {
 
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        self.shared.states.state_mut::<ExpandCornersState>().flush(stmts, diags);
-        self.shared.states.state_mut::<OffsetWithZState>().flush(stmts, diags);
-        self.shared.states.state_mut::<OneMoveState>().flush(stmts);
-        self.shared.states.state_mut::<ThreadsState>().finish(stmts, diags);
-        self.shared.states.state_mut::<ToolChangeState>().finish(diags);
-        self.shared.states.state_mut::<ToolEdgeState>().finish(diags);
+        for step in PASSES.iter().filter_map(|pass| pass.step) {
+            (step.finish)(&mut self.shared, stmts, diags);
+        }
     }
 }

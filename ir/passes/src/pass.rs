@@ -164,7 +164,12 @@ pub(crate) struct Step {
     pub(crate) otherwise: fn(&mut Shared, &Piece),
     /// A form that is tried first.
     pub(crate) first: Option<First>,
+    /// The end of the program: what it has held back, and what it only knows then.
+    pub(crate) finish: Finish,
 }
+
+/// Ends a pass: what waits stands last.
+pub(crate) type Finish = fn(&mut Shared, &mut Vec<Stmt>, &mut Vec<Diagnostic>);
 
 /// A form of a pass that is tried on a copy of the piece together with all passes behind it.
 #[derive(Clone, Copy, Debug)]
@@ -182,7 +187,17 @@ impl Step {
         needed: fn(&Shared, &Piece) -> bool,
         run: fn(&mut Shared, &mut Piece),
     ) -> Option<Step> {
-        Some(Step { moment, needed, run, otherwise: |_, _| {}, first: None })
+        Step::to_the_end(moment, needed, run, |_, _, _| {})
+    }
+
+    /// One that follows nothing, and may hold something back to the end of the program.
+    pub(crate) const fn to_the_end(
+        moment: Moment,
+        needed: fn(&Shared, &Piece) -> bool,
+        run: fn(&mut Shared, &mut Piece),
+        finish: Finish,
+    ) -> Option<Step> {
+        Some(Step { moment, needed, run, otherwise: |_, _| {}, first: None, finish })
     }
 }
 

@@ -44,6 +44,7 @@ pub(crate) const PASS: Pass = Pass {
             }
         },
         first: None,
+        finish: |_, _, _| {},
     }),
     program: &[],
     parametric: None,

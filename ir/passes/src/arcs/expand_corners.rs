@@ -26,7 +26,7 @@ pub(crate) const PASS: Pass = Pass {
     name: "expand-corners",
     about: "writes rounded and chamfered corners as arcs and lines",
     alone: Some(run),
-    step: Step::at(
+    step: Step::to_the_end(
         Moment::Placing,
         |_, p| p.needs(CORNER),
         |l, p| {
@@ -44,6 +44,7 @@ pub(crate) const PASS: Pass = Pass {
             let written = p.diags[found..].iter().any(|d| matches!(d.fault, Fault::CornerExpanded));
             p.needs |= if written { l.lacks & ARC } else { 0 };
         },
+        |l, stmts, diags| l.states.state_mut::<ExpandCornersState>().flush(stmts, diags),
     ),
     program: &[],
     parametric: None,

@@ -35,6 +35,7 @@ pub(crate) const PASS: Pass = Pass {
         run: in_coordinates,
         otherwise: |_, _| {},
         first: Some(First { tried: in_its_form, kept: holes_are_kept }),
+        finish: |_, _, _| {},
     }),
     program: &[],
     parametric: None,

@@ -42,6 +42,7 @@ pub(crate) const PASS: Pass = Pass {
             None => l.states.state_mut::<FrameIncrementsState>().note(p.stmts, &l.walk),
         },
         first: None,
+        finish: |_, _, _| {},
     }),
     program: &[
         ProgramStep {

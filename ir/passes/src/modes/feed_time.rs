@@ -61,6 +61,7 @@ pub(crate) const PASS: Pass = Pass {
             }
         },
         first: None,
+        finish: |_, _, _| {},
     }),
     program: &[],
     parametric: None,

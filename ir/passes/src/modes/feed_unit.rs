@@ -63,6 +63,7 @@ pub(crate) const AGAIN: Pass = Pass {
             }
         },
         first: None,
+        finish: |_, _, _| {},
     }),
     program: &[],
     parametric: None,

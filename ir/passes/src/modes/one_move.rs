@@ -24,10 +24,11 @@ pub(crate) const PASS: Pass = Pass {
     name: "one-move",
     about: "puts an exact stop of one move, and its feed by time, into the block of the move",
     alone: Some(run),
-    step: Step::at(
+    step: Step::to_the_end(
         Moment::Wording,
         |_, p| p.needs(MOVE),
         |l, p| split_moves(p.stmts, l.states.state_mut::<OneMoveState>()),
+        |l, stmts, _| l.states.state_mut::<OneMoveState>().flush(stmts),
     ),
     program: &[],
     parametric: None,

@@ -49,7 +49,7 @@ pub(crate) const PASS: Pass = Pass {
     name: "threads",
     about: "says threads in the target's form",
     alone: Some(run),
-    step: Step::at(
+    step: Step::to_the_end(
         Moment::Wording,
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
         |l, p| {
@@ -61,6 +61,7 @@ pub(crate) const PASS: Pass = Pass {
                 p.diags,
             )
         },
+        |l, stmts, diags| l.states.state_mut::<ThreadsState>().finish(stmts, diags),
     ),
     program: &[],
     parametric: None,

@@ -23,10 +23,11 @@ pub(crate) const PASS: Pass = Pass {
     name: "offset-with-z",
     about: "moves a tool-length offset into the block that takes it up",
     alone: Some(run),
-    step: Step::at(
+    step: Step::to_the_end(
         Moment::Wording,
         |_, p| p.needs(LENGTH),
         |l, p| delay_offset(p.stmts, &mut p.start.clone(), l.states.state_mut::<OffsetWithZState>(), p.diags),
+        |l, stmts, _| l.states.state_mut::<OffsetWithZState>().flush(stmts),
     ),
     program: &[],
     parametric: None,
@@ -60,7 +61,7 @@ pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<D
     each_body(program, entry, |body, walk| {
         let mut state = OffsetWithZState::default();
         delay_offset(body, walk, &mut state, diags);
-        state.flush(body, diags);
+        state.flush(body);
     });
 }
 
@@ -85,7 +86,7 @@ impl OffsetWithZState {
     }
 
     /// The end of the body: an offset that nothing takes up stands where it may do no harm, last.
-    pub(crate) fn flush(&mut self, body: &mut Vec<Stmt>, _: &mut Vec<Diagnostic>) {
+    pub(crate) fn flush(&mut self, body: &mut Vec<Stmt>) {
         if let Some(waiting) = self.waiting.take().filter(|waiting| !waiting.in_force) {
             body.push(waiting.into_stmt());
         }

@@ -15,13 +15,14 @@ pub(crate) const PASS: Pass = Pass {
     name: "tool-change",
     about: "starts the spindle again behind a tool change that stops it on the target alone",
     alone: None,
-    step: Step::at(
+    step: Step::to_the_end(
         Moment::Arrival,
         |l, _| l.target.caps.tools.change_stops_spindle,
         |l, p| {
             let up = l.target.caps.behaviours.surely(Behaviour::ZAtChange);
             l.states.state_mut::<ToolChangeState>().check_changes(p.stmts, up, p.diags);
         },
+        |l, _, diags| l.states.state_mut::<ToolChangeState>().finish(diags),
     ),
     program: &[],
     parametric: None,

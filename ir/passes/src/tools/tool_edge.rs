@@ -26,7 +26,7 @@ pub(crate) const PASS: Pass = Pass {
     name: "tool-edge",
     about: "names tool lengths by edges of the tool or by entries of a table",
     alone: Some(run),
-    step: Step::at(
+    step: Step::to_the_end(
         Moment::Wording,
         |_, p| p.needs(EDGE | TABLE),
         |l, p| {
@@ -38,6 +38,7 @@ pub(crate) const PASS: Pass = Pass {
                 p.diags,
             )
         },
+        |l, _, diags| l.states.state_mut::<ToolEdgeState>().finish(diags),
     ),
     program: &[],
     parametric: None,
