@@ -15,7 +15,7 @@ use crate::common::number;
 use crate::common::setting::Inserted;
 
 /// Words of an arc besides its end point, ready to be written.
-type Words = Vec<String>;
+type ArcWords = Vec<String>;
 
 impl Writer {
     /// A straight move, rapid or at feed, in machine coordinates if those were asked for.
@@ -236,7 +236,7 @@ impl Writer {
         centre: &[Option<Coord>; 3],
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Words, Fault> {
+    ) -> Result<ArcWords, Fault> {
         let plane = arc.plane.known().or(self.words.active.plane);
         let mut words = Vec::new();
         for (axis, coord) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(centre) {
@@ -253,7 +253,13 @@ impl Writer {
         Ok(words)
     }
 
-    fn turns(&mut self, turns: &Turns, span: Span, sink: &mut Sink, words: &mut Words) -> Result<(), Fault> {
+    fn turns(
+        &mut self,
+        turns: &Turns,
+        span: Span,
+        sink: &mut Sink,
+        words: &mut ArcWords,
+    ) -> Result<(), Fault> {
         // No manual says what the control does with a count that is not whole, so only a written count goes out.
         if turns.count()? > 0 {
             words.push(self.named(NameRole::Turns, &turns.0, None, span, sink)?);

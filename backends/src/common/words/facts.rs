@@ -9,7 +9,7 @@ use super::Words;
 
 /// Facts of the program that no block says.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Facts {
+pub(crate) struct ProgramFacts {
     /// Whether a program that computes is written with its structure.
     pub(super) kept: bool,
     /// Whether lengths count mm wherever the text does not say what they count.

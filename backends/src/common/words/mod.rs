@@ -32,7 +32,7 @@ use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use facts::Facts;
+use facts::ProgramFacts;
 use numbers::Numbers;
 use spindle::Surfaces;
 use start::Preamble;
@@ -95,7 +95,7 @@ pub(crate) struct Words {
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     /// What is known of the program as a whole.
-    pub(crate) facts: Facts,
+    pub(crate) facts: ProgramFacts,
     /// Values of the control's own, by their numbers.
     pub(crate) own_values: Vec<(u32, Expr)>,
     /// Names of the variables of the procedure at hand, as they are spelt.
@@ -153,7 +153,7 @@ impl Words {
             probe: None,
             detour: None,
             corner: None,
-            facts: Facts::default(),
+            facts: ProgramFacts::default(),
             own_values: Vec::new(),
             variables: BTreeMap::new(),
             says_distance: false,
