@@ -72,43 +72,80 @@ impl Words {
             Op::StraightTraverse(to) => self.straight(to, true, span, sink),
             Op::StraightFeed(to) => self.straight(to, false, span, sink),
             Op::Position(to) => self.position(to, span, sink),
-            op => self.one_code(op, span, sink),
-        }
-    }
-
-    /// A statement that is one code: of the spindle, of coolant, of the tool, of the program's way.
-    fn one_code(&mut self, op: &Op, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let codes = &self.codes;
-        let before_move = self.dialect.block.off_before_move;
-        let off = |before: Rank, behind: Rank| if before_move { before } else { behind };
-        let (rank, code, what) = match op {
             Op::OrientSpindle(angle) => {
                 self.turned_in = None;
-                return self.orient(angle.as_ref(), span, sink);
+                self.orient(angle.as_ref(), span, sink)
             }
             Op::StartSpindleClockwise => {
                 self.turned_in = None;
-                (Rank::SpindleOn, codes.spindle_clockwise, "a clockwise spindle")
+                self.m_code(Rank::SpindleOn, self.codes.spindle_clockwise, "a clockwise spindle", sink)
             }
             Op::StartSpindleCounterclockwise => {
                 self.turned_in = None;
-                (Rank::SpindleOn, codes.spindle_counterclockwise, "a counter-clockwise spindle")
+                let code = self.codes.spindle_counterclockwise;
+                self.m_code(Rank::SpindleOn, code, "a counter-clockwise spindle", sink)
             }
             Op::StopSpindleTurning => {
-                (off(Rank::SpindleOn, Rank::SpindleOff), codes.spindle_stop, "a spindle stop")
+                let before = self.dialect.block.off_before_move;
+                let rank = if before { Rank::SpindleOn } else { Rank::SpindleOff };
+                self.m_code(rank, self.codes.spindle_stop, "a spindle stop", sink)
             }
-            Op::MachineFunction(name) => return self.machine_function(name, sink),
-            Op::FloodOn => (Rank::Coolant, codes.flood, "flood coolant"),
-            Op::MistOn => (Rank::Coolant, codes.mist, "mist coolant"),
-            Op::CoolantOff => (off(Rank::Coolant, Rank::CoolantOff), codes.coolant_off, "coolant off"),
-            Op::ChangeTool => (Rank::ToolChange, codes.change_tool, "a tool change"),
-            Op::ProgramStop => (Rank::Stop, codes.stop, "a program stop"),
-            Op::OptionalProgramStop => (Rank::Stop, codes.optional_stop, "an optional stop"),
-            Op::ProgramEnd => (Rank::Stop, codes.end, "the program's end"),
-            Op::Return => (Rank::Call, codes.back, "a return from a subprogram"),
-            _ => return Err(cannot("a statement that is more than codes and words")),
-        };
-        self.m_code(rank, code, what, sink)
+            Op::MachineFunction(name) => self.machine_function(name, sink),
+            Op::FloodOn => self.m_code(Rank::Coolant, self.codes.flood, "flood coolant", sink),
+            Op::MistOn => self.m_code(Rank::Coolant, self.codes.mist, "mist coolant", sink),
+            Op::CoolantOff => {
+                let before = self.dialect.block.off_before_move;
+                let rank = if before { Rank::Coolant } else { Rank::CoolantOff };
+                self.m_code(rank, self.codes.coolant_off, "coolant off", sink)
+            }
+            Op::ChangeTool => self.m_code(Rank::ToolChange, self.codes.change_tool, "a tool change", sink),
+            Op::ProgramStop => self.m_code(Rank::Stop, self.codes.stop, "a program stop", sink),
+            Op::OptionalProgramStop => {
+                self.m_code(Rank::Stop, self.codes.optional_stop, "an optional stop", sink)
+            }
+            Op::ProgramEnd => self.m_code(Rank::Stop, self.codes.end, "the program's end", sink),
+            Op::Return => self.m_code(Rank::Call, self.codes.back, "a return from a subprogram", sink),
+            // The writers say these themselves.
+            Op::TurnRotaryAxes(_)
+            | Op::Corner { .. }
+            | Op::LimitSpindleSpeed(_)
+            | Op::SelectToolByName(_)
+            | Op::SetFrame(_)
+            | Op::UseMachineCoordinates { .. }
+            | Op::Probe(_)
+            | Op::Detour(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
+            | Op::GoToReference(_)
+            | Op::SetData(_)
+            | Op::UseToolLength(_)
+            | Op::UseToolEdge { .. }
+            | Op::UseToolLengthOffset(_)
+            | Op::ArcFeed(_)
+            | Op::ArcForm(_)
+            | Op::SetPole(_)
+            | Op::Polar(_)
+            | Op::SetFeedRate(_)
+            | Op::Dwell(_)
+            | Op::StartCycle(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::EndCycle
+            | Op::BeginAgain
+            | Op::Message(_)
+            | Op::MessageOf(_)
+            | Op::Output(_)
+            | Op::Alarm(_)
+            | Op::Declare(_)
+            | Op::Assign(..)
+            | Op::Control(_)
+            | Op::Call(_)
+            | Op::RepeatBlocks(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+            | Op::Leave
+            | Op::NextTurn => Err(cannot("a statement that is more than codes and words")),
+        }
     }
 
     fn exact_stop(&mut self, sink: &mut Sink) -> Result<(), Fault> {
