@@ -2,7 +2,7 @@
 
 use clap::{Args, Subcommand};
 
-/// `ncc machines`.
+/// List the machines, show a profile, or test one
 #[derive(Debug, Args)]
 pub struct Machines {
     /// What about them; without, a list.
