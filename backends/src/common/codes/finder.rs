@@ -1,6 +1,8 @@
 //! How the words of a dictionary are found: by their meaning, checked by reading them back.
 
-use ncc_dialects::{CodeRow, Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread};
+use ncc_dialects::{
+    CodeRow, Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread,
+};
 use ncc_ir::canon::{FeedMode, PathMode, Side, SpindleMode};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{FrameSlot, Probe, ReferencePoint};
