@@ -8,10 +8,10 @@
 
 use std::ffi::OsString;
 
-use clap::{Args, Command, CommandFactory, Subcommand};
+use clap::{CommandFactory, Subcommand};
 
 use crate::args::typed::{ARROWS, is_name};
-use crate::args::{Cli, Translate, Verb};
+use crate::args::{Cli, Verb};
 
 /// What the arguments were taken for.
 #[derive(Debug, PartialEq, Eq)]
@@ -127,7 +127,8 @@ fn first_positional(arguments: &[OsString]) -> Option<usize> {
         if !text.starts_with('-') || text == "-" {
             return Some(at);
         }
-        let (translate, command) = (Translate::augment_args(Command::new("translate")), Cli::command());
+        let command = Cli::command();
+        let translate = command.find_subcommand("translate")?;
         let mut options = translate.get_arguments().chain(command.get_arguments());
         let option = options.find(|a| {
             a.get_long().is_some_and(|long| text.strip_prefix("--") == Some(long))

@@ -21,7 +21,7 @@ Exit code: 0 nothing but notes; 1 warnings or errors; 2 wrong usage; 4 a file co
 written. Blocks that ncc does not read are told as such; rules that would need to know what they do
 are silent until the program has said it again, and the summary says what was not checked.";
 
-/// Execute programs and tell what is wrong with them, before they meet a machine
+/// `ncc check`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Check {

@@ -15,7 +15,7 @@ Examples:
   ncc translate part.cn --machine-from a.toml --machine-to b.toml
                                                                   what is filled in is no assumption any more";
 
-/// List the facts about both machines that a translation depends on, and ask for them
+/// `ncc doctor`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Doctor {

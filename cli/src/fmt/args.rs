@@ -22,7 +22,7 @@ it is executed before and after, and does the same. Lines that ncc cannot take a
 Exit code: 0 done; 1 a file would change (--check), or is refused; 2 wrong usage; 3 the result was not
 shown to be the same, and is not written; 4 a file could not be read or written.";
 
-/// Lay programs out in their dialect, and show that they still say the same
+/// `ncc fmt`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Fmt {

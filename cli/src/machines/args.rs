@@ -2,7 +2,7 @@
 
 use clap::{Args, Subcommand};
 
-/// List the machines, show a profile, or test one
+/// `ncc machines`.
 #[derive(Debug, Args)]
 pub struct Machines {
     /// What about them; without, a list.

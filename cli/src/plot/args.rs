@@ -21,7 +21,7 @@ The HTML file needs nothing else and no network. Of a large program, pictures ke
 the least and greatest value of every moment, and the way to within a pixel of the whole; the legend
 says how much that is.";
 
-/// Draw what a program does over time, or the way of its tool, as SVG or HTML
+/// `ncc plot`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Plot {

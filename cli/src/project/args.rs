@@ -12,7 +12,7 @@ Examples:
   ncc config old/part.nc       what it states of a program, each with its line
   ncc config --schema          the form of the file: every key and what it takes";
 
-/// Show what `ncc.toml` states of a program, and in which line
+/// `ncc config`.
 #[derive(Debug, Args)]
 #[command(after_help = CONFIG_EXAMPLES)]
 pub struct Config {
@@ -30,7 +30,7 @@ Examples:
   ncc init part.nc --from haas --to siemens   the same, where the dialect cannot be recognised
   ncc to siemens part.nc                      what is in the file needs no option any more";
 
-/// Write `ncc.toml`: which machines the programs of a folder are for, with what is to be answered
+/// `ncc init`.
 #[derive(Debug, Args)]
 #[command(after_help = INIT_EXAMPLES)]
 pub struct Init {

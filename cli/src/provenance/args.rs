@@ -17,7 +17,7 @@ Examples:
 Exit code: 0 done; 1 a file is not the one that the map was made of; 2 wrong usage; 4 a file could
 not be read.";
 
-/// Where a line of a translated program comes from, by which words, and what is in force there
+/// `ncc why`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Why {

@@ -26,7 +26,7 @@ Exit code: 0 equal, or equal within the tolerance, and if a certificate is check
 1 different, or the certificate does not hold; 2 wrong usage; 4 a file could not be read or written;
 5 could not be compared, because a program has errors.";
 
-/// Do two programs make the same cut? As strictly as a translation is verified; certificates
+/// `ncc verify`.
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLES,
@@ -93,7 +93,7 @@ pub struct Verify {
     pub telling: Telling,
 }
 
-/// Print what a program does, one line an event, for git's own diff
+/// `ncc git-textconv`.
 #[derive(Debug, Args)]
 pub struct Textconv {
     /// The program, as `PATH` or `DIALECT:PATH`

@@ -21,7 +21,7 @@ What a machine does not state is taken for granted, and told. Nothing is printed
 that cannot be executed; of several the others are told all the same, and those that are missing
 are named. Exit codes are those of `ncc --help`; of several programs the highest.";
 
-/// How long a program takes on a machine, and when everything in it happens
+/// `ncc time`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Time {

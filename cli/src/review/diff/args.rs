@@ -20,7 +20,7 @@ with odd ones, so that a lost work offset shows; under every setting of the bloc
 takes for granted what its dialect does; -v says what. Exit code: 0 the same, 1 different, 2 wrong
 usage, 4 a file could not be read, 5 could not be compared, because a program has errors.";
 
-/// Do two programs make the same cut? If not, what differs?
+/// `ncc diff`.
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLES,
@@ -133,7 +133,7 @@ pub enum Ignore {
     All,
 }
 
-/// The same as a driver for git, which calls it with seven arguments
+/// `ncc git-diff`.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "ncc git-diff [OPTIONS] PATH OLD OLD-HEX OLD-MODE NEW NEW-HEX NEW-MODE [RENAMED …]"
