@@ -13,7 +13,6 @@ use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow};
 use crate::power_on::FeedModeName;
-use crate::schema::{Dialect, OptionRow};
 use crate::words::{Address, Quantity, yes};
 
 /// A G or M code.
@@ -183,16 +182,6 @@ pub struct CodeIndex {
 pub type RowsBy<K> = HashMap<K, u16, BuildHasherDefault<DefaultHasher>>;
 
 impl CodeIndex {
-    /// Finds the rows of a dictionary that has been checked before (`check::index` finds and checks).
-    pub(crate) fn of(dialect: &Dialect) -> Result<CodeIndex, &'static str> {
-        let mut index = CodeIndex::default();
-        dialect.code.iter().enumerate().try_for_each(|(at, row)| index.put_code(at, row))?;
-        dialect.address.iter().enumerate().try_for_each(|(at, row)| index.put_letter(at, row))?;
-        index.find_meanings(&dialect.code, &dialect.name);
-        index.find_behaviours(&dialect.option);
-        Ok(index)
-    }
-
     /// Puts a row of `code` in by its number.
     pub(crate) fn put_code(&mut self, at: usize, row: &CodeRow) -> Result<(), &'static str> {
         let (letter, number) = tenths(&row.code).ok_or("is no code")?;
@@ -217,12 +206,6 @@ impl CodeIndex {
             Some(_) => Err("stands twice"),
             None => Ok(()),
         }
-    }
-
-    /// Finds the options that state what codes do besides their names.
-    pub(crate) fn find_behaviours(&mut self, options: &[OptionRow]) {
-        let found = |(at, row): (usize, &OptionRow)| Some((at as u16, Behaviour::of_option(&row.name)?));
-        self.behaviour = options.iter().enumerate().filter_map(found).collect();
     }
 
     /// Finds the rows by what they mean.
