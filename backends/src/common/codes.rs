@@ -245,7 +245,7 @@ impl Codes {
         let mut groups: Vec<&str> = dialect.code.iter().map(|row| row.group.as_str()).collect();
         groups.sort_unstable();
         groups.dedup();
-        let find = Finder { dialect, groups };
+        let find = Finder { dialect, groups, counted_offsets: dialect.counted_offsets() };
         let code = |meaning| find.code(meaning);
         let last = match dialect.caps.frames.work_offsets {
             u16::MAX => 0,

@@ -8,10 +8,10 @@
 
 use std::ffi::OsString;
 
-use clap::{Command, CommandFactory};
+use clap::{CommandFactory, Subcommand};
 
-use crate::args::Cli;
 use crate::args::typed::{ARROWS, is_name};
+use crate::args::{Cli, Verb};
 
 /// What the arguments were taken for.
 #[derive(Debug, PartialEq, Eq)]
@@ -32,13 +32,12 @@ pub enum Said {
 /// Rewrites the arguments, the program's name first. What is no sugar comes back as it was.
 pub fn rewrite(arguments: Vec<OsString>) -> Said {
     let arguments = assumed(arguments);
-    let command = Cli::command();
-    let Some(at) = first_positional(&arguments, &command) else {
+    let Some(at) = first_positional(&arguments) else {
         return Said::Plain(arguments);
     };
     let word = |i: usize| arguments.get(i).and_then(|a| a.to_str()).unwrap_or("");
     let first = word(at);
-    if command.get_subcommands().any(|verb| verb.get_name() == first) {
+    if Verb::has_subcommand(first) {
         return Said::Plain(arguments);
     }
     let without =
@@ -118,8 +117,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
 }
 
 /// Place of the first argument that is neither an option nor an option's value.
-fn first_positional(arguments: &[OsString], command: &Command) -> Option<usize> {
-    let translate = command.find_subcommand("translate")?;
+fn first_positional(arguments: &[OsString]) -> Option<usize> {
     let mut at = 1;
     while let Some(argument) = arguments.get(at) {
         let Some(text) = argument.to_str() else { return Some(at) };
@@ -129,6 +127,8 @@ fn first_positional(arguments: &[OsString], command: &Command) -> Option<usize> 
         if !text.starts_with('-') || text == "-" {
             return Some(at);
         }
+        let command = Cli::command();
+        let translate = command.find_subcommand("translate")?;
         let mut options = translate.get_arguments().chain(command.get_arguments());
         let option = options.find(|a| {
             a.get_long().is_some_and(|long| text.strip_prefix("--") == Some(long))

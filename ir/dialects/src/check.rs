@@ -161,35 +161,12 @@ fn each_code(row: CodeRow, all: &mut Vec<CodeRow>) -> Result<(), DialectFault> {
     Ok(())
 }
 
-/// Tenths of a code's number: `G5.1` is 51.
-fn tenths(code: &str) -> Option<(u8, usize)> {
-    let letter = *code.as_bytes().first()?;
-    let (whole, tenth) = code.get(1..)?.split_once('.').unwrap_or((code.get(1..)?, "0"));
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    if !digits(whole) || !digits(tenth) || tenth.len() > 1 {
-        return None;
-    }
-    let number = whole.parse::<usize>().ok()?.checked_mul(10)? + tenth.parse::<usize>().ok()?;
-    (number < 100_000).then_some((letter, number))
-}
-
 /// Checks all rows, and finds them by their numbers and letters.
 pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fault> {
     let mut index = CodeIndex::default();
     for (at, row) in dialect.code.iter().enumerate() {
         let wrong = |wrong| fault(&row.code, wrong, &places.code, at);
-        let (letter, number) = tenths(&row.code).ok_or_else(|| wrong("is no code"))?;
-        let table = match letter {
-            b'G' => &mut index.g,
-            b'M' => &mut index.m,
-            _ => return Err(wrong("is neither a G nor an M code")),
-        };
-        if table.len() <= number {
-            table.resize(number + 1, None);
-        }
-        if table[number].replace(at as u16).is_some() {
-            return Err(wrong("stands twice"));
-        }
+        index.put_code(at, row).map_err(wrong)?;
         if row.means.is_some() == row.refuse.is_some() {
             return Err(wrong("needs either `means` or `refuse`"));
         }
@@ -221,11 +198,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
     tables(dialect, places)?;
     for (at, row) in dialect.address.iter().enumerate() {
         let wrong = |wrong| fault(&row.letter.to_string(), wrong, &places.address, at);
-        let place = row.letter as usize;
-        let slot = index.letter.get_mut(place.wrapping_sub(65)).ok_or_else(|| wrong("is no letter"))?;
-        if slot.replace(at as u8).is_some() {
-            return Err(wrong("stands twice"));
-        }
+        index.put_letter(at, row).map_err(wrong)?;
         if row.source.is_empty() {
             return Err(wrong("names no source"));
         }
@@ -241,6 +214,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         }
     }
     index.find_meanings(&dialect.code, &dialect.name);
+    index.find_behaviours(&dialect.option);
     Ok(index)
 }
 

@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Axis;
 use serde::Deserialize;
 
@@ -12,7 +13,7 @@ use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow};
 use crate::power_on::FeedModeName;
-use crate::words::{Quantity, yes};
+use crate::words::{Address, Quantity, yes};
 
 /// A G or M code.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -173,12 +174,40 @@ pub struct CodeIndex {
     pub meaning: RowsBy<Meaning>,
     /// Rows of `name` that are written, by what they mean; of several, the first.
     pub name_meaning: RowsBy<NameMeaning>,
+    /// Rows of `option` that state what a code does besides its name.
+    pub behaviour: Vec<(u16, Behaviour)>,
 }
 
 /// Rows of a table by a value of theirs.
 pub type RowsBy<K> = HashMap<K, u16, BuildHasherDefault<DefaultHasher>>;
 
 impl CodeIndex {
+    /// Puts a row of `code` in by its number.
+    pub(crate) fn put_code(&mut self, at: usize, row: &CodeRow) -> Result<(), &'static str> {
+        let (letter, number) = tenths(&row.code).ok_or("is no code")?;
+        let table = match letter {
+            b'G' => &mut self.g,
+            b'M' => &mut self.m,
+            _ => return Err("is neither a G nor an M code"),
+        };
+        if table.len() <= number {
+            table.resize(number + 1, None);
+        }
+        match table[number].replace(at as u16) {
+            Some(_) => Err("stands twice"),
+            None => Ok(()),
+        }
+    }
+
+    /// Puts a row of `address` in by its letter.
+    pub(crate) fn put_letter(&mut self, at: usize, row: &Address) -> Result<(), &'static str> {
+        let slot = self.letter.get_mut((row.letter as usize).wrapping_sub(65)).ok_or("is no letter")?;
+        match slot.replace(at as u8) {
+            Some(_) => Err("stands twice"),
+            None => Ok(()),
+        }
+    }
+
     /// Finds the rows by what they mean.
     pub(crate) fn find_meanings(&mut self, codes: &[CodeRow], names: &[NameRow]) {
         self.meaning.clear();
@@ -194,4 +223,16 @@ impl CodeIndex {
             }
         }
     }
+}
+
+/// Letter of a code, and tenths of its number: `G5.1` is 51.
+fn tenths(code: &str) -> Option<(u8, usize)> {
+    let letter = *code.as_bytes().first()?;
+    let (whole, tenth) = code.get(1..)?.split_once('.').unwrap_or((code.get(1..)?, "0"));
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if !digits(whole) || !digits(tenth) || tenth.len() > 1 {
+        return None;
+    }
+    let number = whole.parse::<usize>().ok()?.checked_mul(10)? + tenth.parse::<usize>().ok()?;
+    (number < 100_000).then_some((letter, number))
 }

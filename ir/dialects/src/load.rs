@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use crate::caps::caps;
 use crate::check::{self, Places};
+use crate::codes::CodeIndex;
 use crate::fault::{DialectError, DialectFault, Place, Text};
 use crate::merge;
 use crate::schema::Dialect;
@@ -39,11 +40,15 @@ impl Shelf {
     }
 }
 
-/// A built-in dictionary by its place among the texts, from what the build script has prepared of it.
+/// A built-in dictionary by its place among the texts, from what the build script has prepared of it. Its rows are not
+/// checked at each start: a test reads every text, with all checks, and compares.
 fn prepared(at: usize) -> Result<Dialect, DialectError> {
     let read = rmp_serde::from_slice(PREPARED[at]);
     let mut dialect: Dialect = read.map_err(|e| DialectFault::Form(e.to_string()).at(None))?;
-    renew(&mut dialect)?;
+    check::spread(&mut dialect, &mut Places::default()).map_err(|(fault, _)| fault.at(None))?;
+    let wrong = |wrong: &str| DialectFault::Form(wrong.to_owned()).at(None);
+    dialect.index = CodeIndex::of(&dialect).map_err(wrong)?;
+    dialect.caps = caps(&dialect);
     Ok(dialect)
 }
 

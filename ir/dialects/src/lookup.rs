@@ -6,13 +6,14 @@
 //!
 //! Not here: what a row holds (`codes`, `names`, `stored`).
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::ToolValue;
 
-use crate::codes::CodeRow;
+use crate::codes::{CodeIndex, CodeRow};
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
-use crate::schema::Dialect;
+use crate::schema::{Dialect, OptionRow};
 use crate::stored::{DataKind, DataRow, SystemRow};
 
 impl Dialect {
@@ -110,5 +111,23 @@ impl Dialect {
     pub(crate) fn measures_tools(&self) -> [bool; 2] {
         let rows = || self.data.iter().filter(|row| row.kind == DataKind::ToolHere);
         [rows().any(|row| row.in_offset == 0), rows().any(|row| row.in_offset != 0)]
+    }
+}
+
+impl CodeIndex {
+    /// Finds the rows of a dictionary that has been checked before (`check::index` finds and checks).
+    pub(crate) fn of(dialect: &Dialect) -> Result<CodeIndex, &'static str> {
+        let mut index = CodeIndex::default();
+        dialect.code.iter().enumerate().try_for_each(|(at, row)| index.put_code(at, row))?;
+        dialect.address.iter().enumerate().try_for_each(|(at, row)| index.put_letter(at, row))?;
+        index.find_meanings(&dialect.code, &dialect.name);
+        index.find_behaviours(&dialect.option);
+        Ok(index)
+    }
+
+    /// Finds the options that state what codes do besides their names.
+    pub(crate) fn find_behaviours(&mut self, options: &[OptionRow]) {
+        let found = |(at, row): (usize, &OptionRow)| Some((at as u16, Behaviour::of_option(&row.name)?));
+        self.behaviour = options.iter().enumerate().filter_map(found).collect();
     }
 }

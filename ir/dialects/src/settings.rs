@@ -397,14 +397,14 @@ impl Settings {
     /// What codes do besides their names, as the control or this machine has it.
     pub fn behaviours(&self) -> Behaviours {
         let mut all = self.dialect.caps.behaviours;
-        for row in &self.dialect.option {
+        for (at, behaviour) in &self.dialect.index.behaviour {
+            let row = &self.dialect.option[usize::from(*at)];
             let value = self.chosen.get(&row.name).unwrap_or(&row.default);
             if value != UNKNOWN
-                && let Some(behaviour) = Behaviour::of_option(&row.name)
-                && self.dialect.caps.behaviours.is_open(behaviour)
+                && self.dialect.caps.behaviours.is_open(*behaviour)
                 && let Some(value) = behaviour.value(value)
             {
-                all.set(behaviour, value, false);
+                all.set(*behaviour, value, false);
             }
         }
         all

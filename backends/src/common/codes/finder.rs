@@ -1,6 +1,8 @@
 //! How the words of a dictionary are found: by their meaning, checked by reading them back.
 
-use ncc_dialects::{Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread};
+use ncc_dialects::{
+    CodeRow, Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread,
+};
 use ncc_ir::canon::{FeedMode, PathMode, Side, SpindleMode};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{FrameSlot, Probe, ReferencePoint};
@@ -15,6 +17,8 @@ use super::{
 pub(super) struct Finder {
     pub(super) dialect: &'static Dialect,
     pub(super) groups: Vec<&'static str>,
+    /// The row of a code of several work offsets, of which a word of the block says one.
+    pub(super) counted_offsets: Option<&'static CodeRow>,
 }
 
 impl Finder {
@@ -46,11 +50,11 @@ impl Finder {
     /// The code of a work offset; one of several that share a code has a word that says which.
     pub(super) fn origin(&self, number: u16) -> Option<Code> {
         if let Some(code) = self.code(Meaning::SetOriginOffsets(number)).filter(|code| code.letter == 0)
-            && self.dialect.counted_offsets().is_none_or(|row| row.code.as_bytes() != code.text())
+            && self.counted_offsets.is_none_or(|row| row.code.as_bytes() != code.text())
         {
             return Some(code);
         }
-        let row = self.dialect.counted_offsets()?;
+        let row = self.counted_offsets?;
         let Some(first @ Meaning::SetOriginOffsets(from)) = row.means else { return None };
         let which = number.checked_sub(from).filter(|n| *n < row.count.unwrap_or(0))? + 1;
         let letter = row.words.bytes().next()?;

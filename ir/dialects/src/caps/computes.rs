@@ -22,6 +22,7 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
     }
     let says = |meaning| dialect.code_for(meaning).is_some();
     let rules = &dialect.formula;
+    let (system, entries) = systems(dialect);
     Some(Arc::new(Computes {
         statements: rules.statements.iter().map(|statement| (*statement).into()).collect(),
         operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
@@ -58,8 +59,8 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
         values_in_full: (!dialect.comment.shown.is_empty()).then_some(VALUE_DIGITS),
         output_opened: rules.output_opened,
         planes_alarm: dialect.cycles.planes_alarm.map(i64::from),
-        system: systems(dialect),
-        entries: entries(dialect),
+        system,
+        entries,
         worth: rules.not_behind.is_some(),
         named_programs: dialect.program.o_words,
         prefix: rules.prefix.as_str().into(),
@@ -78,27 +79,25 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
     }))
 }
 
-/// Values of the control's own that a program of the dialect can ask for.
-fn systems(dialect: &Dialect) -> Vec<System> {
-    dialect.system.iter().flat_map(|row| row.says().map(|(system, _)| system)).collect()
-}
-
-/// Those of them that are places of tables, each with the number by which a program has it: that of its parameter, or that
-/// of the entry within a name.
-fn entries(dialect: &Dialect) -> Vec<(System, i64)> {
-    let own = |(system, spelt): (System, VariableName<'_>)| {
-        let number = match &system {
-            System::WorkOffset { number, .. } | System::ToolTable { entry: number, .. } => i64::from(*number),
-            _ => return None,
+/// Values of the control's own that a program of the dialect can ask for. Again those of them that are places of tables,
+/// each with the number by which a program has it: that of its parameter, or that of the entry within a name.
+fn systems(dialect: &Dialect) -> (Vec<System>, Vec<(System, i64)>) {
+    let (mut all, mut entries) = (Vec::new(), Vec::new());
+    for (system, spelt) in dialect.system.iter().flat_map(|row| row.says()) {
+        let number = match (&system, spelt) {
+            (System::WorkOffset { .. } | System::ToolTable { .. }, VariableName::Number(parameter)) => {
+                Some(i64::from(parameter))
+            }
+            (
+                System::WorkOffset { number, .. } | System::ToolTable { entry: number, .. },
+                VariableName::Whole { .. },
+            ) => Some(i64::from(*number)),
+            _ => None,
         };
-        let number = match spelt {
-            VariableName::Whole { .. } => number,
-            VariableName::Number(parameter) => i64::from(parameter),
-            VariableName::Bracketed(_) => return None,
-        };
-        Some((system, number))
-    };
-    dialect.system.iter().flat_map(|row| row.says()).filter_map(own).collect()
+        entries.extend(number.map(|number| (system.clone(), number)));
+        all.push(system);
+    }
+    (all, entries)
 }
 
 /// Whether a program of this dialect can compute. What a dictionary inherits of a language that it does not read counts
