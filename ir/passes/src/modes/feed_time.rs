@@ -150,6 +150,10 @@ pub(crate) fn convert_feed_time(
     diags: &mut Vec<Diagnostic>,
 ) {
     let mut after_flow = std::mem::take(&mut state.enters);
+    // The walk has followed what was made of the statements before these.
+    if let Some(mode) = state.by_time {
+        (walk.at.modes.feed_mode, walk.at.feed) = (Some(mode), state.feed);
+    }
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         if std::mem::replace(&mut after_flow, matches!(stmt.op, flow!())) {
