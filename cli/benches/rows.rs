@@ -1,0 +1,246 @@
+//! What one line costs: long programs of one kind each, translated by the finished program, beside the plain one.
+//! `cargo bench --bench rows` (Linux only); `NCC_ROWS_MB` is the size of each, `NCC_ROWS` names some of them, with commas,
+//! by how they begin, and `NCC_BINARY` another program to compare with.
+//!
+//! A row tells MB of source a second of processor time, and the peak of memory.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// A program for measuring.
+struct Row {
+    name: &'static str,
+    from: &'static str,
+    to: &'static str,
+    /// Blocks behind the usual head.
+    head: &'static str,
+    /// What becomes of each plain move, `{}` in it; several are taken in turn.
+    lines: &'static [&'static str],
+    moves: Moves,
+    foot: &'static str,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Moves {
+    Lines,
+    Arcs,
+    Radius,
+    Holes,
+}
+
+const PLAIN: Row = Row {
+    name: "plain",
+    from: "fanuc",
+    to: "siemens",
+    head: "",
+    lines: &["{}"],
+    moves: Moves::Lines,
+    foot: "",
+};
+
+const ROWS: &[Row] = &[
+    PLAIN,
+    Row { name: "plain numbered", lines: &["N{n} {}"], ..PLAIN },
+    Row { name: "plain to haas", to: "haas", ..PLAIN },
+    Row { name: "plain to linuxcnc", to: "linuxcnc", ..PLAIN },
+    Row { name: "numbered mach9", from: "mach9", to: "fanuc", lines: &["N{n} {}"], ..PLAIN },
+    Row {
+        name: "kept: call",
+        head: "M98 P2000\nG90 G54 G17 G21 G94 G40 G49 G80 G0 X0. Y0.\nG43 H1 Z50.",
+        foot: "O2000\nG91\nG1 X1. F100\nG90\nM99",
+        ..PLAIN
+    },
+    Row { name: "kept: variable", head: "#1=1.\nG1 X#1 F100", ..PLAIN },
+    Row { name: "kept: loop", head: "#1=0\nWHILE[#1LT3]DO1\nG1 X#1 F100\n#1=#1+1\nEND1", ..PLAIN },
+    Row { name: "kept: jump", head: "#1=1\nIF[#1EQ2]GOTO10\nG1 X1. F100\nN10 G1 X2.", ..PLAIN },
+    Row {
+        name: "kept: label",
+        from: "siemens",
+        to: "fanuc",
+        head: "R1=1\nIF R1==2 GOTOF END_A\nG1 X1 F100\nEND_A: G1 X2",
+        ..PLAIN
+    },
+    Row { name: "variable in each line", head: "#1=0.5", lines: &["{} F[500.+#1]"], ..PLAIN },
+    Row { name: "arcs by centre", moves: Moves::Arcs, ..PLAIN },
+    Row { name: "arcs by radius", moves: Moves::Radius, ..PLAIN },
+    Row { name: "G0 and G1 in turn", head: "G1 F900", lines: &["G0 {}", "G1 {}"], ..PLAIN },
+    Row { name: "comment in each line", lines: &["{} (PASS)"], ..PLAIN },
+    Row { name: "comment, siemens", from: "siemens", to: "fanuc", lines: &["{} ; PASS"], ..PLAIN },
+    Row { name: "skip in each line", lines: &["/{}"], ..PLAIN },
+    Row {
+        name: "skip, eight levels",
+        lines: &["/1 {}", "/2 {}", "/3 {}", "/4 {}", "/5 {}", "/6 {}", "/7 {}", "/8 {}"],
+        ..PLAIN
+    },
+    Row { name: "X= words, siemens", from: "siemens", to: "fanuc", lines: &["Y={y} {}"], ..PLAIN },
+    Row { name: "rotary axis", lines: &["{} A{a}."], ..PLAIN },
+    Row { name: "feed by time", head: "G1 X0. Y0. F100\nG93", lines: &["{} F{f}."], foot: "G94", ..PLAIN },
+    Row { name: "rotation", head: "G68 X0. Y0. R30.", foot: "G69", ..PLAIN },
+    Row { name: "local shift", head: "G52 X10. Y5.", foot: "G52 X0. Y0.", ..PLAIN },
+    Row { name: "shift of the origin", head: "G92 X10. Y5.", ..PLAIN },
+    Row { name: "TRANS", from: "siemens", to: "fanuc", head: "TRANS X10 Y5", foot: "TRANS", ..PLAIN },
+    Row {
+        name: "holes G81",
+        head: "G99 G81 X1. Y1. Z-20. R2. F150",
+        moves: Moves::Holes,
+        foot: "G80",
+        ..PLAIN
+    },
+    Row {
+        name: "holes G83, ten pecks",
+        head: "G99 G83 X1. Y1. Z-20. R2. Q2. F150",
+        moves: Moves::Holes,
+        foot: "G80",
+        ..PLAIN
+    },
+    Row {
+        name: "holes MCALL",
+        from: "siemens",
+        to: "fanuc",
+        head: "F150\nMCALL CYCLE81(5,0,2,-20)",
+        moves: Moves::Holes,
+        foot: "MCALL",
+        ..PLAIN
+    },
+];
+
+fn heads(dialect: &str) -> [&'static str; 2] {
+    match dialect {
+        "siemens" => {
+            ["G71 G17 G40 G90 G94\nT1 M6\nG54 G0 X0 Y0 D1 S12000 M3\nZ50 M8\n", "G0 Z50 M9\nM5\nM30\n"]
+        }
+        "mach9" => ["G99\nG90\nG71\nG17\nT1M6\nO1S2600M3\nG0X0.Y0.\n", "M5\nM2\n"],
+        _ => [
+            "%\nO1001\nG21 G17 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X0. Y0. S12000 M3\nG43 H1 Z50. M8\n",
+            "G0 Z50. M9\nM5\nM30\n",
+        ],
+    }
+}
+
+/// Thousandths as a decimal: `12.345`, `-0.5`, `3.`
+fn mm(thousandths: i64) -> String {
+    let sign = if thousandths < 0 { "-" } else { "" };
+    let (whole, part) = (thousandths.abs() / 1000, thousandths.abs() % 1000);
+    format!("{sign}{whole}.{}", format!("{part:03}").trim_end_matches('0'))
+}
+
+fn text(row: &Row, bytes: usize) -> String {
+    let mut rng = fastrand::Rng::with_seed(20_260_101);
+    let [head, foot] = heads(row.from);
+    let mut text = head.to_owned();
+    let _ = writeln!(text, "{}", row.head);
+    let (mut x, mut y, mut n) = (0i64, 0i64, 0u32);
+    match row.moves {
+        Moves::Lines => text += "G1 X0. Y0. Z0. F600\n",
+        Moves::Arcs | Moves::Radius => text += "G0 Z5.\nG1 Z-1. F500\n",
+        Moves::Holes => {}
+    }
+    while text.len() < bytes {
+        n += 1;
+        let plain = match row.moves {
+            Moves::Lines if row.lines[0].starts_with("G0") || n % 400 != 0 => {
+                x += rng.i64(80..=450) * if n / 400 % 2 == 0 { 1 } else { -1 };
+                let z = if n % 3 > 0 { format!(" Z{}", mm(rng.i64(-9000..=9000))) } else { String::new() };
+                // With `Y=` in the line there is no other Y.
+                let own = row.lines[0].contains("{y}") || n % 3 > 0;
+                y += if own { 0 } else { rng.i64(1..=30) };
+                let along = if own { String::new() } else { format!(" Y{}", mm(y)) };
+                format!("X{}{along}{z}", mm(x))
+            }
+            Moves::Lines => {
+                let feed = [800, 1200, 1800, 2500][rng.usize(0..4)];
+                let _ = writeln!(text, "G0 Z5.\nX{} Y{}\nG1 Z0. F{feed}", mm(x), mm(y));
+                continue;
+            }
+            Moves::Arcs | Moves::Radius => {
+                let radius = rng.i64(2000..=20_000);
+                let code = rng.i32(2..=3);
+                // A quarter, from the right of its centre to above or below it.
+                let up = if code == 3 { radius } else { -radius };
+                (x, y) = if x.abs() > 300_000 || y.abs() > 300_000 { (0, 0) } else { (x - radius, y + up) };
+                match (x, y) {
+                    (0, 0) => "G1 X0. Y0.".to_owned(),
+                    _ if row.moves == Moves::Radius => {
+                        format!("G{code} X{} Y{} R{}", mm(x), mm(y), mm(radius))
+                    }
+                    _ => format!("G{code} X{} Y{} I{} J0.", mm(x), mm(y), mm(-radius)),
+                }
+            }
+            Moves::Holes => {
+                format!("X{} Y{}", mm(rng.i64(-300_000..=300_000)), mm(rng.i64(-300_000..=300_000)))
+            }
+        };
+        let line = row.lines[n as usize % row.lines.len()];
+        let values = [
+            ("{}", plain.as_str()),
+            ("{n}", &(n % 99_990 * 10 + 10).to_string()),
+            ("{a}", &(n as i64 % 360 - 180).abs().to_string()),
+            ("{y}", &mm(i64::from(n % 90_000))),
+            ("{f}", &(10 + n % 50).to_string()),
+        ];
+        text += &values.iter().fold(line.to_owned(), |line, (key, value)| line.replace(key, value));
+        text.push('\n');
+    }
+    // A subprogram stands behind the end.
+    let behind = row.foot.starts_with('O');
+    text += &if behind { format!("{foot}{}\n", row.foot) } else { format!("{}\n{foot}", row.foot) };
+    text += if head.starts_with('%') { "%\n" } else { "" };
+    text
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let megabytes: f64 = std::env::var("NCC_ROWS_MB").map_or(Ok(4.0), |mb| mb.parse())?;
+    let only = std::env::var("NCC_ROWS").unwrap_or_default();
+    let binary = std::env::var("NCC_BINARY").unwrap_or_else(|_| env!("CARGO_BIN_EXE_ncc").to_owned());
+    let folder = tempfile::tempdir()?;
+    let mut report = std::io::stdout().lock();
+    writeln!(report, "{:<24} {:<20} {:>8} {:>9}  exit", "row", "", "MB/s", "peak MiB")?;
+    for row in ROWS.iter().filter(|row| only.split(',').any(|begin| row.name.starts_with(begin))) {
+        let source = folder.path().join("source");
+        let text = text(row, (megabytes * 1e6) as usize);
+        fs::write(&source, &text)?;
+        let done = run(&binary, row, &source, &folder.path().join("output"))?;
+        let way = format!("{} to {}", row.from, row.to);
+        let speed = text.len() as f64 / 1e6 / done.seconds;
+        let (name, peak, code) = (row.name, done.peak_kib as f64 / 1024.0, done.code);
+        writeln!(report, "{name:<24} {way:<20} {speed:>8.1} {peak:>9.1}  {code}")?;
+    }
+    Ok(())
+}
+
+struct Done {
+    seconds: f64,
+    peak_kib: u64,
+    code: i32,
+}
+
+/// Runs the program; its processor time is read when it has ended and before it is asked for its exit code.
+fn run(binary: &str, row: &Row, source: &Path, output: &Path) -> Result<Done, Box<dyn std::error::Error>> {
+    let mut child = Command::new(binary)
+        .args(["translate", "--from", row.from, "--to", row.to, "--quiet", "-o"])
+        .arg(output)
+        .arg(source)
+        .stdout(Stdio::null())
+        .spawn()?;
+    let mut peak_kib = 0;
+    let seconds = loop {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id()))?;
+        let high = status
+            .lines()
+            .find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse().ok());
+        peak_kib = peak_kib.max(high.unwrap_or(0));
+        let stat = fs::read_to_string(format!("/proc/{}/stat", child.id()))?;
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or("").split_whitespace().collect();
+        if fields.first() == Some(&"Z") {
+            let ticks: u64 = fields[11].parse::<u64>()? + fields[12].parse::<u64>()?;
+            break ticks as f64 / 100.0;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    };
+    let code = child.wait()?.code().unwrap_or(-1);
+    Ok(Done { seconds: seconds.max(0.01), peak_kib, code })
+}
