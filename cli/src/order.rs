@@ -17,6 +17,7 @@ use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::Problem;
 use ncc_driver::provenance::annotate;
 use ncc_driver::questions::Policy;
+use ncc_driver::source::chunks::PIECE;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
 
@@ -169,6 +170,8 @@ impl Order {
             rivals: Vec::new(),
             questions: if self.known.assumes() { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),
+            piece: PIECE,
+            shortest_stretch: ncc_driver::job::SHORTEST_STRETCH,
             deny: args.deny.clone(),
         })
     }

@@ -33,7 +33,7 @@ pub(crate) fn tell(
             for asked in questions::ask(about, &of_translation(about.job, outcome))? {
                 line::line(&mut out, &asked)?;
             }
-            json::print(&mut out, about, &outcome.diagnostics, loudness)?;
+            json::print(&mut out, about, (&outcome.diagnostics, &outcome.counted), loudness)?;
             if loudness != Loudness::Quiet {
                 line::line(&mut out, &report::Summary::of(about.job, outcome))?;
             }

@@ -53,6 +53,7 @@ pub mod review;
 pub mod side;
 mod side_by_side;
 pub mod source;
+mod stretches;
 pub mod time;
 pub mod translate;
 pub mod verify_run;

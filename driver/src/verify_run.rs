@@ -164,6 +164,7 @@ impl Verifier {
             last: Span::default(),
             outliving: Vec::new(),
             assumed: Modes::default(),
+            shortest_stretch: job.shortest_stretch,
             notes: Vec::new(),
         }
     }

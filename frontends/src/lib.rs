@@ -49,6 +49,24 @@ pub fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
     }
 }
 
+/// Whether any of these whole lines may have the control execute blocks again by their numbers: a text in which none does
+/// need not be kept ([`Reader::repeats`]).
+pub fn may_repeat_blocks(dialect: &Dialect, lines: &[u8]) -> bool {
+    match dialect.family {
+        Family::Word => word::may_repeat(dialect, lines),
+        Family::Sinumerik | Family::Canon | Family::Ir => false,
+    }
+}
+
+/// Whether any of these whole lines may go to another block by its number: then which blocks are named so must be known
+/// before they are read ([`Reader::foresee_jumps`]).
+pub fn may_jump(dialect: &Dialect, lines: &[u8]) -> bool {
+    match dialect.family {
+        Family::Word => word::may_jump(dialect, lines),
+        Family::Sinumerik | Family::Canon | Family::Ir => false,
+    }
+}
+
 /// A literal for people: `0.1 mm`.
 pub fn spell(num: Num) -> String {
     common::number::spell(num)
@@ -127,6 +145,24 @@ impl Reader {
             OfFamily::Word(reader) => reader.watch(),
             OfFamily::Siemens(reader) => reader.watch(),
             OfFamily::Canon(_) | OfFamily::Ir(_) => {}
+        }
+    }
+
+    /// Whether a block of the text that is read from here on may execute others again by their numbers
+    /// ([`may_repeat_blocks`]); one that has not been looked through may. If none does, a block's number is no reason to
+    /// keep the program whole.
+    pub fn repeats(&mut self, may: bool) {
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.repeats(may),
+            OfFamily::Siemens(_) | OfFamily::Canon(_) | OfFamily::Ir(_) => {}
+        }
+    }
+
+    /// The text goes to other blocks somewhere ([`may_jump`]): these are lines of it, before any is read.
+    pub fn foresee_jumps(&mut self, lines: &[u8]) {
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.foresee_jumps(lines),
+            OfFamily::Siemens(_) | OfFamily::Canon(_) | OfFamily::Ir(_) => {}
         }
     }
 

@@ -166,6 +166,12 @@ macro_rules! faults {
         }
 
         impl Fault {
+    /// Whether a long program may have one of it in every block, and each says no more than what became of a word there:
+    /// of very many, the number is enough.
+    pub const fn is_of_a_word(&self) -> bool {
+        matches!(self, Fault::Rounded { .. } | Fault::CommentReformatted | Fault::ArcReformatted)
+    }
+
             /// The number of its stable code: 107 is `NC0107`.
             pub const fn code(&self) -> u16 {
                 match self { $( Fault::$name { .. } => $code, )* }

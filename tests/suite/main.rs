@@ -22,6 +22,7 @@ mod faults;
 mod fmt;
 mod fold;
 mod generated;
+mod in_pieces;
 mod kept;
 mod laws;
 mod limits;

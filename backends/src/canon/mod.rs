@@ -24,6 +24,8 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Poin
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
+use crate::common::fault::PACKED;
+use crate::common::packed::{each_blocks, packed};
 use crate::common::quoted::{quote, write_whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
@@ -101,6 +103,10 @@ impl Writer {
             self.at = Tracker { position: self.start, z_lost_at_change: true, ..Tracker::new(*assumed) };
         }
         for stmt in stmts {
+            if let Some(lines) = packed(stmt) {
+                each_blocks(lines, |blocks| self.write(blocks, assumed, out, diags));
+                continue;
+            }
             if let Some(trace) = &mut self.trace {
                 trace.enter(std::slice::from_ref(stmt));
             }
@@ -214,6 +220,7 @@ impl Writer {
                 }
                 return Ok(());
             }
+            Op::Lines(_) => return Err(here(Fault::TargetLacks { what: PACKED.into() })),
             Op::Blank => {
                 out.extend_from_slice(self.eol);
                 return Ok(());

@@ -266,6 +266,7 @@ impl Printer<'_> {
         match &stmt.op {
             // A comment is the block's.
             Op::Comment(_) | Op::Blank | Op::Return | Op::EndCycle | Op::StartCycle(_) | Op::NoEffect(_) => {}
+            Op::Lines(lines) => return lines.unpack().try_for_each(|stmt| self.statement(&stmt)),
             // What is printed to the error output is no call.
             Op::Message(_) if self.is_printed(stmt) => {}
             Op::Message(text) => {

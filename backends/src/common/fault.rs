@@ -5,6 +5,9 @@ use ncc_ir::expr::num::Num;
 
 use super::number::{self, Unwritable};
 
+/// Moves that are packed, which the writer of all dialects unpacks for those of each.
+pub(crate) const PACKED: &str = "moves that are packed";
+
 /// A fault for what there is no word for.
 pub(crate) fn cannot(what: impl Into<Box<str>>) -> Fault {
     Fault::TargetLacks { what: what.into() }

@@ -18,6 +18,7 @@ pub(crate) mod entry;
 pub(crate) mod fault;
 pub(crate) mod formula;
 pub(crate) mod number;
+pub(crate) mod packed;
 pub(crate) mod quoted;
 pub(crate) mod setting;
 pub(crate) mod words;

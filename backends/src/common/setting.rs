@@ -45,6 +45,7 @@ impl Setting {
             | Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank
+            | Op::Lines(_)
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)

@@ -22,6 +22,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Stmt, Type};
 use ncc_ir::source::Span;
 
+use crate::common::packed::{each_blocks, packed};
 use crate::common::quoted::{quote, write_whole};
 use crate::origin::Trace;
 use crate::{Head, Layout};
@@ -175,7 +176,10 @@ impl Writer {
 
     fn body(&mut self, stmts: &[Stmt], depth: usize, out: &mut Vec<u8>) {
         for s in stmts {
-            self.stmt(s, depth, out);
+            match packed(s) {
+                Some(lines) => each_blocks(lines, |blocks| self.body(blocks, depth, out)),
+                None => self.stmt(s, depth, out),
+            }
         }
     }
 

@@ -34,6 +34,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         Op::Comment(_)
         | Op::NoEffect(_)
         | Op::Blank
+        | Op::Lines(_)
         | Op::UseLengthUnits(_)
         | Op::SetDistanceMode(_)
         | Op::SelectPlane(_)
@@ -245,6 +246,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         }
         Op::Polar(_)
         | Op::Blank
+        | Op::Lines(_)
         | Op::ExactStop
         | Op::StopCutterRadiusCompensation
         | Op::ChangeTool

@@ -47,6 +47,7 @@ use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Letter;
 use crate::common::fault::{cannot, unwritable};
 use crate::common::number::{Format, Shaped};
+use crate::common::packed::{each_blocks, packed};
 use crate::common::words::Words;
 use crate::common::{Sink, number};
 
@@ -205,6 +206,11 @@ impl Writer {
     fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let mut at = 0;
         while at < stmts.len() {
+            if let Some(lines) = packed(&stmts[at]) {
+                each_blocks(lines, |blocks| self.body(blocks, sink));
+                at += 1;
+                continue;
+            }
             let end = self.words.block_end(stmts, at);
             let block = &stmts[at..end];
             if let Some(trace) = &mut self.words.trace {

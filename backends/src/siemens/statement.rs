@@ -44,6 +44,7 @@ impl Writer {
         match &stmt.op {
             Op::Comment(_)
             | Op::Blank
+            | Op::Lines(_)
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)

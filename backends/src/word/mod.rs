@@ -32,6 +32,7 @@ use cycles::Held;
 
 use crate::Layout;
 use crate::common::Sink;
+use crate::common::packed::{each_blocks, packed};
 use crate::common::words::Words;
 
 /// Choices of the dictionary's options that decide how a word reads back.
@@ -140,6 +141,11 @@ impl Writer {
         let runs = self.runs_at_moves(stmts);
         let mut at = 0;
         while at < stmts.len() {
+            if let Some(lines) = packed(&stmts[at]) {
+                each_blocks(lines, |blocks| self.body(blocks, sink));
+                at += 1;
+                continue;
+            }
             let end = self.words.block_end(stmts, at);
             self.repeats = if runs.is_empty() { self.equal_holes(stmts, at, end) } else { 0 };
             let (block, repeated) = stmts[at..end + self.repeats].split_at(end - at);

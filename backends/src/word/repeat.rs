@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use ncc_dialects::REPEAT_COUNT;
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
+use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -18,6 +19,7 @@ use crate::Numbering;
 use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::fault::cannot;
+use crate::common::packed::packed;
 use crate::common::words::HIGHEST_NUMBER;
 
 /// Most passes of a repetition.
@@ -57,7 +59,8 @@ impl Writer {
             return;
         }
         let mut seen: BTreeMap<u32, u32> = BTreeMap::new();
-        for number in stmts.iter().filter_map(|s| s.number) {
+        let packed = stmts.iter().filter_map(packed).flat_map(PackedLines::unpack);
+        for number in stmts.iter().filter_map(|s| s.number).chain(packed.filter_map(|s| s.number)) {
             *seen.entry(number).or_default() += 1;
         }
         let mut next = seen.keys().last().copied().filter(|n| *n < 90_000).unwrap_or(0) / 10 * 10;

@@ -42,6 +42,7 @@ impl Writer {
         match &stmt.op {
             Op::Comment(_)
             | Op::Blank
+            | Op::Lines(_)
             | Op::ClearFrame(_)
             | Op::UseLengthUnits(_)
             | Op::SetDistanceMode(_)

@@ -81,7 +81,9 @@ pub fn run(args: &Doctor, known: &Known, err: &mut dyn WriteColor) -> Result<Exi
     let others = outcome.diagnostics.iter().enumerate().filter(|(at, _)| !asked_for.contains(at));
     let others: Vec<Diagnostic> = others.map(|(_, diagnostic)| diagnostic.clone()).collect();
     let _ = match args.telling.verbose {
-        true => human::print(err, &mut about, &outcome.diagnostics, Loudness::Verbose),
+        true => {
+            human::print_counted(err, &mut about, (&outcome.diagnostics, &outcome.counted), Loudness::Verbose)
+        }
         false => human::print(err, &mut about, &others, Loudness::Quiet),
     };
     let asked = questions(&mut about, &outcome).map_err(cannot_read)?;

@@ -103,7 +103,9 @@ pub(crate) fn run(
     let loudness = args.telling.loudness();
     // Messages that cannot be written change nothing about what was done.
     let _ = match args.format {
-        Format::Json => json::print(&mut ncc_driver::problem::as_write(err), &mut about, &found, loudness),
+        Format::Json => {
+            json::print(&mut ncc_driver::problem::as_write(err), &mut about, (&found, &[]), loudness)
+        }
         Format::Human => human::print(err, &mut about, &found, loudness),
     };
     let Some(listing) = listing else {

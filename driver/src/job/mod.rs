@@ -25,7 +25,7 @@ use ncc_exec::named_tool;
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::{AXES, AdviceKind};
-use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::geometry::arc_feed::ArcFeed;
 use ncc_ir::geometry::offset_path::Rules;
@@ -42,7 +42,9 @@ use crate::problem::Exit;
 use crate::questions::question::{Policy, Question};
 use crate::source::called;
 use crate::source::called_files::Called;
+use crate::source::chunks::PIECE;
 use crate::source::spool::Spool;
+pub use crate::stretches::SHORTEST as SHORTEST_STRETCH;
 
 /// The pass that writes the path of the tool's centre.
 const EXPAND_COMPENSATION: &str = "expand-compensation";
@@ -94,6 +96,11 @@ pub struct Job {
     pub rivals: Vec<&'static Dialect>,
     /// The handling of questions: facts that change the cut and that the program does not state.
     pub questions: Policy,
+    /// Bytes of the source that go through the steps at once; no line may be longer. What comes of it does not depend on it.
+    pub piece: usize,
+    /// Straight moves one behind the other of which fewer are not packed in a program that is kept whole. What comes of it
+    /// does not depend on it.
+    pub shortest_stretch: usize,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
@@ -148,6 +155,8 @@ impl Job {
             tried_upto: None,
             rivals: Vec::new(),
             questions: Policy::default(),
+            piece: PIECE,
+            shortest_stretch: SHORTEST_STRETCH,
             allow: Vec::new(),
             deny: Vec::new(),
         }
@@ -282,6 +291,8 @@ impl Job {
 pub struct Outcome {
     /// What was found, in the order in which it was found. Spans are places in the source.
     pub diagnostics: Vec<Diagnostic>,
+    /// What was found so often that the rest of it is counted.
+    pub counted: Vec<Counted>,
     /// The number that the output has as a program, if it has one.
     pub program_number: Option<u32>,
     /// Numbers that were put in for the target's machine: what, the source's number or name, and the
@@ -313,6 +324,36 @@ pub struct Outcome {
     pub blocks: u64,
 }
 
+/// What may be found in every block of a long program ([`Fault::is_of_a_word`]).
+#[derive(Clone, Debug)]
+pub struct Counted {
+    /// The first of it.
+    pub fault: Fault,
+    /// How many are among the diagnostics.
+    pub kept: u64,
+    /// How many more there are.
+    pub more: u64,
+}
+
+/// Of one code, so many diagnostics are kept; of very many, the number is enough.
+const MOST_KEPT: u64 = 10_000;
+
+impl Counted {
+    /// Counts one more; whether it is kept.
+    pub fn keeps(all: &mut Vec<Counted>, fault: &Fault) -> bool {
+        if !fault.is_of_a_word() {
+            return true;
+        }
+        let Some(own) = all.iter_mut().find(|own| own.fault.code() == fault.code()) else {
+            all.push(Counted { fault: fault.clone(), kept: 1, more: 0 });
+            return true;
+        };
+        let keeps = own.kept < MOST_KEPT;
+        *(if keeps { &mut own.kept } else { &mut own.more }) += 1;
+        keeps
+    }
+}
+
 /// Whether the options of a target ask for a file for each use of a tool.
 pub fn file_per_tool(to: &Settings) -> bool {
     to.dialect.can.change_by_hand && to.get(TOOL_CHANGE) == FILE_PER_TOOL
@@ -334,6 +375,12 @@ impl Outcome {
         self.release == Err(Failure::Refused)
             && !self.questions.is_empty()
             && !self.diagnostics.iter().any(|diagnostic| job.refuses(diagnostic))
+    }
+
+    /// Codes of which more were found than are kept, and how many more.
+    pub fn further(&self) -> impl Iterator<Item = (String, u64)> {
+        let more = self.counted.iter().filter(|counted| counted.more > 0);
+        more.map(|counted| (format!("NC{:04}", counted.fault.code()), counted.more))
     }
 
     /// The exit code, by whether the output may be used.

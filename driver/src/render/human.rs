@@ -9,7 +9,7 @@ use codespan_reporting::term::{self, Config};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 
 use super::about::{About, Loudness, Told};
-use crate::job::Job;
+use crate::job::{Counted, Job};
 
 /// Of one code, so many diagnostics are shown; the rest is counted.
 pub const MOST: usize = 20;
@@ -40,6 +40,7 @@ pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) ->
 pub fn choose<'d>(
     job: &Job,
     diagnostics: &'d [Diagnostic],
+    counted: &[Counted],
     loudness: Loudness,
 ) -> (Vec<&'d Diagnostic>, BTreeMap<u16, usize>) {
     let mut all = told(job, diagnostics, loudness);
@@ -49,6 +50,11 @@ pub fn choose<'d>(
         *count += 1;
         *count <= MOST
     });
+    for counted in counted {
+        if let Some(count) = counts.get_mut(&counted.fault.code()) {
+            *count += counted.more as usize;
+        }
+    }
     let left_out = counts.into_iter().filter(|(_, n)| *n > MOST).map(|(code, n)| (code, n - MOST)).collect();
     (all, left_out)
 }
@@ -63,7 +69,20 @@ pub fn print(
     diagnostics: &[Diagnostic],
     loudness: Loudness,
 ) -> io::Result<()> {
-    let (shown, left_out) = choose(about.job, diagnostics, loudness);
+    print_counted(out, about, (diagnostics, &[]), loudness)
+}
+
+/// The same, of what was counted as well.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub fn print_counted(
+    out: &mut dyn WriteColor,
+    about: &mut About,
+    (diagnostics, counted): (&[Diagnostic], &[Counted]),
+    loudness: Loudness,
+) -> io::Result<()> {
+    let (shown, left_out) = choose(about.job, diagnostics, counted, loudness);
     let lines = about.lines(shown.iter().copied())?;
     for diagnostic in shown {
         let told = about.tell_among(&lines, diagnostic, diagnostics)?;

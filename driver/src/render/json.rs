@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::about::{About, Loudness, Place, Told};
 use super::human::{choose, told};
 use super::line::line;
+use crate::job::Counted;
 
 /// A diagnostic, as it stands in a line of `--format json` and in a report.
 #[derive(Debug, Serialize)]
@@ -109,10 +110,10 @@ struct LeftOut {
 pub fn print(
     out: &mut dyn Write,
     about: &mut About,
-    diagnostics: &[Diagnostic],
+    (diagnostics, counted): (&[Diagnostic], &[Counted]),
     loudness: Loudness,
 ) -> io::Result<()> {
-    let (shown, left_out) = choose(about.job, diagnostics, loudness);
+    let (shown, left_out) = choose(about.job, diagnostics, counted, loudness);
     let lines = about.lines(shown.iter().copied())?;
     for diagnostic in shown {
         line(out, &Entry::from(about.tell_among(&lines, diagnostic, diagnostics)?))?;

@@ -48,7 +48,7 @@ pub fn tell(
     if loudness != Loudness::Quiet || outcome.release.is_err() {
         questions::print(out, about, &outcome.questions)?;
     }
-    human::print(out, about, &outcome.diagnostics, loudness)?;
+    human::print_counted(out, about, (&outcome.diagnostics, &outcome.counted), loudness)?;
     if loudness != Loudness::Quiet {
         summary::print(out, about, outcome)?;
     }

@@ -4,6 +4,7 @@
 //! meaning or goes, not when one is added.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use ncc_dialects::Settings;
@@ -210,6 +211,10 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     map.serialize_entry("assumptions", &assumptions(job, &outcome.diagnostics))?;
     let entries = Entries { about: RefCell::new(about), diagnostics: &outcome.diagnostics };
     map.serialize_entry("diagnostics", &entries)?;
+    let further: BTreeMap<String, u64> = outcome.further().collect();
+    if !further.is_empty() {
+        map.serialize_entry("further_diagnostics", &further)?;
+    }
     SerializeMap::end(map)?;
     out.write_all(b"\n")?;
     out.flush()

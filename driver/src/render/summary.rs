@@ -5,8 +5,9 @@ use std::io;
 
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use ncc_ir::canon::PathMode;
-use ncc_ir::diag::{Fault, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::rank::Rank;
+use ncc_ir::source::Span;
 
 use super::about::{About, Loudness};
 use super::human::told;
@@ -215,7 +216,9 @@ fn failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Re
     write!(out, ", ")?;
     let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
     let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
-    let losses = stopping.len() as u64 - errors;
+    let refuses = |fault: &Fault| about.job.refuses(&Diagnostic::new(fault.clone(), Span::default()));
+    let counted = outcome.counted.iter().filter(|counted| refuses(&counted.fault));
+    let losses = stopping.len() as u64 - errors + counted.map(|counted| counted.more).sum::<u64>();
     let questions = outcome.questions.len() as u64;
     match outcome.release {
         Err(Failure::VerificationFailed) => {
@@ -264,6 +267,12 @@ fn groups(outcome: &Outcome, under: Heading, at: Context) -> Vec<Group> {
         group.count += 1;
         if group.places.len() < MOST_LINES {
             group.places.push(diagnostic.span.start);
+        }
+    }
+    for counted in outcome.counted.iter().filter(|counted| counted.more > 0) {
+        let phrase = phrase(&counted.fault, at);
+        if let Some(group) = by_phrase.get(&phrase).and_then(|index| groups.get_mut(*index)) {
+            group.count += counted.more as usize;
         }
     }
     groups.sort_by_key(|group| group.places.iter().copied().min());

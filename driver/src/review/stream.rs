@@ -13,7 +13,7 @@
 //! if course.refused { /* course.diagnostics say why, at their places */ }
 //! ```
 
-use std::io::{self, SeekFrom};
+use std::io;
 use std::mem::discriminant;
 use std::ops::ControlFlow;
 
@@ -35,6 +35,7 @@ use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
 use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks};
+use crate::source::reader::reader_for;
 use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
 
@@ -186,10 +187,9 @@ pub fn stream_as(
     controls: Vec<Exec>,
     take: &mut dyn FnMut(Made) -> ControlFlow<()>,
 ) -> io::Result<Course> {
-    file.seek(SeekFrom::Start(0))?;
     let mut run = Run {
         job,
-        reader: job.reader(matches!(unsaid, Unsaid::Taken)),
+        reader: reader_for(job, matches!(unsaid, Unsaid::Taken), file)?,
         unsaid,
         batch: Batch::default(),
         controls: controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect(),

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use crate::source::{Readable, halted};
 
 /// Bytes of a piece. Small enough that its statements stay in the second-level cache.
-const PIECE: usize = 16 * 1024;
+pub const PIECE: usize = 16 * 1024;
 
 /// Longest source: spans are 32 bits.
 const LONGEST: u64 = u32::MAX as u64;
@@ -24,7 +24,8 @@ pub struct Chunks<'r> {
     /// Place of the buffer's first byte in the source.
     base: u64,
     over: bool,
-    hash: Sha256,
+    /// Absent where nobody asks for it.
+    hash: Option<Sha256>,
     /// Line ends in all that was handed out.
     lines: u64,
 }
@@ -65,9 +66,19 @@ impl<'r> Chunks<'r> {
             used: 0,
             base: 0,
             over: false,
-            hash: Sha256::new(),
+            hash: Some(Sha256::new()),
             lines: 0,
         }
+    }
+
+    /// One that is only looked through.
+    pub(crate) fn without_hash(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
+        Chunks { hash: None, ..Chunks::of_bytes(from, piece) }
+    }
+
+    /// One with pieces of so many bytes.
+    pub(crate) fn of_bytes(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
+        Chunks { buffer: vec![0; piece], ..Chunks::new(from) }
     }
 
     /// Text of a [`Chunk::Lines`].
@@ -126,7 +137,9 @@ impl<'r> Chunks<'r> {
                 Err(e) => return Err(e),
             };
             self.over = n == 0;
-            self.hash.update(&self.buffer[self.filled..self.filled + n]);
+            if let Some(hash) = &mut self.hash {
+                hash.update(&self.buffer[self.filled..self.filled + n]);
+            }
             self.filled += n;
             if self.base + self.filled as u64 > LONGEST {
                 return Err(io::Error::new(io::ErrorKind::FileTooLarge, "longer than 4 GiB"));
@@ -137,7 +150,8 @@ impl<'r> Chunks<'r> {
 
     /// Hash and length of all that was read.
     pub fn finish(self) -> ([u8; 32], u64) {
-        (self.hash.finalize().into(), self.base + self.filled as u64)
+        let hash = self.hash.unwrap_or_default();
+        (hash.finalize().into(), self.base + self.filled as u64)
     }
 }
 

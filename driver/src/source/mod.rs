@@ -13,6 +13,7 @@ pub mod chunks;
 pub mod halted;
 pub mod interrupted;
 pub mod not_milling;
+pub(crate) mod reader;
 pub mod spool;
 
 use std::fmt;

@@ -32,6 +32,7 @@ use crate::job::parameters::parameter;
 use crate::review::stream::as_stated;
 use crate::source::Source;
 use crate::source::chunks::{Chunk, Chunks};
+use crate::source::reader::reader_for;
 use crate::verify_run::controls::fixed;
 
 /// After so many errors, reading more of the program would help nobody.
@@ -207,6 +208,7 @@ pub fn drive(
     watch: &mut dyn Watch,
 ) -> io::Result<Course> {
     let mut drive = Drive::new(plan, sink);
+    drive.reader = reader_for(plan.job, true, &mut source.file)?;
     let mut chunks = Chunks::new(&mut source.file);
     let mut read = 0;
     loop {

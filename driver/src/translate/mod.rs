@@ -22,6 +22,7 @@ pub mod parametric;
 mod per_tool;
 mod pipeline;
 pub mod rewrite;
+mod snapshot;
 pub mod split;
 pub mod standalone_subprogram;
 mod straight;
@@ -40,6 +41,7 @@ use crate::provenance::trace::{Asked, Recorded, Trace};
 use crate::questions::{self, Policy};
 use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks, ends_by_return};
+use crate::source::reader::reader_for;
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -76,8 +78,10 @@ pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Ou
 fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
     // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
     let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
-    let mut chunks = Chunks::new(source);
+    let reader = reader_for(job, true, source)?;
+    let mut chunks = Chunks::of_bytes(source, job.piece);
     let mut translation = Translation::new(job);
+    translation.reader = reader;
     translation.batch.whole |= returns;
     translation.record(asked);
     loop {

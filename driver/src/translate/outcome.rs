@@ -63,9 +63,10 @@ impl Translation<'_> {
             Ok(())
         };
         let mut counts = [0; Verdict::ALL.len()];
-        for diagnostic in &self.diagnostics {
-            if let Gravity::Verdict(verdict) = diagnostic.fault.gravity() {
-                counts[verdict as usize] += 1;
+        let kept = self.diagnostics.iter().map(|diagnostic| (&diagnostic.fault, 1));
+        for (fault, many) in kept.chain(self.counted.iter().map(|counted| (&counted.fault, counted.more))) {
+            if let Gravity::Verdict(verdict) = fault.gravity() {
+                counts[verdict as usize] += many;
             }
         }
         let told: u64 = counts.iter().sum();
@@ -73,6 +74,7 @@ impl Translation<'_> {
         Ok(Outcome {
             files,
             diagnostics: self.diagnostics,
+            counted: self.counted,
             program_number,
             renumbered: self.renumbering.used().clone(),
             rests: self.rests,

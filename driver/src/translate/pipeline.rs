@@ -23,7 +23,9 @@ use ncc_passes::values::variables::renamed::Renamed;
 use ncc_passes::watch::{ran, ran_whole};
 
 use super::parametric::{self, target};
+use super::snapshot::Snapshot;
 use super::translation::{FLATTEN, Translation};
+use crate::stretches::{Stretch, concerns, pack, stand, unpack};
 use crate::translate::rewrite::{self, Folder};
 
 /// What goes through the steps at once.
@@ -68,6 +70,17 @@ struct Kept {
     there: Modes,
     /// What the steps from the passes that were asked for on have found.
     found: Vec<Diagnostic>,
+    /// What the writer is to know of one that computes, once, before any of it is written: the places of words with a
+    /// distance mode of their own, and the modes where stretches of blocks begin.
+    for_writer: Option<(BTreeSet<u32>, HashMap<u32, Modes>)>,
+}
+
+impl Kept {
+    fn new(source: Program) -> Kept {
+        let (renamed, there, found) = (Renamed::default(), Modes::default(), Vec::new());
+        let program = source.clone();
+        Kept { source, program, computed: None, renamed, there, found, for_writer: None }
+    }
 }
 
 /// What is known of a program that computes.
@@ -88,8 +101,10 @@ impl Translation<'_> {
     pub(super) fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
         self.reader.read(text, base, &mut self.batch);
         self.take_diagnostics();
-        // What the target computes is looked at by execution.
-        self.batch.whole |= machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
+        // What the target computes is looked at by execution; what is kept already is not looked at again and again.
+        if !self.batch.whole {
+            self.batch.whole = machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
+        }
         if self.batch.whole || !self.job.passes.is_empty() {
             return Ok(());
         }
@@ -106,8 +121,8 @@ impl Translation<'_> {
         }
         self.count();
         if self.batch.whole || !self.job.passes.is_empty() {
-            let kept = self.kept();
-            return self.send(&mut Part::Kept(Box::new(kept)));
+            let source = self.kept();
+            return self.send_kept(source);
         }
         self.streamed(true)?;
         self.end_stream()
@@ -125,37 +140,64 @@ impl Translation<'_> {
         sent
     }
 
+    /// Sends a program that is kept whole, with its stretches of straight moves packed as far as the steps leave them as
+    /// they are; where they do not, with all of its moves.
+    fn send_kept(&mut self, mut source: Program) -> io::Result<()> {
+        let packs = self.job.passes.is_empty() && self.folder.is_none();
+        let main = source.procedures.first_mut().filter(|_| packs);
+        let stretches = main.map(|main| pack(&mut main.body, self.job.shortest_stretch)).unwrap_or_default();
+        if !stretches.is_empty() {
+            let before = Snapshot::of(self);
+            let mut part = Part::Kept(Box::new(Kept::new(source.clone())));
+            if self.rewrite(&mut part).is_ok() && self.leaves(&stretches, &part, &before) {
+                self.write(&mut part);
+                return self.release(&mut part);
+            }
+            drop((part, stretches));
+            before.restore(self);
+            source.procedures.first_mut().into_iter().for_each(|main| unpack(&mut main.body));
+        }
+        self.send(&mut Part::Kept(Box::new(Kept::new(source))))
+    }
+
+    /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one.
+    fn leaves(&self, stretches: &[Stretch], part: &Part, before: &Snapshot) -> bool {
+        let Part::Kept(kept) = part else { return false };
+        let main = kept.program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
+        let told = self.diagnostics.iter().skip(before.diagnostics()).chain(&kept.found);
+        stand(stretches, main) && !told.into_iter().any(|found| concerns(stretches, found.span))
+    }
+
     /// Sends a part through all the steps; not further than to one that refuses it.
     fn send(&mut self, part: &mut Part) -> io::Result<()> {
         match self.rewrite(part) {
-            Ok(()) => self.release(part),
+            Ok(()) => {
+                self.write(part);
+                self.release(part)
+            }
             Err(Refused) => Ok(()),
         }
     }
 
-    /// All steps before the release, in their order.
+    /// All steps before the text, in their order.
     fn rewrite(&mut self, part: &mut Part) -> Result<(), Refused> {
         self.begin(part)?;
         self.write_side_effects(part);
         self.say_computed(part)?;
         self.run_asked_passes(part)?;
         self.put_machine_numbers(part);
-        self.legalise(part)?;
-        self.write(part);
-        Ok(())
+        self.legalise(part)
     }
 
     /// The program that is kept, put together from all that was read.
-    fn kept(&mut self) -> Kept {
+    fn kept(&mut self) -> Program {
         let mut body = self.folder.as_mut().map(Folder::held).unwrap_or_default();
         body.append(&mut self.batch.stmts);
         let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
         let name = self.batch.name.clone();
         let source = self.by_itself(Program { name, assumed: self.batch.assumed, procedures });
-        let source = self.with_parameters(source);
-        let (renamed, there) = (Renamed::default(), Modes::default());
-        Kept { program: source.clone(), source, computed: None, renamed, there, found: Vec::new() }
+        self.with_parameters(source)
     }
 
     /// Folds a piece where that is asked for, and keeps what was read where a later step changes it. Sees that a kept
@@ -324,11 +366,11 @@ impl Translation<'_> {
                 }
             }
             Part::Kept(kept) => {
-                let Kept { program, found, computed, source, .. } = &mut **kept;
+                let Kept { program, found, computed, source, for_writer, .. } = &mut **kept;
                 match computed.take() {
                     Some(Computed { facts, own_distance, stands }) => {
                         self.legaliser.run_computing(program, &facts, found);
-                        self.writer.know(program, &own_distance, stands);
+                        *for_writer = Some((own_distance, stands));
                         self.unless_refused(found)?;
                     }
                     None => {
@@ -354,7 +396,10 @@ impl Translation<'_> {
                 found
             }
             Part::Kept(kept) => {
-                let Kept { program, there, found, .. } = &mut **kept;
+                let Kept { program, there, found, for_writer, .. } = &mut **kept;
+                if let Some((own_distance, stands)) = for_writer.take() {
+                    self.writer.know(program, &own_distance, stands);
+                }
                 let mut procedures = program.procedures.iter();
                 if let Some(main) = procedures.next() {
                     self.write_main(&main.body, there, found);

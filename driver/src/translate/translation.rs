@@ -18,7 +18,7 @@ use ncc_passes::Legaliser;
 use ncc_passes::modes::side_effects::SideEffects;
 use ncc_passes::tools::machine_numbers::Renumbering;
 
-use crate::job::{Job, Output, Rest, file_per_tool};
+use crate::job::{Counted, Job, Output, Rest, file_per_tool};
 use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Trace};
@@ -57,6 +57,7 @@ pub(super) struct Translation<'j> {
     pub(super) output: Output,
     pub(super) written: u64,
     pub(super) diagnostics: Vec<Diagnostic>,
+    pub(super) counted: Vec<Counted>,
     pub(super) rests: Vec<Rest>,
     pub(super) questions: Vec<Question>,
     /// Numbers of the output's subprograms.
@@ -122,6 +123,7 @@ impl<'j> Translation<'j> {
             output: Output::new(),
             written: 0,
             diagnostics: Vec::new(),
+            counted: Vec::new(),
             rests: Vec::new(),
             questions: Vec::new(),
             footed: false,
@@ -226,7 +228,9 @@ impl<'j> Translation<'j> {
             }
             self.refused |= self.job.refuses(&diagnostic);
             self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
-            self.diagnostics.push(diagnostic);
+            if Counted::keeps(&mut self.counted, &diagnostic.fault) {
+                self.diagnostics.push(diagnostic);
+            }
         }
     }
 }

@@ -6,6 +6,7 @@
 //!
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
+use ncc_dialects::Settings;
 use ncc_exec::{Event, Exec, NOWHERE, STILL, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
@@ -112,8 +113,14 @@ impl Run {
 
 /// A reader of the output, which reports what the output takes for granted of the target's control.
 pub fn reader_of_output(job: &Job) -> Reader {
-    let mut reader = Reader::new(job.to.clone(), false);
+    reader_of_text(job.to.clone())
+}
+
+fn reader_of_text(to: Settings) -> Reader {
+    let mut reader = Reader::new(to, false);
     reader.report_parameters();
+    // What streams repeats no blocks.
+    reader.repeats(false);
     reader
 }
 
@@ -138,8 +145,7 @@ impl Verifier {
     pub fn read_as_called(&mut self, job: &Job, assumed: &Modes) {
         let mut to = job.to.clone();
         if assumed.units.is_none_or(|units| to.state_units(units)) {
-            self.reader = Reader::new(to, false);
-            self.reader.report_parameters();
+            self.reader = reader_of_text(to);
         }
         self.reader.called();
         self.as_called = true;

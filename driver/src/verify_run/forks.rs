@@ -157,6 +157,13 @@ impl<'p> Forks<'p> {
         self.watched = [bits(0), bits(1)];
     }
 
+    /// Whether nobody looks at plain moves that both controls come to: no run with another fact is under way, and none
+    /// would begin there.
+    pub fn let_pass(&self, controls: [&Exec; 2], lines: &[Stmt]) -> bool {
+        let comes = |(exec, watched): (&Exec, u64)| watched != 0 && watched & come_to(exec, lines) != 0;
+        self.under_way.is_empty() && !controls.into_iter().zip(self.watched).any(comes)
+    }
+
     /// Runs one side of the usual run until there are so many events; `true` is its end.
     pub fn run_side(
         &mut self,

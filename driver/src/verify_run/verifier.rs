@@ -132,6 +132,8 @@ pub struct Verifier {
     pub(super) outliving: Vec<Outliving>,
     /// What the source takes for granted of its start so far.
     pub(super) assumed: Modes,
+    /// Straight moves one behind the other of which fewer are not packed, in a program that is read back whole.
+    pub(super) shortest_stretch: usize,
     /// What was not executed, or with values that were made up.
     pub(super) notes: Vec<Diagnostic>,
 }

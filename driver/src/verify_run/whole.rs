@@ -3,6 +3,7 @@
 //! What a program reads and has not set is given values (`values`). A set of values with which the source cannot be
 //! executed says nothing. Ways that were not gone are told.
 
+mod lines;
 mod values;
 
 use ncc_exec::verify::Pair;
@@ -26,6 +27,7 @@ use super::forks::{Forks, Shown};
 use super::levels::levels;
 use super::twice::outliving;
 use super::verifier::{Other, Run, Stop, Verifier};
+use crate::stretches::pack;
 
 pub use self::values::Given;
 
@@ -255,10 +257,12 @@ impl Verifier {
 
     /// Reads the output's rest back.
     fn read_target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<Program, Stop> {
+        self.reader.repeats(true);
         self.reader.read(text, base, &mut self.batch);
         self.reader.finish(&mut self.batch);
         self.read_back(inherited)?;
-        let body = std::mem::take(&mut self.batch.stmts);
+        let mut body = std::mem::take(&mut self.batch.stmts);
+        pack(&mut body, self.shortest_stretch);
         let mut procedures = vec![Procedure { body, ..Procedure::default() }];
         procedures.append(&mut self.batch.procedures);
         Ok(Program { procedures, ..Program::default() })
@@ -418,6 +422,14 @@ impl Verifier {
         let first = run.comparison.events;
         let mut done = [false; 2];
         let ended = loop {
+            match self.pass_lines(run, &mut runners, forks.as_deref()) {
+                Ok(false) => {}
+                Ok(true) if run.comparison.events - first > set.most => {
+                    break Err(Ended::Enough(runners[0].here()));
+                }
+                Ok(true) => continue,
+                Err(fault) => break Err(Ended::Source(fault)),
+            }
             match self.run_side(0, run, &mut runners, &mut done, forks.as_deref_mut()) {
                 Ok(()) => {}
                 Err(fault) => break Err(Ended::Source(fault)),

@@ -98,6 +98,7 @@ impl CanonState {
             Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank
+            | Op::Lines(_)
             | Op::SetDistanceMode(_)
             | Op::SetReturnLevel(_)
             | Op::StartCutterRadiusCompensation { .. }

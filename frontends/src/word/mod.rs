@@ -39,4 +39,6 @@ pub(crate) mod text;
 mod text_facts;
 mod word_state;
 
+pub(crate) use calls::repetition::may_repeat;
+pub(crate) use macros::computing::may_jump;
 pub use reader::Reader;

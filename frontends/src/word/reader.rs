@@ -62,6 +62,16 @@ impl Reader {
         self.lower.watch = true;
     }
 
+    /// As of [`crate::Reader::repeats`].
+    pub(crate) fn repeats(&mut self, may: bool) {
+        self.kept.never = !may;
+    }
+
+    /// As of [`crate::Reader::foresee_jumps`].
+    pub(crate) fn foresee_jumps(&mut self, lines: &[u8]) {
+        self.lower.foresee_jumps(lines);
+    }
+
     /// What the text never says is taken for granted from here on.
     pub(crate) fn assume(&mut self) {
         self.lower.assume = true;

@@ -440,6 +440,7 @@ impl Exec {
             | Op::SetFeedRate(_) => {}
             Op::Comment(_) => self.tell(Attribute::Remark, span, out)?,
             Op::NoEffect(_) | Op::Blank | Op::Label(_) => {}
+            Op::Lines(lines) => return lines.unpack().try_for_each(|stmt| self.step(&stmt, out)),
             Op::StartCutterRadiusCompensation { side, radius } => {
                 self.start_compensation(*side, radius, span)?;
             }

@@ -296,6 +296,7 @@ pub fn may_stand_between(op: &Op) -> bool {
         Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank
+            | Op::Lines(_)
             | Op::Label(_)
             | Op::SetFeedRate(_)
             | Op::SetDistanceMode(_)

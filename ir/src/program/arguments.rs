@@ -171,6 +171,7 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         | Op::Message(_)
         | Op::NoEffect(_)
         | Op::Blank
+        | Op::Lines(_)
         | Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
         | Op::UseMachineCoordinates { .. }

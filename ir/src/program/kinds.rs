@@ -6,7 +6,7 @@
 //!
 //! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
 
-/// Beside the way: remarks and messages, text for devices, spindle, coolant, functions of the machine, pauses, on which side of the
+/// Beside the way: moves for which others stand ([`Op::Lines`](crate::program::Op::Lines)), remarks and messages, text for devices, spindle, coolant, functions of the machine, pauses, on which side of the
 /// contour the tool goes. Without axis words, lengths or a feed; what the words of the moves that
 /// follow mean, where the axes stand and which tool is meant stay as they are.
 #[macro_export]
@@ -19,6 +19,7 @@ macro_rules! miscellaneous {
             | $crate::program::Op::Alarm(_)
             | $crate::program::Op::NoEffect(_)
             | $crate::program::Op::Blank
+            | $crate::program::Op::Lines(_)
             | $crate::program::Op::StartCutterRadiusCompensation { .. }
             | $crate::program::Op::StopCutterRadiusCompensation
             | $crate::program::Op::SetSpindleSpeed(_)

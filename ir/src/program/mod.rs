@@ -14,6 +14,8 @@ pub mod arguments;
 pub mod cycle;
 pub mod kinds;
 pub mod numbered;
+pub mod packed;
+pub mod packing;
 pub mod valid;
 
 mod arc;
@@ -36,6 +38,7 @@ pub use text::Text;
 pub use tool_value::ToolValue;
 
 use std::collections::HashMap;
+use std::sync::Arc as Shared;
 
 use crate::canon::{
     AXES, AdviceKind, CornerShape, Distance, FeedMode, Modes, Plane, ReturnLevel, RotaryWay, Side,
@@ -44,6 +47,7 @@ use crate::canon::{
 use crate::expr::{Expr, Target, Var};
 pub use crate::operator_text::{Alarm, NO_SUCH_BLOCK, Output, Piece};
 use crate::program::cycle::{Cycle, Pattern};
+use crate::program::packed::PackedLines;
 use crate::source::Span;
 
 /// A part program: the main procedure first, then its subprograms.
@@ -322,6 +326,9 @@ pub enum Op {
     Polar(Box<Polar>),
     /// `POSITION`: axis words that do whatever motion is in force.
     Position(Move),
+    /// A stretch of straight moves and feeds, for which statements in front of it and behind it stand
+    /// ([`PackedLines`]). No text has it: it is written as its statements.
+    Lines(Shared<PackedLines>),
 
     /// `START_CYCLE`: calls a cycle up; makes no hole yet.
     StartCycle(Box<Cycle>),

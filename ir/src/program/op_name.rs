@@ -13,6 +13,7 @@ impl Op {
             Op::Comment(_) => "COMMENT",
             Op::NoEffect(_) => "NO_EFFECT",
             Op::Blank => "BLANK",
+            Op::Lines(_) => "LINES",
             Op::UseLengthUnits(_) => "USE_LENGTH_UNITS",
             Op::SetDistanceMode(_) => "SET_DISTANCE_MODE",
             Op::SelectPlane(_) => "SELECT_PLANE",

@@ -5,7 +5,7 @@ use ncc_ir::program::Op;
 /// Place of a function in the interpreter's order of a block.
 pub(super) fn rank(op: &Op) -> u8 {
     match op {
-        Op::Message(_) | Op::Comment(_) | Op::Blank | Op::NoEffect(_) => 0,
+        Op::Message(_) | Op::Comment(_) | Op::Blank | Op::Lines(_) | Op::NoEffect(_) => 0,
         Op::SetSpindleMode(_) | Op::LimitSpindleSpeed(_) => 1,
         Op::SetFeedMode(_) => 2,
         Op::SetFeedRate(_) => 3,

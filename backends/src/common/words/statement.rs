@@ -10,6 +10,7 @@ use ncc_ir::source::Span;
 use super::Words;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{AdviceCode, Code, Letter};
+use crate::common::fault::PACKED;
 use crate::common::fault::{cannot, unwritable};
 use crate::common::number::{Shaped, WordValue};
 use crate::common::setting::Setting;
@@ -29,6 +30,7 @@ impl Words {
                 Ok(())
             }
             Op::NoEffect(name) => self.no_effect(name, span, sink),
+            Op::Lines(_) => Err(cannot(PACKED)),
             Op::Blank => {
                 self.flush(true, sink);
                 Ok(())

@@ -14,6 +14,7 @@ use ncc_ir::computed::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::units::Said;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
+use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -22,6 +23,7 @@ use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::fault::{cannot, cannot_compute};
 use crate::common::formula::{literal, number_of};
+use crate::common::packed::packed;
 use crate::common::words::HIGHEST_NUMBER;
 use crate::word::Writer;
 
@@ -454,6 +456,8 @@ impl Jumps {
     fn body(&mut self, body: &[Stmt]) {
         for stmt in body {
             self.numbers.extend(stmt.number);
+            self.numbers
+                .extend(packed(stmt).into_iter().flat_map(PackedLines::unpack).filter_map(|s| s.number));
             if let Op::Label(name) = &stmt.op {
                 self.labels.push((name.clone(), stmt.number));
             } else if let Op::Goto(name) = &stmt.op {

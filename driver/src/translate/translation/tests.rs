@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use ncc_dialects::{Settings, builtin};
 use ncc_exec::maps::Maps;
+use ncc_ir::diag::{Fault, Verdict};
 use ncc_machines::Profile;
 
 use super::*;
@@ -178,4 +179,18 @@ fn a_tool_by_name_gets_the_number_of_the_target() {
         // One that the target's machine has no number for cannot be said.
         assert!(told(&named(both, |maps| maps.tool_names.clear())).contains(&501), "{both}");
     }
+}
+
+/// What becomes of a word in block after block is kept so many times, and then counted.
+#[test]
+fn very_many_rounded_numbers_are_counted() {
+    let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+    let job = Job::new(settings.clone(), settings, "part.nc");
+    let lines: String = (0..10_050).map(|n| format!("X{}.00004\n", n % 1000)).collect();
+    let text = PART.replace("X10.\n", &lines);
+    let outcome = crate::translate::translate(&job, &mut std::io::Cursor::new(text)).expect("memory");
+    let rounded = |d: &&Diagnostic| matches!(d.fault, Fault::Rounded { .. });
+    assert_eq!(outcome.diagnostics.iter().filter(rounded).count(), 10_000);
+    assert_eq!(outcome.further().collect::<Vec<_>>(), [("NC0403".to_owned(), 50)]);
+    assert_eq!(outcome.counts[Verdict::WithinTolerance as usize], 10_050);
 }

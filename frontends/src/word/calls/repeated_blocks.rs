@@ -70,7 +70,7 @@ impl Lower {
 impl Reader {
     /// Keeps the text of numbered blocks, where a repetition may name them.
     pub(in crate::word) fn keep(&mut self, text: &[u8], base: u32) {
-        if self.lower.settings.dialect.repeat.letters().is_none() || self.kept.busy {
+        if self.kept.never || self.lower.settings.dialect.repeat.letters().is_none() || self.kept.busy {
             return;
         }
         let kept = &mut self.kept;
@@ -85,7 +85,9 @@ impl Reader {
 
     /// A block has been read: from the first one with a number on, the program is kept whole.
     pub(in crate::word) fn kept(&mut self, from: usize, out: &mut Batch) {
-        if self.kept.busy || self.kept.open || self.lower.settings.dialect.repeat.letters().is_none() {
+        let kept = &self.kept;
+        let repeats = !kept.never && self.lower.settings.dialect.repeat.letters().is_some();
+        if kept.busy || kept.open || !repeats {
             return;
         }
         let body = self.lower.target(out);

@@ -9,6 +9,7 @@ mod values;
 
 use std::collections::BTreeSet;
 
+use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Stmt};
@@ -29,6 +30,12 @@ use crate::word::word_state::CycleState;
 /// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
 const MOST_LOOPS: usize = 3;
 
+/// Whether any of these lines may go to another block of its program.
+pub(crate) fn may_jump(dialect: &Dialect, lines: &[u8]) -> bool {
+    dialect.program.macro_b
+        && (has_jumps(lines) || has_returns_to(lines, dialect) || has_local_calls(lines, dialect))
+}
+
 impl Lower {
     /// Looks through text that is to be read for what is computed in it.
     pub(in crate::word) fn look_ahead(&mut self, text: &[u8], out: &mut Batch) {
@@ -43,15 +50,14 @@ impl Lower {
             self.found_variables(out);
         }
         let dialect = self.settings.dialect;
-        if !self.computes.jumps
-            && (has_jumps(text) || has_returns_to(text, dialect) || has_local_calls(text, dialect))
-        {
+        if !self.computes.jumps && may_jump(dialect, text) {
             self.computes.jumps = true;
             self.computes.named = Some(BTreeSet::new());
             self.found_variables(out);
             out.whole = true;
             self.refresh();
         }
+        out.whole |= self.computes.jumps;
         if self.computes.jumps {
             self.computes.named = self.computes.named.take().and_then(|all| named_blocks(text, dialect, all));
         }
@@ -59,6 +65,18 @@ impl Lower {
         if !self.computes.jumps {
             self.computes.unnamed |= memchr::memchr2(number, number.to_ascii_lowercase(), text).is_some();
         }
+    }
+
+    /// The text jumps somewhere: the blocks that these lines of it name are known before any of it is read.
+    pub(in crate::word) fn foresee_jumps(&mut self, lines: &[u8]) {
+        let computes = &mut self.computes;
+        if !std::mem::replace(&mut computes.jumps, true) {
+            computes.named = Some(BTreeSet::new());
+            computes.variables = true;
+        }
+        let dialect = self.settings.dialect;
+        computes.named = computes.named.take().and_then(|all| named_blocks(lines, dialect, all));
+        self.refresh();
     }
 
     /// The text computes: programs that it calls by number have no variables of their own, the calls met before as

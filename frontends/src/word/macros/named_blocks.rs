@@ -7,8 +7,13 @@ use ncc_dialects::Dialect;
 
 /// Whether a text has a word that jumps, or the two letters of it that are enough behind a condition.
 pub(super) fn has_jumps(text: &[u8]) -> bool {
-    let has = |word: &[u8]| text.windows(word.len()).any(|part| part.eq_ignore_ascii_case(word));
-    has(b"GOTO") || has(b"]GO") || has(b"] GO")
+    memchr::memchr2_iter(b'O', b'o', text).any(|at| {
+        let Some(before) = text[..at].strip_suffix(b"G").or_else(|| text[..at].strip_suffix(b"g")) else {
+            return false;
+        };
+        let to = text[at + 1..].get(..2).is_some_and(|to| to.eq_ignore_ascii_case(b"TO"));
+        to || before.ends_with(b"]") || before.ends_with(b"] ")
+    })
 }
 
 /// Adds the numbers of blocks that a text may name to those known: what stands behind a jump, and in words that name blocks
@@ -46,4 +51,30 @@ pub(super) fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32
         }
     }
     Some(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn words_that_jump() {
+        for text in ["GOTO10", "goto 10", "IF[#1EQ2]GO10", "IF[#1EQ2] go 10", "X1\nGoTo"] {
+            assert!(has_jumps(text.as_bytes()), "{text}");
+        }
+        for text in ["GO10", "X1O2", "O1000", "(LOGO)", "] G O", "TO", "", "G", "O"] {
+            assert!(!has_jumps(text.as_bytes()), "{text}");
+        }
+    }
+
+    proptest! {
+        /// As it is said: each place of the text is looked at for each of the words.
+        #[test]
+        fn it_is_found_wherever_it_stands(text in "[GOTOgoto \\]1]{0,12}") {
+            let has = |word: &str| text.to_ascii_uppercase().contains(word);
+            prop_assert_eq!(has_jumps(text.as_bytes()), has("GOTO") || has("]GO") || has("] GO"));
+        }
+    }
 }

@@ -9,6 +9,7 @@ use crate::run::repeated;
 use crate::run::term::{Indexed, Names, Place, Term};
 use ncc_ir::expr::{Expr, Target};
 use ncc_ir::program::arguments;
+use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Call, Control, Declare, Op, Procedure, Program, Stmt};
 
 /// The place of a step in [`Code::steps`].
@@ -19,6 +20,8 @@ pub(crate) type At = u32;
 pub(crate) enum Step<'p> {
     /// A statement that is executed by itself.
     Do(&'p Stmt),
+    /// Straight moves and feeds that are packed.
+    Lines(&'p Stmt, &'p PackedLines),
     /// One of which arguments are computed first: its place in [`Code::computed`].
     Compute(&'p Stmt, u32),
     /// A value for a variable; without a place it is one of the control's own.
@@ -109,6 +112,7 @@ impl<'p> Step<'p> {
     pub(crate) fn stmt(&self) -> Option<&'p Stmt> {
         match self {
             Step::Do(stmt)
+            | Step::Lines(stmt, _)
             | Step::Compute(stmt, _)
             | Step::Assign(stmt, _)
             | Step::AssignElement(stmt, _)
@@ -285,6 +289,7 @@ impl<'p> Maker<'p> {
                 Step::Call(stmt, Box::new(Called { call, entry: None, arguments, parameters: Rc::new([]) }))
             }
             Op::Return => Step::Return(stmt),
+            Op::Lines(lines) => Step::Lines(stmt, lines),
             Op::RepeatBlocks(repeat) => {
                 let blocks = repeated::blocks_again(body, place, &repeat.from, repeat.to.as_deref());
                 let steps = blocks.map(|blocks| (begins[blocks.start], begins[blocks.end]));
@@ -441,6 +446,7 @@ impl<'p> Maker<'p> {
             | Step::Turns(_, _, to)
             | Step::Jump(_, to) => *to = here,
             Step::Do(_)
+            | Step::Lines(..)
             | Step::Compute(..)
             | Step::Assign(..)
             | Step::AssignElement(..)

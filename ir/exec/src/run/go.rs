@@ -25,7 +25,8 @@ pub enum Halt {
 }
 
 impl Runner<'_> {
-    /// Executes statements until at least `enough` events are in `out`, or the program is over.
+    /// Executes statements until at least `enough` events are in `out`, or the program is over; or until plain moves begin,
+    /// if it halts there.
     ///
     /// # Errors
     /// As of [`Exec::step`] and [`Runner::next`].
@@ -53,7 +54,7 @@ impl Runner<'_> {
         out: &mut Vec<Event>,
         halts: impl Fn(&Exec, &Stmt) -> bool,
     ) -> Result<Halt, Diagnostic> {
-        while out.len() < enough {
+        while out.len() < enough && !self.is_before_lines() {
             let Some(stmt) = self.next(exec)? else { return Ok(Halt::Done) };
             if halts(exec, stmt) {
                 return Ok(Halt::Before(stmt.clone()));

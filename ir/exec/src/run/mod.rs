@@ -13,6 +13,7 @@ pub(crate) mod endless_loop;
 pub(crate) mod entry;
 pub(crate) mod go;
 pub(crate) mod left;
+mod lines;
 pub(crate) mod nesting;
 mod repeated;
 pub(crate) mod required_arguments;
@@ -22,8 +23,9 @@ use std::rc::Rc;
 
 use super::{Exec, message};
 use crate::halt;
-use crate::run::code::{At, Code, Declared, Step};
+use crate::run::code::{At, Code, Counter, Declared, Step};
 use crate::run::endless_loop::EndlessLoop;
+use crate::run::lines::LinesAhead;
 use crate::run::nesting::{Blocks, Frame};
 pub use crate::run::repeated::again;
 use crate::run::required_arguments::required_arguments;
@@ -35,6 +37,7 @@ use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::expr::value::Value;
 use ncc_ir::expr::{Expr, Var};
 use ncc_ir::program::arguments;
+use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Centre, Coord, Op, Program, Stmt};
 use ncc_ir::source::Span;
 
@@ -52,6 +55,10 @@ pub struct Runner<'p> {
     code: Rc<Code<'p>>,
     /// The next step.
     at: At,
+    /// Packed moves that are under way.
+    lines: LinesAhead<'p>,
+    /// Whether [`Runner::run`] halts before them.
+    halts_at_lines: bool,
     /// Calls in force; the first is the main procedure.
     calls: Vec<Frame>,
     /// Further turns of the bodies that are counted and open.
@@ -90,6 +97,8 @@ impl<'p> Runner<'p> {
             Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, shared: false, parameters, given };
         Runner {
             at: 0,
+            lines: LinesAhead::default(),
+            halts_at_lines: false,
             calls: vec![main],
             turns: Vec::new(),
             blocks: Vec::new(),
@@ -131,8 +140,11 @@ impl<'p> Runner<'p> {
 
     /// The block of the step that was made last.
     pub fn here(&self) -> Span {
-        let step = self.code.steps.get((self.at as usize).saturating_sub(1));
-        step.and_then(Step::stmt).map_or(Span::default(), |stmt| stmt.span)
+        let before = || match self.code.steps.get((self.at as usize).saturating_sub(1)) {
+            Some(Step::Lines(_, lines)) => lines.last(),
+            step => step.and_then(Step::stmt).map_or(Span::default(), |stmt| stmt.span),
+        };
+        self.lines.last().unwrap_or_else(before)
     }
 
     /// Has a run be taken for one without an end after so many steps.
@@ -233,8 +245,14 @@ impl<'p> Runner<'p> {
                 continue;
             }
             let step = &code.steps[self.at as usize];
-            self.at += 1;
+            if let Step::Lines(..) = step {
+                match self.lines_ahead().first().map(|stmt| stmt.span) {
+                    Some(span) => return self.next_line(before, span),
+                    None => continue,
+                }
+            }
             self.steps += 1;
+            self.at += 1;
             let Some(stmt) = step.stmt() else {
                 if self.leave() {
                     continue;
@@ -265,29 +283,16 @@ impl<'p> Runner<'p> {
                     self.goes_on(from, span)?;
                 }
                 Step::Again(_, to) => self.another_turn(*to),
-                Step::Unskipped(..) | Step::End => {}
+                Step::Unskipped(..) | Step::Lines(..) | Step::End => {}
                 Step::Unless(_, condition, to) => {
-                    let value =
-                        self.variables.number(condition, asked).map_err(|why| self.no_value(why, span))?;
-                    self.taken[self.at as usize - 1] |= if value == 0.0 { 2 } else { 1 };
-                    if value == 0.0 {
-                        self.at = *to;
-                    }
+                    let value = self.variables.number(condition, asked);
+                    let value = value.map_err(|why| self.no_value(why, span))?;
+                    self.decide(value == 0.0, *to);
                 }
                 Step::UnlessCounted(_, counter, to) => {
-                    let [count, end, pace] = [counter.place, counter.end, counter.pace]
-                        .map(|place| self.variables.get(place).number());
-                    let over = if pace < 0.0 { count < end } else { count > end };
-                    self.taken[self.at as usize - 1] |= if over { 2 } else { 1 };
-                    if over {
-                        self.at = *to;
-                    }
+                    self.decide(self.is_counted_out(counter), *to);
                 }
-                Step::Count(_, counter) => {
-                    let [count, pace] =
-                        [counter.place, counter.pace].map(|place| self.variables.get(place).number());
-                    self.variables.set(counter.place, Value::Number(count + pace));
-                }
+                Step::Count(_, counter) => self.count(counter),
                 Step::Turns(_, times, to) => {
                     exec.no_open_corner()?;
                     match self.times(times, 0, asked, span)? {
@@ -319,6 +324,78 @@ impl<'p> Runner<'p> {
                 }
             }
         }
+    }
+
+    /// The next of the packed moves, which stands there.
+    #[inline]
+    fn next_line(&mut self, before: u64, span: Span) -> Result<Option<&Stmt>, Diagnostic> {
+        self.steps += 1;
+        self.may_go_on(before, span)?;
+        Ok(self.lines.take())
+    }
+
+    /// A decision: goes there where it does not hold.
+    #[inline]
+    fn decide(&mut self, fails: bool, to: At) {
+        self.taken[self.at as usize - 1] |= if fails { 2 } else { 1 };
+        if fails {
+            self.at = to;
+        }
+    }
+
+    /// Whether a counter is beyond its end.
+    #[inline]
+    fn is_counted_out(&self, counter: &Counter) -> bool {
+        let [count, end, pace] =
+            [counter.place, counter.end, counter.pace].map(|place| self.variables.get(place).number());
+        if pace < 0.0 { count < end } else { count > end }
+    }
+
+    #[inline]
+    fn count(&mut self, counter: &Counter) {
+        let [count, pace] = [counter.place, counter.pace].map(|place| self.variables.get(place).number());
+        self.variables.set(counter.place, Value::Number(count + pace));
+    }
+
+    /// Some of the packed moves that come next, if they do.
+    pub fn lines_ahead(&mut self) -> &[Stmt] {
+        if self.at == self.end {
+            return &[];
+        }
+        let Some(Step::Lines(_, lines)) = self.code.steps.get(self.at as usize) else { return &[] };
+        let lines: &'p PackedLines = lines;
+        if self.lines.of(lines).is_empty() {
+            self.lines.leave();
+            self.at += 1;
+        }
+        self.lines.unpacked()
+    }
+
+    /// Whether [`Runner::run`] and [`Runner::run_until`] halt before packed moves, so that they can be executed once for
+    /// two runs.
+    pub fn halt_at_lines(&mut self, halts: bool) {
+        self.halts_at_lines = halts;
+    }
+
+    /// Whether the run halts here: before packed moves, or behind the first of them where control has come to it.
+    #[inline]
+    fn is_before_lines(&mut self) -> bool {
+        self.halts_at_lines && !self.lines_ahead().is_empty()
+    }
+
+    /// Another run has executed so many of [`Runner::lines_ahead`] for this one as well, and so many events came of it.
+    ///
+    /// # Errors
+    /// The run has had enough steps, or was stopped.
+    pub fn has_passed(&mut self, many: usize, events: u64) -> Result<(), Diagnostic> {
+        self.lines.pass(many);
+        let before = self.steps;
+        self.steps += many as u64;
+        if events > 0 {
+            self.eventful = self.steps;
+        }
+        halt::has_made(before, self.steps);
+        self.may_go_on(self.steps - 1, self.here())
     }
 
     /// That the run is within its limits, and nobody has stopped it; `before` is how many steps it had before the present

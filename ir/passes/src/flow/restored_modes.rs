@@ -155,6 +155,7 @@ impl Changes {
             | Op::Alarm(_)
             | Op::NoEffect(_)
             | Op::Blank
+            | Op::Lines(_)
             | Op::SetSpindleSpeed(_)
             | Op::LimitSpindleSpeed(_)
             | Op::StartSpindleClockwise

@@ -6,6 +6,8 @@
 //!
 //! Not here: which modes are active (`ncc_ir::track`, the must-analysis).
 
+use std::sync::Arc;
+
 use ncc_ir::canon::{Fact, Motion};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
@@ -98,6 +100,7 @@ pub(crate) fn settle(op: &mut Op, here: &Tracker) {
         },
         Op::SetPosition(axes) => axes.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
         Op::SetFeedRate(feed) => settle_expr(feed, here),
+        Op::Lines(lines) => Arc::make_mut(lines).settle(here.modes.units, here.modes.distance),
         Op::GoToReference(reference) => settle_point(&mut reference.via, here),
         Op::SetData(data) => match &mut **data {
             Data::Offset { words, .. } | Data::Measured { words, .. } => {

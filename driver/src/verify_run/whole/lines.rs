@@ -1,0 +1,95 @@
+//! Stretches of plain moves of programs that are kept whole: executed once for both sides.
+//!
+//! ```text
+//! source: X10. | output: X10    one state, the same words: one execution stands for both
+//! ```
+//!
+//! Why that proves the same as two executions: a control is a function of its state and of the statement, and events are
+//! made of nothing else. Where both states agree in all that a plain move reads (`Exec::agrees`), and both statements say
+//! the same ([`same_plain`]), both sides make the same event and come to states that agree again.
+
+use ncc_exec::Runner;
+use ncc_exec::verify::same_plain;
+use ncc_ir::diag::Diagnostic;
+
+use super::super::forks::Forks;
+use super::super::verifier::{Run, Verifier};
+
+impl Verifier {
+    /// Plain moves that come next in both programs, and are the same, are executed once where both controls are in one
+    /// state, because both do the same; `false` where that is not so. Halts both where such moves begin, if they are not
+    /// there.
+    pub(super) fn pass_lines<'p>(
+        &self,
+        run: &mut Run,
+        runners: &mut [Runner<'p>; 2],
+        forks: Option<&Forks<'p>>,
+    ) -> Result<bool, Diagnostic> {
+        let there = runners.iter_mut().any(|runner| !runner.lines_ahead().is_empty());
+        runners.iter_mut().for_each(|runner| runner.halt_at_lines(!there));
+        let [one, other] = runners;
+        let [source, target] = [one.lines_ahead(), other.lines_ahead()];
+        let same = source.iter().zip(target).take_while(|(a, b)| same_plain(a, b)).count();
+        let (source, target) = (&source[..same], &target[..same]);
+        let level = run.source_events.is_empty() && run.target_events.is_empty();
+        if same == 0 || !level || self.renamed || self.watched {
+            return Ok(false);
+        }
+        let quiet = forks.is_none_or(|forks| forks.let_pass([&run.source, &run.target], source));
+        if !quiet || !run.source.agrees(&run.target) || !run.source.counts_alike(&run.target, source) {
+            return Ok(false);
+        }
+        let events = run.source.pass(source)?;
+        run.target.follow(&run.source);
+        run.target.has_moved(target);
+        run.comparison.pass(events, run.source.machine());
+        runners.iter_mut().try_for_each(|runner| runner.has_passed(same, events))?;
+        Ok(true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ncc_dialects::{Settings, builtin};
+    use ncc_frontends::{Batch, Reader};
+    use ncc_ir::program::Program;
+
+    use super::super::super::verifier::Stop;
+    use super::*;
+    use crate::job::Job;
+
+    /// A loop keeps the program whole; behind it are plain moves.
+    fn program(moves: &str) -> String {
+        format!(
+            "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n\
+             #1=0\nWHILE [#1 LT 3] DO1\nX#1\n#1=#1+1\nEND1\nG01 X0.\n{moves}M30\n%\n"
+        )
+    }
+
+    fn verified(said: &str, written: &str) -> Result<u64, Stop> {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        let job = Job::new(settings.clone(), settings, "lines.nc");
+        let (mut reader, mut batch) = (Reader::new(job.from.clone(), true), Batch::default());
+        reader.read(program(said).as_bytes(), 0, &mut batch);
+        reader.finish(&mut batch);
+        let body = std::mem::take(&mut batch.stmts);
+        let source =
+            Program { assumed: batch.assumed, procedures: vec![batch.main(body)], ..Program::default() };
+        let mut verifier = Verifier::new(&job);
+        verifier.whole(&source, program(written).as_bytes(), 0, &source.assumed)?;
+        Ok(verifier.covered().events)
+    }
+
+    #[test]
+    fn a_move_among_many_that_says_something_else_is_seen() {
+        let moves: String = (0..100).map(|n| format!("X{n}.5 Y{}.\n", n % 7)).collect();
+        let events = verified(&moves, &moves).expect("the same program");
+        assert!(events > 200, "{events}");
+        for (from, to) in
+            [("X3.5", "X3.501"), ("X50.5", "X50.6"), ("X99.5", "G00 X99.5"), ("X98.5 Y0.\n", "")]
+        {
+            let written = moves.replacen(from, to, 1);
+            assert!(matches!(verified(&moves, &written), Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Straight moves of a long stretch, packed into a tenth of the memory of their statements.
+//!
+//! ```text
+//! G1 X0.358 Z-0.164    one byte of which words it has, two of its place, five of its numbers
+//! ```
+//!
+//! A program that is kept whole has a million of them between two statements of control, and no step but writing and
+//! execution looks at each. Whoever packs a stretch leaves statements of it in front and behind that stand for it: those in
+//! front have each kind of word that it has, and those behind say all again that it leaves in force. So what follows a
+//! program may go past it.
+//!
+//! Not here: how they are packed (`packing`), and which stretches are (the driver).
+
+use std::sync::Arc;
+
+use crate::canon::{Distance, Fact, Units};
+use crate::expr::num::Unit;
+use crate::source::Span;
+
+/// Straight moves in X, Y and Z by literals, and feeds: each as [`packs`](super::packing::packs) says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PackedLines {
+    pub(super) bytes: Arc<[u8]>,
+    pub(super) last: Span,
+    pub(super) in_force: InForce,
+}
+
+/// What words mean that leave it to what is in force, where that is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct InForce {
+    pub(super) unit: Unit,
+    pub(super) distance: Fact<Distance>,
+}
+
+impl InForce {
+    pub(super) fn unit(self, own: Unit) -> Unit {
+        if own == Unit::Entry { self.unit } else { own }
+    }
+
+    pub(super) fn distance(self, own: Fact<Distance>) -> Fact<Distance> {
+        if own == Fact::Entry { self.distance } else { own }
+    }
+}
+
+impl PackedLines {
+    /// Puts in what is in force where the moves leave it to that.
+    pub fn settle(&mut self, units: Option<Units>, distance: Option<Distance>) {
+        self.in_force.unit = match (self.in_force.unit, units) {
+            (Unit::Entry, Some(Units::Mm)) => Unit::Mm,
+            (Unit::Entry, Some(Units::Inch)) => Unit::Inch,
+            (own, _) => own,
+        };
+        self.in_force.distance = self.in_force.distance(distance.into());
+    }
+
+    /// Whether these are the same moves, whatever was put into them.
+    pub fn are_moves_of(&self, other: &PackedLines) -> bool {
+        Arc::ptr_eq(&self.bytes, &other.bytes)
+    }
+
+    /// The place of the last statement.
+    pub fn last(&self) -> Span {
+        self.last
+    }
+}
