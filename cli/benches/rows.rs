@@ -77,7 +77,7 @@ const ROWS: &[Row] = &[
         ..PLAIN
     },
     Row { name: "X= words, siemens", from: "siemens", to: "fanuc", lines: &["Y={y} {}"], ..PLAIN },
-    Row { name: "rotary axis", lines: &["{} A{a}."], ..PLAIN },
+    Row { name: "rotary axis", head: "G0 A0.", lines: &["{} A{a}."], ..PLAIN },
     Row { name: "feed by time", head: "G1 X0. Y0. F100\nG93", lines: &["{} F{f}."], foot: "G94", ..PLAIN },
     Row { name: "rotation", head: "G68 X0. Y0. R30.", foot: "G69", ..PLAIN },
     Row { name: "local shift", head: "G52 X10. Y5.", foot: "G52 X0. Y0.", ..PLAIN },
@@ -135,7 +135,7 @@ fn text(row: &Row, bytes: usize) -> String {
     let _ = writeln!(text, "{}", row.head);
     let (mut x, mut y, mut n) = (0i64, 0i64, 0u32);
     match row.moves {
-        Moves::Lines => text += "G1 X0. Y0. Z0. F600\n",
+        Moves::Lines => text += "G1 X0. Y0. Z0. F600.\n",
         Moves::Arcs | Moves::Radius => text += "G0 Z5.\nG1 Z-1. F500\n",
         Moves::Holes => {}
     }
@@ -153,7 +153,7 @@ fn text(row: &Row, bytes: usize) -> String {
             }
             Moves::Lines => {
                 let feed = [800, 1200, 1800, 2500][rng.usize(0..4)];
-                let _ = writeln!(text, "G0 Z5.\nX{} Y{}\nG1 Z0. F{feed}", mm(x), mm(y));
+                let _ = writeln!(text, "G0 Z5.\nX{} Y{}\nG1 Z0. F{feed}.", mm(x), mm(y));
                 continue;
             }
             Moves::Arcs | Moves::Radius => {
