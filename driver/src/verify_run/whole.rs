@@ -169,8 +169,7 @@ impl Verifier {
         if computes {
             self.outliving = outliving(source, &given.renamed);
             given.near = self.near && !compares_nearly(source);
-            let there = self.there(given);
-            given.other_readings = READINGS.map(|taken| other_reading(source, taken, there, u32::MAX));
+            given.read_otherwise = true;
         }
         let given = &*given;
         let mut gone = Gone::default();
@@ -356,7 +355,7 @@ impl Verifier {
         to: To,
         forks: Option<&mut Forks<'p>>,
     ) -> Result<(), Ended> {
-        let start = given.other_readings.iter().any(Option::is_some).then(|| run.clone());
+        let start = given.read_otherwise.then(|| run.clone());
         let ended = self.run_both(run, [source, target], given, set, to, forks);
         let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
         let compared = run.comparison.events;
@@ -377,12 +376,13 @@ impl Verifier {
                 _ => false,
             }
         };
-        let mut read = given.other_readings.iter().zip(READINGS);
-        let Some((_, taken)) = read.find(|(other, _)| other.as_ref().is_some_and(same)) else {
+        let there = self.there(given);
+        let read =
+            |taken: &&[_]| other_reading(source, taken, there, u32::MAX).is_some_and(|other| same(&other));
+        let Some(taken) = READINGS.into_iter().find(read) else {
             return ended;
         };
         // The first place with which the output is the source in that reading.
-        let there = self.there(given);
         let at = assumed_places(source, taken, there)
             .into_iter()
             .take(MOST_PLACES)

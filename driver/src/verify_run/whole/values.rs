@@ -39,8 +39,8 @@ pub struct Given<'g> {
     pool: Vec<f64>,
     /// What the output calls the source's variables.
     pub(super) renamed: Renamed,
-    /// The source of an output that computes, in the other [`READINGS`].
-    pub(super) other_readings: [Option<Program>; READINGS.len()],
+    /// Whether the output computes: then a difference is looked at with the source in the other [`READINGS`].
+    pub(super) read_otherwise: bool,
     /// Whether the output's comparisons find equal what is nearly so, and the source's do not.
     pub(super) near: bool,
 }
@@ -65,7 +65,7 @@ impl<'g> Given<'g> {
             stated,
             pool,
             renamed: Renamed::default(),
-            other_readings: [const { None }; READINGS.len()],
+            read_otherwise: false,
             near: false,
         }
     }
