@@ -101,6 +101,7 @@ pub(crate) fn stand(stretches: &[Stretch], body: &[Stmt]) -> bool {
             let before = at.checked_sub(own.before.len()).map(|from| &body[from..at]);
             let behind = body.get(at + 1..at + 1 + own.behind.len());
             own.lines.are_moves_of(lines)
+                && !lines.are_increments()
                 && alike(&own.before, before, lines)
                 && alike(&own.behind, behind, lines)
         })
@@ -218,6 +219,7 @@ fn tail(body: &[Stmt], stretch: Range<usize>) -> usize {
 mod tests {
     use ncc_dialects::{Settings, builtin};
     use ncc_frontends::{Batch, Reader};
+    use ncc_ir::canon::Fact;
 
     use super::*;
 
@@ -257,6 +259,32 @@ mod tests {
         }
         unpack(&mut body);
         assert_eq!(body, own);
+    }
+
+    /// Increments are no stretch, whether the text says that they are or what is in force where it is executed.
+    #[test]
+    fn increments_are_not_packed() {
+        let moves: String = (0..200).map(|n| format!("X{n}.5\n")).collect();
+        let mut body = read(&format!("{HEAD}G91\n{moves}"));
+        assert!(pack(&mut body, SHORTEST).is_empty());
+        let mut body = read(&format!("{HEAD}{moves}"));
+        let words = body.iter_mut().filter_map(|stmt| match &mut stmt.op {
+            Op::StraightFeed(to) => Some(to.to.axes.iter_mut().flatten()),
+            _ => None,
+        });
+        words.flatten().for_each(|word| word.distance = Fact::Entry);
+        let stretches = pack(&mut body, SHORTEST);
+        assert!(!stretches.is_empty() && stand(&stretches, &body));
+        for stmt in &mut body {
+            match &mut stmt.op {
+                Op::Lines(lines) => Arc::make_mut(lines).settle(None, Some(Distance::Incremental)),
+                Op::StraightFeed(to) => to.to.axes.iter_mut().flatten().for_each(|word| {
+                    word.distance = Fact::Known(Distance::Incremental);
+                }),
+                _ => {}
+            }
+        }
+        assert!(!stand(&stretches, &body));
     }
 
     #[test]

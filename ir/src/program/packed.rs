@@ -58,6 +58,11 @@ impl PackedLines {
         Arc::ptr_eq(&self.bytes, &other.bytes)
     }
 
+    /// Whether what is in force has made increments of them: then no moves behind them say where they leave the tool.
+    pub fn are_increments(&self) -> bool {
+        self.in_force.distance == Fact::Known(Distance::Incremental)
+    }
+
     /// The place of the last statement.
     pub fn last(&self) -> Span {
         self.last

@@ -38,7 +38,8 @@ fn packs_number(value: &Expr) -> bool {
     value.literal().is_some_and(|num| num.mantissa.unsigned_abs() < MOST && num.scale < 16)
 }
 
-/// Whether a statement may be packed: a straight move in X, Y and Z by literals or a feed, without a comment, that no switch
+/// Whether a statement may be packed: a straight move in X, Y and Z by literals that are no increments (moves behind a
+/// stretch could not say again where it leaves the tool), or a feed, without a comment, that no switch
 /// leaves out.
 pub fn packs(stmt: &Stmt) -> bool {
     stmt.skip.is_none()
@@ -49,7 +50,9 @@ pub fn packs(stmt: &Stmt) -> bool {
                 let mut words = linear.iter().flatten();
                 let first = words.next().map(|word| (form_of(word), packs_number(&word.value)));
                 let same = |word: &Coord| first.is_some_and(|(form, _)| form == form_of(word));
+                let counts = |word: &Coord| word.distance != Fact::Known(Distance::Incremental);
                 first.is_some_and(|(_, packs)| packs)
+                    && linear.iter().flatten().all(counts)
                     && words.all(|word| packs_number(&word.value) && same(word))
                     && rotary.iter().all(Option::is_none)
             }
