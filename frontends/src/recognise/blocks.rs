@@ -49,6 +49,28 @@ pub(super) fn bit(letter: u8) -> u32 {
     1 << (letter.to_ascii_uppercase() - b'A')
 }
 
+/// A number of a few digits, as the library's parser gives it: the quotient of two integers that a float holds exactly
+/// is rounded once.
+fn short(text: &[u8]) -> Option<f64> {
+    let (negative, text) = text.strip_prefix(b"-").map_or((false, text), |rest| (true, rest));
+    let (mut whole, mut divisor, mut point) = (0u32, 1u32, false);
+    if text.len() > 9 || !text.iter().any(u8::is_ascii_digit) {
+        return None;
+    }
+    for byte in text {
+        match byte {
+            b'0'..=b'9' => {
+                whole = whole * 10 + u32::from(byte - b'0');
+                divisor *= if point { 10 } else { 1 };
+            }
+            b'.' if !point => point = true,
+            _ => return None,
+        }
+    }
+    let value = f64::from(whole) / f64::from(divisor);
+    Some(if negative { -value } else { value })
+}
+
 impl Block {
     /// Reads a line that begins at `base`.
     pub(super) fn read(&mut self, line: &[u8], base: usize) {
@@ -123,7 +145,7 @@ impl Block {
         let whole = digits.iter().filter(|b| !b"+-".contains(b)).take_while(|b| b.is_ascii_digit()).count();
         self.words.push(Word {
             letter: text[from],
-            value: std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok()),
+            value: short(digits).or_else(|| std::str::from_utf8(digits).ok()?.parse().ok()),
             digits: whole,
             point: digits.contains(&b'.'),
             place: base + from..base + end,
@@ -156,5 +178,21 @@ impl Block {
     /// Whether there is nothing in it but comments.
     pub(super) fn is_empty(&self) -> bool {
         self.code.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_number_is_what_the_library_reads() {
+        for text in ["0", "-0", "1", "12.5", "-.25", "100.", "0.001", "99999999", "1.2345678", "-7.0001"] {
+            let bits = |value: f64| value.to_bits();
+            assert_eq!(short(text.as_bytes()).map(bits), text.parse().ok().map(bits), "{text}");
+        }
+        for text in ["", "-", ".", "-.", "1.2.3", "1-2", "+1", "1234567890", "1e3"] {
+            assert_eq!(short(text.as_bytes()), None, "{text}");
+        }
     }
 }

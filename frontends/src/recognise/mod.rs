@@ -11,6 +11,7 @@ mod blocks;
 mod course;
 pub mod signs;
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use blocks::Block;
@@ -81,6 +82,7 @@ impl Weighed {
     fn weigh(text: &[u8], base: usize) -> Weighed {
         let mut shown: Vec<Option<Range<usize>>> = vec![None; SIGNS.len()];
         let shapes = signs::shapes();
+        let mut possible = Possible::default();
         let mut course = Course::default();
         let mut at = base;
         let mut block = Block::default();
@@ -88,13 +90,12 @@ impl Weighed {
             block.read(line, at);
             at += line.len();
             let sentence = Line::from_block(&block) == Line::Sentence;
-            for (found, shape) in shown.iter_mut().zip(shapes) {
-                // The words of a sentence are no codes, but it may name a control.
-                let weighed = !sentence || !matches!(shape, Shape::Block { .. });
-                if found.is_none() && weighed {
-                    *found = shape.place(&block);
+            possible.of(&block, sentence, |sign| {
+                let found = &mut shown[sign];
+                if found.is_none() {
+                    *found = shapes[sign].place(&block);
                 }
-            }
+            });
             course.block(&block);
         }
         let mut all: Vec<Shown> = SIGNS
@@ -143,6 +144,34 @@ impl Weighed {
         match left[..] {
             [system] => Some(system),
             _ => None,
+        }
+    }
+}
+
+/// The signs that a block may show, by what is cheap to see of it: most blocks show none.
+#[derive(Default)]
+struct Possible {
+    /// By the letters of a block, those of words.
+    by_letters: HashMap<u32, Vec<usize>>,
+}
+
+impl Possible {
+    /// Looks at the signs that a block may show, by their place in the table.
+    fn of(&mut self, block: &Block, sentence: bool, mut look: impl FnMut(usize)) {
+        let shapes = signs::shapes();
+        // The words of a sentence are no codes, but it may name a control.
+        if !sentence {
+            let fits = |sign: &usize| shapes[*sign].fits(block.letters);
+            let signs = self.by_letters.entry(block.letters);
+            signs
+                .or_insert_with(|| (0..shapes.len()).filter(fits).collect())
+                .iter()
+                .for_each(|sign| look(*sign));
+        }
+        // No other sign is without two letters side by side.
+        if block.text.windows(2).any(|pair| pair.iter().all(u8::is_ascii_uppercase)) {
+            let others = (0..shapes.len()).filter(|sign| !matches!(shapes[*sign], Shape::Block { .. }));
+            others.for_each(look);
         }
     }
 }

@@ -396,6 +396,11 @@ impl Shape {
         Shape::Block { letters, none, codes, not, only }
     }
 
+    /// Whether it is of words, and a block with these letters may show it.
+    pub(super) fn fits(&self, own: u32) -> bool {
+        matches!(self, Shape::Block { letters, none, .. } if own & letters == *letters && own & none == 0)
+    }
+
     /// Its place in a block that shows it.
     pub(super) fn place(&self, block: &Block) -> Option<Range<usize>> {
         match self {

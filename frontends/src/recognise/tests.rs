@@ -11,6 +11,17 @@ fn kind(text: &str) -> Option<Kind> {
     found(text).map(|finding| finding.kind)
 }
 
+/// A block without is not looked at for them.
+#[test]
+fn every_sign_that_is_no_word_has_two_letters_side_by_side() {
+    for sign in SIGNS {
+        if let Pattern::Name(text) | Pattern::Begins(text) | Pattern::Says(text) = sign.shape {
+            let spelled = text.as_bytes().windows(2).any(|pair| pair.iter().all(u8::is_ascii_uppercase));
+            assert!(spelled, "{text}");
+        }
+    }
+}
+
 #[test]
 fn labels_fit_and_rows_name_their_source() {
     for sign in SIGNS {
