@@ -261,14 +261,17 @@ impl Verifier {
         let absolute = |run: &Run| run.source.counts_absolute() && run.target.counts_absolute();
         let absolute =
             self.stood && self.runs.iter().all(absolute) && !stmts.iter().any(verify::counts_from_there);
-        match absolute {
+        // A level of block skip that is met for the first time has settings of its own.
+        match absolute && levels(stmts) & !self.levels == 0 {
             true => self.assume(assumed),
             false => self.prepare(stmts, assumed),
         }
         self.read_back(inherited)?;
         let alike = |run: &Run| absolute || run.source.counts_alike(&run.target, stmts);
-        let agree = |run: &Run| run.source.agrees(&run.target) && alike(run);
-        if !self.runs.iter().all(agree) {
+        let switches =
+            |run: &Run| stmts.iter().all(|s| s.skip.is_none() || run.source.skips(s) == run.target.skips(s));
+        let agree = |run: &Run| run.source.agrees_on_lines(&run.target) && alike(run) && switches(run);
+        if !self.others.is_empty() || !self.runs.iter().all(agree) {
             // This piece is the first to rely on something that only one of them has.
             self.run_source(stmts)?;
             return self.target_step();
@@ -310,7 +313,8 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
-            run.level = nothing_left && !self.renamed && !self.watched && run.source.agrees(&run.target);
+            run.level =
+                nothing_left && !self.renamed && !self.watched && run.source.agrees_on_lines(&run.target);
         }
         self.drop_same();
         self.batch.stmts.clear();
@@ -478,6 +482,61 @@ mod tests {
         for (from, to) in [("Y10.", "Y10.001"), ("F200.", "F201."), ("G00 Z5.", "Z5."), ("X10.\n", "")] {
             let written = SECOND.replacen(from, to, 1);
             assert!(matches!(second_piece(SECOND, &written), Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+
+    /// Blocks under a skip switch too; a level that is met for the first time has settings of its own.
+    #[test]
+    fn skipped_lines_are_executed_once_under_each_setting() {
+        const SKIPPED: &str = "/X10.\nY10. Z-1.5\n/2X0. F200.\n/G00 Z5.\n";
+        let verifier = second_piece(SKIPPED, SKIPPED).expect("the same program");
+        assert!(verifier.runs.len() == 4 * WORLDS as usize && verifier.runs.iter().all(|run| run.level));
+        for (from, to) in [
+            ("/X10.", "X10."),
+            ("/X10.", "/2X10."),
+            ("/2X0.", "/2X0.001"),
+            ("/2X0. F200.", "/2X0. F201."),
+            ("/G00 Z5.", "/Z5."),
+            ("/X10.\n", ""),
+        ] {
+            let written = SKIPPED.replacen(from, to, 1);
+            assert!(matches!(second_piece(SKIPPED, &written), Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+
+    /// What lies in which slot is another thing on each control; what counts for a line is where it puts the tool.
+    #[test]
+    fn lines_behind_a_turned_frame_are_executed_once() {
+        let settings = |id| Settings::new(builtin(id).expect("a built-in dialect"));
+        let job = Job::new(settings("fanuc"), settings("siemens"), "piece.nc");
+        let verified = |turned: &str, written: &str| {
+            let pieces = [
+                (
+                    FIRST.to_owned(),
+                    "G71 G17 G90 G40 G94\nG54\nT1 M6\nS500 M3\nG0 X0 Y0\nD1 Z5\nG1 Z-1 F100\n",
+                ),
+                ("G68 X0. Y0. R30.\nG01 X1. Y0.\n".to_owned(), turned),
+                ("X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n".to_owned(), written),
+            ];
+            let mut reader = Reader::new(job.from.clone(), true);
+            let mut verifier = Verifier::new(&job);
+            let mut batch = Batch::default();
+            for (said, written) in &pieces {
+                reader.read(said.as_bytes(), 0, &mut batch);
+                let stmts = std::mem::take(&mut batch.stmts);
+                verifier.piece(&stmts, &batch.assumed, written.as_bytes(), 0, &batch.assumed)?;
+            }
+            Ok::<_, Stop>(verifier)
+        };
+        let written = "X10\nY10 Z-1.5\nX0 F200\nG0 Z5\n";
+        let verifier = verified("ROT RPL=30\nG1 X1 Y0\n", written).expect("the same program");
+        let once = |run: &Run| run.level && !run.source.agrees(&run.target);
+        assert!(verifier.runs.iter().all(once), "one frame, in other slots");
+        assert!(matches!(verified("ROT RPL=30.01\nG1 X1 Y0\n", written), Err(Stop::Target(_))));
+        for (from, to) in [("Y10 ", "Y10.001 "), ("F200", "F201"), ("G0 Z5", "Z5"), ("X10\n", "")] {
+            let written = written.replacen(from, to, 1);
+            let found = verified("ROT RPL=30\nG1 X1 Y0\n", &written);
+            assert!(matches!(found, Err(Stop::Target(_))), "{from} → {to}");
         }
     }
 

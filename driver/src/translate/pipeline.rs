@@ -10,7 +10,7 @@ use std::io;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
-use ncc_ir::program::{Lines, Program, Stmt};
+use ncc_ir::program::{Lines, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::Told;
 use ncc_passes::flow::restored_modes::left_out;
@@ -359,6 +359,11 @@ impl Translation<'_> {
         match part {
             Part::Piece(Piece { stmts, original, lines, there, found, .. }) => {
                 self.legaliser.run(stmts, there, *lines, found);
+                // Lines that all passes have left as they were are compared as they are written.
+                if original.as_ref() == Some(stmts) && stmts.iter().all(goes_straight) {
+                    *original = None;
+                    self.take_parameters(found);
+                }
                 if let Some(original) = original {
                     self.take_parameters(found);
                     let assumed = self.batch.assumed;
@@ -445,6 +450,19 @@ impl Translation<'_> {
         self.take(found, Told::Writer);
         Err(Refused)
     }
+}
+
+/// Whether a statement goes straight, states a feed, or does nothing.
+fn goes_straight(stmt: &Stmt) -> bool {
+    matches!(
+        stmt.op,
+        Op::StraightFeed(_)
+            | Op::StraightTraverse(_)
+            | Op::Position(_)
+            | Op::SetFeedRate(_)
+            | Op::Comment(_)
+            | Op::Blank
+    )
 }
 
 /// Whether there is an error in what was found.

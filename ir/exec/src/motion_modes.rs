@@ -210,11 +210,24 @@ impl Exec {
     /// Whether two controls are in one state: whatever both execute next, both do the same. (Facts
     /// about power-on do not count any more, and no cycle may be in force.)
     pub fn agrees(&self, other: &Exec) -> bool {
+        self.slots == other.slots && self.agrees_in_place(other)
+    }
+
+    /// Whether two controls are in one state as far as plain lines go: whatever lines both execute next, both do the same.
+    ///
+    /// Of frames a line reads what they come to, the frame and the chain: not in which slot what lies, which may be
+    /// another one on each control (G68 turns in one of its own, ROT in that of TRANS). Slots are read where a frame or a
+    /// length is changed; so where anything waits for a line, they count.
+    pub fn agrees_on_lines(&self, other: &Exec) -> bool {
+        (self.slots == other.slots || self.takes_lines()) && self.agrees_in_place(other)
+    }
+
+    /// Whether two controls are in one state but for the slots of their frames.
+    fn agrees_in_place(&self, other: &Exec) -> bool {
         self.modes == other.modes
             && self.position == other.position
             && self.frame == other.frame
             && self.chain == other.chain
-            && self.slots == other.slots
             && self.offset_turned == other.offset_turned
             && self.last == other.last
             && self.heading == other.heading
@@ -247,13 +260,13 @@ impl Exec {
             && self.world.seed == other.world.seed
     }
 
-    /// Takes over the state of a control that it agreed with before both executed the same.
+    /// Takes over the state of a control that it agreed with before both executed the same lines. (Lines put nothing into
+    /// slots of frames.)
     pub fn follow(&mut self, other: &Exec) {
         self.modes = other.modes;
         self.position = other.position;
         self.frame = other.frame;
         self.chain.clone_from(&other.chain);
-        self.slots.clone_from(&other.slots);
         self.last = other.last;
         self.heading = other.heading;
         self.raw = other.raw;

@@ -50,7 +50,7 @@ use crate::pass::{Moment, Pass, Piece};
 use crate::support::mode_analysis;
 use crate::support::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MOVE, PATH,
-    PATTERN, POLAR, SHIFT, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
+    PATTERN, POLAR, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use crate::support::walk::Walk;
 use crate::table::PASSES;
@@ -354,6 +354,10 @@ impl Legaliser {
             let concerned =
                 needs & PATH != 0 || self.shared.states.ask(|own: &OneMoveState| own.concerns(stmts));
             needs = if concerned { needs | MOVE } else { needs & !MOVE };
+        }
+        let levels = self.shared.target.caps.flow.skip_levels;
+        if needs & SKIP != 0 && !stmts.iter().any(|stmt| stmt.skip.is_some_and(|level| level > levels)) {
+            needs &= !SKIP;
         }
         if self.shared.states.ask(ExpandFramesState::is_busy) {
             needs |= FRAME;

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Why that proves the same as two executions: a control is a function of its state and of the statement, and events are
-//! made of nothing else. Where both states agree in all that a plain move reads (`Exec::agrees`), and both statements say
+//! made of nothing else. Where both states agree in all that a plain move reads (`Exec::agrees_on_lines`), and both statements say
 //! the same ([`same_plain`]), both sides make the same event and come to states that agree again.
 
 use ncc_exec::Runner;
@@ -36,7 +36,8 @@ impl Verifier {
             return Ok(false);
         }
         let quiet = forks.is_none_or(|forks| forks.let_pass([&run.source, &run.target], source));
-        if !quiet || !run.source.agrees(&run.target) || !run.source.counts_alike(&run.target, source) {
+        if !quiet || !run.source.agrees_on_lines(&run.target) || !run.source.counts_alike(&run.target, source)
+        {
             return Ok(false);
         }
         let events = run.source.pass(source)?;

@@ -190,7 +190,8 @@ impl Exec {
     pub fn has_moved(&mut self, moves: &[Stmt]) {
         let carries = |carried: &Carried| carried.from[..Axis::A as usize].iter().any(Option::is_some);
         if self.carried.as_deref().is_some_and(carries) {
-            moves.iter().filter_map(words).for_each(|to| self.not_carried(to));
+            let executed: Vec<&Stmt> = moves.iter().filter(|stmt| !self.skips(stmt)).collect();
+            executed.into_iter().filter_map(words).for_each(|to| self.not_carried(to));
         }
     }
 }
@@ -198,7 +199,7 @@ impl Exec {
 /// The words of a plain move.
 fn words(stmt: &Stmt) -> Option<&Point> {
     match &stmt.op {
-        Op::StraightTraverse(m) | Op::StraightFeed(m) => Some(&m.to),
+        Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => Some(&m.to),
         _ => None,
     }
 }

@@ -22,17 +22,15 @@ impl Exec {
     }
 
     /// Whether a line by absolute words changes no more than where the axes stand.
-    fn takes_lines(&self) -> bool {
+    pub(crate) fn takes_lines(&self) -> bool {
         let state = &self.state;
-        self.quiet
-            && !(self.ended || self.narrating || self.every_move || self.speed_watched)
+        !(self.ended || self.narrating || self.every_move || self.speed_watched)
             && !(state.tip || state.tilted || self.contour.watched)
             && state.by_control & (by_control::Z | by_control::Z_AT_START | by_control::Z_COUNTED) == 0
             && state.spindle != Spindle::Stopped
             && state.feed_mode != FeedMode::InverseTime
             && self.modes.distance == Distance::Absolute
             && self.along == Z
-            && self.chain.is_none()
             && self.carried.is_none()
             && self.waiting.is_none()
             && self.in_block.is_none()
@@ -51,14 +49,22 @@ impl Exec {
     /// # Errors
     /// As of [`Exec::step`].
     pub(crate) fn pass_lines(&mut self, stmts: &[Stmt]) -> Result<usize, Diagnostic> {
-        if !self.takes_lines() {
+        if !self.quiet || !self.takes_lines() {
             return Ok(0);
         }
         for (at, stmt) in stmts.iter().enumerate() {
+            if self.skips(stmt) {
+                continue;
+            }
             let (to, feed) = match &stmt.op {
                 Op::StraightFeed(to) => (&to.to, true),
                 Op::StraightTraverse(to) => (&to.to, false),
-                Op::SetFeedRate(feed) if stmt.skip.is_none() => {
+                Op::Position(to) => match self.modes.motion {
+                    Motion::Feed => (&to.to, true),
+                    Motion::Traverse => (&to.to, false),
+                    Motion::Arc(_) | Motion::Cycle => return Ok(at),
+                },
+                Op::SetFeedRate(feed) => {
                     self.shown.goes_on();
                     self.feed = self.value(feed, stmt.span)?;
                     self.feed_inch = Some(self.modes.inch);
@@ -66,7 +72,7 @@ impl Exec {
                 }
                 _ => return Ok(at),
             };
-            if stmt.skip.is_some() || Exec::turns(to) || feed && self.feed == 0 {
+            if Exec::turns(to) || feed && self.feed == 0 {
                 return Ok(at);
             }
             let (mut next, mut named) = (self.position, 0);
@@ -101,10 +107,10 @@ impl Exec {
 mod tests {
     use super::*;
     use crate::world::World;
-    use ncc_ir::canon::{AXES, Fact, Modes};
+    use ncc_ir::canon::{AXES, Fact, Modes, Plane};
     use ncc_ir::expr::Expr;
     use ncc_ir::expr::num::{Num, Unit};
-    use ncc_ir::program::{Coord, Move, Point};
+    use ncc_ir::program::{Coord, Move, Point, Slot};
     use ncc_ir::source::Span;
 
     fn stmt(op: Op) -> Stmt {
@@ -127,6 +133,10 @@ mod tests {
     fn lines_that_are_passed_leave_what_steps_leave() {
         let said = Fact::Known(Distance::Absolute);
         let incremental = Fact::Known(Distance::Incremental);
+        let position = |words| match line(true, words, said).op {
+            Op::StraightFeed(to) => stmt(Op::Position(to)),
+            op => stmt(op),
+        };
         let start = [
             stmt(Op::SetDistanceMode(Distance::Absolute)),
             stmt(Op::SetSpindleSpeed(Expr::int(500))),
@@ -143,16 +153,34 @@ mod tests {
             line(false, [None, None, None], said),
             line(true, [Some(7), None, None], incremental),
             line(true, [Some(7), Some(8), Some(9)], said),
+            Stmt { skip: Some(1), ..line(true, [Some(70), None, None], said) },
+            Stmt { skip: Some(2), ..line(false, [None, Some(71), None], said) },
+            Stmt { skip: Some(1), ..stmt(Op::SetFeedRate(Expr::int(70))) },
+            line(true, [Some(8), None, None], said),
+            position([Some(9), None, Some(10)]),
+            Stmt { skip: Some(2), ..line(false, [None, Some(72), None], said) },
+            Stmt { skip: Some(2), ..position([Some(11), None, Some(12)]) },
+            position([None, Some(13), None]),
         ];
+        let turned = Slot::Rotation {
+            plane: Fact::Known(Plane::Xy),
+            centre: Box::new([Some(Expr::int(1)), Some(Expr::int(2)), None]),
+            angle: Coord { value: Expr::int(30), distance: said },
+        };
+        let frames = [stmt(Op::Blank), stmt(Op::SetSlot(Box::new(turned)))];
         let world = World::generate(1, &Modes::default());
-        for (skipped, many) in (0..start.len()).flat_map(|at| (0..=lines.len()).map(move |many| (at, many))) {
+        let begun = frames.iter().flat_map(|frame| (0..start.len()).map(move |at| (frame, at)));
+        for ((frame, skipped), many) in
+            begun.flat_map(|begun| (0..=lines.len()).map(move |many| (begun, many)))
+        {
             let (what, lines) = (format!("without {skipped}, {many} lines"), &lines[..many]);
-            let mut one = Exec::new(&world, 0);
+            let mut one = Exec::new(&world, 1 << 1);
             let head = start.iter().enumerate().filter(|(at, _)| skipped == 0 || *at != skipped);
             let mut events = Vec::new();
-            for (_, stmt) in head {
+            for stmt in head.map(|(_, stmt)| stmt).chain([frame]) {
                 let _ = one.step(stmt, &mut events);
             }
+            assert_eq!(one.chain.is_some(), matches!(frame.op, Op::SetSlot(_)), "{what}");
             let mut other = one.clone();
             let passed = one.pass(lines);
             events.clear();

@@ -18,14 +18,14 @@ pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
             (None, Some(_)) | (Some(_), None) => false,
         }) && a.axes[3..].iter().chain(&b.axes[3..]).all(Option::is_none)
     };
-    if a.skip.is_some() || b.skip.is_some() {
+    if a.skip != b.skip {
         return false;
     }
     match (&a.op, &b.op) {
         // How far rotary axes turn, and how long a cut with them takes, each control counts for itself.
-        (Op::StraightFeed(a), Op::StraightFeed(b)) | (Op::StraightTraverse(a), Op::StraightTraverse(b)) => {
-            words(&a.to, &b.to)
-        }
+        (Op::StraightFeed(a), Op::StraightFeed(b))
+        | (Op::StraightTraverse(a), Op::StraightTraverse(b))
+        | (Op::Position(a), Op::Position(b)) => words(&a.to, &b.to),
         (Op::SetFeedRate(a), Op::SetFeedRate(b)) => value(a, b),
         _ => false,
     }
@@ -33,6 +33,6 @@ pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
 
 /// Whether a plain move has a word that says itself that it counts from where the axis stands.
 pub fn counts_from_there(stmt: &Stmt) -> bool {
-    let (Op::StraightFeed(m) | Op::StraightTraverse(m)) = &stmt.op else { return false };
+    let (Op::StraightFeed(m) | Op::StraightTraverse(m) | Op::Position(m)) = &stmt.op else { return false };
     m.to.axes.iter().flatten().any(|word| word.distance.known() == Some(Distance::Incremental))
 }
