@@ -515,8 +515,8 @@ mod tests {
                     FIRST.to_owned(),
                     "G71 G17 G90 G40 G94\nG54\nT1 M6\nS500 M3\nG0 X0 Y0\nD1 Z5\nG1 Z-1 F100\n",
                 ),
-                ("G68 X0. Y0. R30.\nG01 X1. Y0.\n".to_owned(), turned),
-                ("X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n".to_owned(), written),
+                ("G68 X0. Y0. R30.\n".to_owned(), turned),
+                ("G01 X10. Y0.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n".to_owned(), written),
             ];
             let mut reader = Reader::new(job.from.clone(), true);
             let mut verifier = Verifier::new(&job);
@@ -528,14 +528,14 @@ mod tests {
             }
             Ok::<_, Stop>(verifier)
         };
-        let written = "X10\nY10 Z-1.5\nX0 F200\nG0 Z5\n";
-        let verifier = verified("ROT RPL=30\nG1 X1 Y0\n", written).expect("the same program");
+        let written = "G1 X10 Y0\nY10 Z-1.5\nX0 F200\nG0 Z5\n";
+        let verifier = verified("ROT RPL=30\n", written).expect("the same program");
         let once = |run: &Run| run.level && !run.source.agrees(&run.target);
         assert!(verifier.runs.iter().all(once), "one frame, in other slots");
-        assert!(matches!(verified("ROT RPL=30.01\nG1 X1 Y0\n", written), Err(Stop::Target(_))));
-        for (from, to) in [("Y10 ", "Y10.001 "), ("F200", "F201"), ("G0 Z5", "Z5"), ("X10\n", "")] {
+        assert!(matches!(verified("ROT RPL=30.01\n", written), Err(Stop::Target(_))));
+        for (from, to) in [("Y10 ", "Y10.001 "), ("F200", "F201"), ("G0 Z5", "Z5"), ("X0 F200\n", "F200\n")] {
             let written = written.replacen(from, to, 1);
-            let found = verified("ROT RPL=30\nG1 X1 Y0\n", &written);
+            let found = verified("ROT RPL=30\n", &written);
             assert!(matches!(found, Err(Stop::Target(_))), "{from} → {to}");
         }
     }
