@@ -11,6 +11,7 @@
 
 mod concerns;
 mod holes;
+mod lines;
 mod now;
 mod shut;
 mod skipped;
@@ -129,7 +130,11 @@ pub(crate) fn expand_frames(
         None => (Set::NONE, walk.clone(), arc_form::ArcFormState::default()),
     };
     let mut frames = Frames { set, inner, arcs, outer: walk, target, chained: state.chained };
-    rebuild(body, |stmt, made| frames.take(stmt, made, diags));
+    if frames.leaves(body) {
+        frames.follow(body);
+    } else {
+        rebuild(body, |stmt, made| frames.take(stmt, made, diags));
+    }
     let goes_on = frames.goes_on();
     let Frames { set, inner, arcs, chained, .. } = frames;
     state.chained = chained;
