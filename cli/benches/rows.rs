@@ -3,7 +3,13 @@
 //! by how they begin, and `NCC_BINARY` another program to compare with.
 //!
 //! A row tells MB of source a second of processor time, and the peak of memory.
+//!
+//! `NCC_COUNTS=compare` counts instructions instead, which do not depend on what else the machine does, of 1 MB each, by
+//! valgrind, and holds them against `counts.tsv`, within 3 % (15 % where another compiler built the program);
+//! `NCC_COUNTS=write` writes that table.
 
+use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
@@ -192,10 +198,84 @@ fn text(row: &Row, bytes: usize) -> String {
     text
 }
 
+/// The command line that translates a row.
+fn arguments(row: &Row, source: &Path, output: &Path) -> Vec<OsString> {
+    let mut all: Vec<OsString> =
+        ["translate", "--from", row.from, "--to", row.to, "--quiet", "-o"].map(OsString::from).to_vec();
+    all.extend([output.into(), source.into()]);
+    all
+}
+
+/// Instructions that the program executes for a row.
+fn count(binary: &str, row: &Row, source: &Path, output: &Path) -> Result<u64, Box<dyn std::error::Error>> {
+    let done = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", binary])
+        .args(arguments(row, source, output))
+        .output()?;
+    let said = String::from_utf8_lossy(&done.stderr);
+    let collected = said.lines().find_map(|line| line.split_once("Collected : "));
+    Ok(collected.ok_or_else(|| format!("valgrind counted nothing: {said}"))?.1.trim().parse()?)
+}
+
+/// What is kept of counts: the compiler of the program, and thousands of instructions of each row.
+struct Counts {
+    compiler: String,
+    rows: BTreeMap<String, u64>,
+}
+
+impl Counts {
+    fn read(text: &str) -> Counts {
+        let mut lines = text.lines();
+        let compiler = lines.next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default().to_owned();
+        let rows = lines.filter_map(|line| line.split_once('\t'));
+        let rows = rows.filter_map(|(name, count)| Some((name.to_owned(), count.parse().ok()?)));
+        Counts { compiler, rows: rows.collect() }
+    }
+
+    fn text(&self) -> String {
+        let rows: String = self.rows.iter().map(|(name, count)| format!("{name}\t{count}\n")).collect();
+        format!("# {}\n{rows}", self.compiler)
+    }
+}
+
+/// Counts instructions of the rows, and compares them with the table or writes it anew.
+fn counts(binary: &str, only: &str, write: bool) -> Result<(), Box<dyn std::error::Error>> {
+    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/counts.tsv");
+    let before = Counts::read(&fs::read_to_string(&table).unwrap_or_default());
+    let compiler = String::from_utf8(Command::new("rustc").arg("--version").output()?.stdout)?;
+    let mut now = Counts { compiler: compiler.trim().to_owned(), rows: before.rows.clone() };
+    let within = if now.compiler == before.compiler { 3.0 } else { 15.0 };
+    let folder = tempfile::tempdir()?;
+    let mut report = std::io::stdout().lock();
+    let mut far = Vec::new();
+    for row in ROWS.iter().filter(|row| only.split(',').any(|begin| row.name.starts_with(begin))) {
+        let source = folder.path().join("source");
+        fs::write(&source, text(row, 1_000_000))?;
+        let count = count(binary, row, &source, &folder.path().join("output"))? / 1000;
+        let change = before.rows.get(row.name).map(|before| (count as f64 / *before as f64 - 1.0) * 100.0);
+        let told = change.map_or("new".to_owned(), |change| format!("{change:+.1} %"));
+        writeln!(report, "{:<24} {count:>12} thousand instructions, {told}", row.name)?;
+        if change.is_none_or(|change| change.abs() > within) {
+            far.push(row.name);
+        }
+        now.rows.insert(row.name.to_owned(), count);
+    }
+    if write {
+        return Ok(fs::write(&table, now.text())?);
+    }
+    match far.is_empty() {
+        true => Ok(()),
+        false => Err(format!("further than {within} % from counts.tsv: {}", far.join(", ")).into()),
+    }
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let megabytes: f64 = std::env::var("NCC_ROWS_MB").map_or(Ok(4.0), |mb| mb.parse())?;
     let only = std::env::var("NCC_ROWS").unwrap_or_default();
     let binary = std::env::var("NCC_BINARY").unwrap_or_else(|_| env!("CARGO_BIN_EXE_ncc").to_owned());
+    if let Ok(counted) = std::env::var("NCC_COUNTS") {
+        return counts(&binary, &only, counted == "write");
+    }
     let folder = tempfile::tempdir()?;
     let mut report = std::io::stdout().lock();
     writeln!(report, "{:<24} {:<20} {:>8} {:>9}  exit", "row", "", "MB/s", "peak MiB")?;
@@ -220,12 +300,8 @@ struct Done {
 
 /// Runs the program; its processor time is read when it has ended and before it is asked for its exit code.
 fn run(binary: &str, row: &Row, source: &Path, output: &Path) -> Result<Done, Box<dyn std::error::Error>> {
-    let mut child = Command::new(binary)
-        .args(["translate", "--from", row.from, "--to", row.to, "--quiet", "-o"])
-        .arg(output)
-        .arg(source)
-        .stdout(Stdio::null())
-        .spawn()?;
+    let mut child =
+        Command::new(binary).args(arguments(row, source, output)).stdout(Stdio::null()).spawn()?;
     let mut peak_kib = 0;
     let seconds = loop {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id()))?;
