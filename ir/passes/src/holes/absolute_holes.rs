@@ -53,14 +53,14 @@ pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<D
 pub(crate) fn state_positions(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     for stmt in body {
         walk.enter(stmt.skip);
-        let before = walk.clone();
+        let before = has_other_words(&stmt.op, walk.at.modes.distance).then(|| walk.clone());
         walk.step(stmt);
-        let made = match &mut stmt.op {
-            Op::StartCycle(_) => start_absolute(&mut stmt.op, walk),
-            Op::Hole(m) => absolute_point(m, &before),
-            Op::Pattern(pattern) => {
+        let made = match (&mut stmt.op, &before) {
+            (Op::StartCycle(_), _) => start_absolute(&mut stmt.op, walk),
+            (Op::Hole(m), Some(before)) => absolute_point(m, before),
+            (Op::Pattern(pattern), Some(before)) => {
                 match before.at.cycle.as_ref().and_then(|c| before.at.plane(c.cycle.plane)) {
-                    Some(plane) => pattern_absolute(pattern, plane, &before),
+                    Some(plane) => pattern_absolute(pattern, plane, before),
                     None if words_of(pattern).next().is_none() => Ok(()),
                     None => Err(Fault::EntryFactNeeded { fact: ModeName::Plane }),
                 }
@@ -73,26 +73,40 @@ pub(crate) fn state_positions(body: &mut [Stmt], walk: &mut Walk, diags: &mut Ve
     }
 }
 
+/// Whether places of holes may have words that do not count from program zero.
+fn has_other_words(op: &Op, in_force: Option<Distance>) -> bool {
+    match op {
+        Op::Hole(m) => m.to.axes.iter().flatten().any(|word| !is_absolute(word, in_force)),
+        Op::Pattern(_) => true,
+        _ => false,
+    }
+}
+
+/// Whether a hole's words are measured otherwise than the planes of the cycle in force.
+fn is_placed_otherwise(op: &Op, walk: &Walk) -> bool {
+    let (Op::Hole(m), Some(in_force)) = (op, &walk.at.cycle) else { return false };
+    let measured = |word: &Coord| word.distance.known().or(walk.at.modes.distance);
+    let of_cycle = measured(&in_force.cycle.retract);
+    m.to.axes.iter().flatten().any(|word| measured(word) != of_cycle)
+}
+
 /// Makes the words of a cycle alike that a target measures alike: the planes, and those of each hole.
 pub(crate) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     for stmt in body {
         walk.enter(stmt.skip);
-        let before = walk.clone();
+        let distance = walk.at.modes.distance;
+        let before = is_placed_otherwise(&stmt.op, walk).then(|| walk.clone());
         walk.step(stmt);
-        let zero = |word: &Coord| is_absolute(word, before.at.modes.distance);
+        let zero = |word: &Coord| is_absolute(word, distance);
         let made = match (&mut stmt.op, &walk.at.cycle) {
             (Op::StartCycle(cycle), _) if zero(&cycle.retract) == zero(&cycle.depth) => Ok(()),
             (Op::StartCycle(_), _) => start_absolute(&mut stmt.op, walk),
             (Op::Hole(m), Some(in_force)) => {
-                let of_cycle = in_force.cycle.retract.distance;
-                let of_cycle = of_cycle.known().or(before.at.modes.distance);
-                let others = |word: &Coord| word.distance.known().or(before.at.modes.distance) != of_cycle;
-                let holes_own = m.to.axes.iter().flatten().any(others);
-                match of_cycle {
-                    _ if !holes_own => Ok(()),
-                    Some(Distance::Absolute) => absolute_point(m, &before),
-                    Some(Distance::Incremental) => incremental_point(m, &before),
-                    None => {
+                match (in_force.cycle.retract.distance.known().or(distance), &before) {
+                    (_, None) => Ok(()),
+                    (Some(Distance::Absolute), Some(before)) => absolute_point(m, before),
+                    (Some(Distance::Incremental), Some(before)) => incremental_point(m, before),
+                    (None, Some(_)) => {
                         let what = "a hole placed otherwise than the planes of its cycle";
                         Err(Fault::TargetLacks { what: what.into() })
                     }

@@ -47,6 +47,11 @@ pub(crate) const PASS: Pass = Pass {
         Moment::Wording,
         |_, p| p.needs(CYCLE),
         |l, p| {
+            let begins = |stmt: &Stmt| matches!(stmt.op, Op::StartCycle(_));
+            if !l.states.ask(ExpandCyclesState::is_busy) && !p.stmts.iter().any(begins) {
+                // Nothing is expanded: holes of a cycle that the target says stay as they are.
+                return;
+            }
             expand_cycles(
                 p.stmts,
                 &mut p.start.clone(),
@@ -255,10 +260,13 @@ impl ExpandCyclesState {
             }
         };
         let mut moves = Vec::new();
-        let mut inner = walk.clone();
-        for to in holes {
+        // Behind the first hole the tool is followed apart from the walk, which goes by the statement.
+        let mut apart: Option<Walk> = None;
+        let last = holes.len().saturating_sub(1);
+        for (at, to) in holes.into_iter().enumerate() {
+            let inner = apart.as_ref().unwrap_or(walk);
             let moved = match &inner.at.cycle {
-                Some(in_force) => hole(&inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
+                Some(in_force) => hole(inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
                 None => Err(Fault::TargetLacks {
                     what: "a cycle called up in a block that can be skipped".into(),
                 }),
@@ -267,10 +275,13 @@ impl ExpandCyclesState {
                 diags.push(Diagnostic::new(fault, stmt.span));
                 break;
             }
+            if at == last {
+                break;
+            }
             let op = Op::Hole(ncc_ir::program::Move { to, said: false });
             let mut one = Stmt::new(stmt.span, op);
             one.skip = stmt.skip;
-            inner.step(&one);
+            apart.get_or_insert_with(|| walk.clone()).step(&one);
         }
         let bores_out = walk.at.cycle.as_ref().is_some_and(|c| bores_out(&c.cycle.kind));
         walk.step(&stmt);

@@ -53,13 +53,17 @@ pub(crate) const PASS: Pass = Pass {
         Moment::Wording,
         |l, p| p.needs(CYCLE | THREAD) && l.lacks & THREAD != 0,
         |l, p| {
-            convert_threads(
-                p.stmts,
-                &mut p.start.clone(),
-                l.states.state_mut::<ThreadsState>(),
-                &l.target,
-                p.diags,
-            )
+            let state = l.states.state_mut::<ThreadsState>();
+            let is_thread = |stmt: &Stmt| matches!(stmt.op, Op::SynchronisedFeed(_));
+            if !state.is_busy() && !p.stmts.iter().any(is_thread) {
+                // Nothing is changed, and nothing of it hangs on where the tool is.
+                for stmt in p.stmts.iter() {
+                    state.said.note(stmt);
+                    state.note(stmt);
+                }
+                return;
+            }
+            convert_threads(p.stmts, &mut p.start.clone(), state, &l.target, p.diags)
         },
         |l, stmts, diags| l.states.state_mut::<ThreadsState>().finish(stmts, diags),
     ),

@@ -36,7 +36,11 @@ pub(crate) const PASS: Pass = Pass {
         Moment::Wording,
         |_, p| p.needs(CYCLE),
         |l, p| {
-            convert_taps(p.stmts, &mut p.start.clone(), l.states.state_mut::<TapsState>(), &l.target, p.diags)
+            let state = l.states.state_mut::<TapsState>();
+            if state.passes(p.stmts) {
+                return p.stmts.iter().for_each(|stmt| state.note(stmt));
+            }
+            convert_taps(p.stmts, &mut p.start.clone(), state, &l.target, p.diags)
         },
     ),
     program: &[],
@@ -101,6 +105,20 @@ impl TapsState {
             Op::Position(_) => self.lost && !self.changed,
             _ => false,
         }
+    }
+
+    /// Whether statements are holes and plain moves alone, and no cycle that was changed is in force or has left its feed:
+    /// then they are noted, and no more.
+    fn passes(&self, stmts: &[Stmt]) -> bool {
+        let plain = |stmt: &Stmt| {
+            let op = &stmt.op;
+            matches!(
+                op,
+                Op::Hole(_) | Op::StraightFeed(_) | Op::StraightTraverse(_) | Op::Comment(_) | Op::Blank
+            )
+        };
+        let waits = self.is_busy() || self.by_minute || self.lost || !self.owed.is_empty();
+        !waits && stmts.iter().all(plain)
     }
 
     /// Whether the end of a cycle that was changed is to come.
