@@ -13,6 +13,7 @@ mod differences;
 mod ended;
 pub mod facts;
 pub mod forks;
+mod holes;
 mod levels;
 pub mod per_tool;
 pub mod twice;
@@ -137,6 +138,8 @@ impl Verifier {
             batch: Batch::default(),
             runs,
             others: Vec::new(),
+            holes_ahead: None,
+            holes_differ: false,
             open: looked_at(job),
             optional_stop: stops_differ(job),
             matters: Vec::new(),
@@ -207,6 +210,7 @@ impl Verifier {
     /// What the passes have taken for granted of both controls, and patterns that they have folded:
     /// their holes are where the source writes them to half a unit of its own last digit.
     pub fn take(&mut self, found: &[Diagnostic], job: &Job) {
+        debug_assert!(self.holes_ahead.is_none(), "the source is executed after this");
         let mut parameters = false;
         for diagnostic in found {
             match diagnostic.fault {
@@ -225,7 +229,11 @@ impl Verifier {
 
     /// Executes further statements of the source's main procedure.
     pub fn source(&mut self, stmts: &[Stmt], assumed: &Modes) -> Result<(), Stop> {
+        self.make_holes()?;
         self.prepare(stmts, assumed);
+        if self.hold_holes(stmts)? {
+            return Ok(());
+        }
         self.run_source(stmts)
     }
 
@@ -253,6 +261,7 @@ impl Verifier {
         base: u32,
         inherited: &Modes,
     ) -> Result<(), Stop> {
+        self.make_holes()?;
         self.reader.read(text, base, &mut self.batch);
         if !self.same_plain(stmts) {
             self.source(stmts, assumed)?;
@@ -303,6 +312,9 @@ impl Verifier {
 
     /// Executes what was read back, and compares.
     fn target_step(&mut self) -> Result<(), Stop> {
+        if self.pass_holes()? {
+            return Ok(());
+        }
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
         self.fork_for_facts();
@@ -313,8 +325,8 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
-            run.level =
-                nothing_left && !self.renamed && !self.watched && run.source.agrees_on_lines(&run.target);
+            let alike = run.source.agrees_on_lines(&run.target) || run.source.makes_holes_of(&run.target);
+            run.level = nothing_left && !self.renamed && !self.watched && alike;
         }
         self.drop_same();
         self.batch.stmts.clear();
@@ -345,6 +357,7 @@ impl Verifier {
 
     /// Ends a program that was streamed to its end.
     pub fn finish(&mut self) -> Result<(), Stop> {
+        self.make_holes()?;
         let mut rest = Batch::default();
         self.reader.finish(&mut rest);
         self.batch.stmts.append(&mut rest.stmts);

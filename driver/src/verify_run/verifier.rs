@@ -17,6 +17,7 @@ use ncc_ir::expr::{Function, Var};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
+use super::holes::HolesAhead;
 use crate::job;
 use crate::job::given::Given;
 
@@ -93,6 +94,10 @@ pub struct Verifier {
     pub(super) runs: Vec<Run>,
     /// Runs of the first world in which one open fact is another one than usual.
     pub(super) others: Vec<Run>,
+    /// Holes that the source has made, where the target is likely to make the same of them.
+    pub(super) holes_ahead: Option<HolesAhead>,
+    /// Whether it did not, under the cycle in force.
+    pub(super) holes_differ: bool,
     /// Open facts of the source's control, the target's, a bit each, that are looked at.
     pub(super) open: [u64; 2],
     /// Whether the switch for optional stops makes a difference on either control.

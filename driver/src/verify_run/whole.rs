@@ -128,6 +128,7 @@ impl Verifier {
         inherited: &Modes,
         pairs: &mut dyn FnMut(&[Pair]),
     ) -> Result<(), Stop> {
+        self.make_holes()?;
         for procedure in &source.procedures {
             self.fork(levels(&procedure.body));
             self.begin(&source.assumed);

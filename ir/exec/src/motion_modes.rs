@@ -3,7 +3,7 @@
 //!
 //! Not here: moves themselves.
 
-use super::{Attribute, Coolant, Event, Exec, Kind, by_control};
+use super::{Attribute, Coolant, Event, Exec, InModes, Kind, RETURN, by_control};
 use crate::world::Sideways;
 use ncc_ir::canon::{Axis, Distance, PathMode, Spindle};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -208,23 +208,42 @@ impl Exec {
     }
 
     /// Whether two controls are in one state: whatever both execute next, both do the same. (Facts
-    /// about power-on do not count any more, and no cycle may be in force.)
+    /// about power-on do not count any more.)
+    ///
+    /// A cycle in force is part of the state. All that a hole takes of it is in `ActiveCycle`, the control's parameters
+    /// included, but for the angle at which fine boring stops the spindle where nothing else is said.
     pub fn agrees(&self, other: &Exec) -> bool {
-        self.slots == other.slots && self.agrees_in_place(other)
+        self.modes.return_level == other.modes.return_level
+            && self.has_cycle_of(other)
+            && self.agrees_beside_cycle(other)
     }
 
     /// Whether two controls are in one state as far as plain lines go: whatever lines both execute next, both do the same.
     ///
     /// Of frames a line reads what they come to, the frame and the chain: not in which slot what lies, which may be
     /// another one on each control (G68 turns in one of its own, ROT in that of TRANS). Slots are read where a frame or a
-    /// length is changed; so where anything waits for a line, they count.
+    /// length is changed; so where anything waits for a line, they count. The level to which cycles return that say none
+    /// no line reads or changes.
     pub fn agrees_on_lines(&self, other: &Exec) -> bool {
-        (self.slots == other.slots || self.takes_lines()) && self.agrees_in_place(other)
+        (self.slots == other.slots || self.takes_lines())
+            && self.has_cycle_of(other)
+            && self.agrees_in_place(other)
     }
 
-    /// Whether two controls are in one state but for the slots of their frames.
+    /// Whether all is the same but for cycles: the one in force, and the level to return to.
+    pub(crate) fn agrees_beside_cycle(&self, other: &Exec) -> bool {
+        self.slots == other.slots && self.agrees_in_place(other)
+    }
+
+    /// Whether the same cycle is in force on both controls, if any is.
+    fn has_cycle_of(&self, other: &Exec) -> bool {
+        let same_parameters = self.cycle.is_none() || self.world.orientation == other.world.orientation;
+        self.cycle == other.cycle && same_parameters
+    }
+
+    /// Whether two controls are in one state but for the slots of their frames, and for cycles.
     fn agrees_in_place(&self, other: &Exec) -> bool {
-        self.modes == other.modes
+        self.modes == InModes { return_level: self.modes.return_level, ..other.modes }
             && self.position == other.position
             && self.frame == other.frame
             && self.chain == other.chain
@@ -254,16 +273,14 @@ impl Exec {
             && self.speed_watched == other.speed_watched
             && self.corner.is_none()
             && other.corner.is_none()
-            && self.cycle.is_none()
-            && other.cycle.is_none()
             && self.ended == other.ended
             && self.world.seed == other.world.seed
     }
 
-    /// Takes over the state of a control that it agreed with before both executed the same lines. (Lines put nothing into
-    /// slots of frames.)
+    /// Takes over the state of a control that it agreed with before both executed the same lines or holes. (These put
+    /// nothing into slots of frames, and leave the level to return to as it is.)
     pub fn follow(&mut self, other: &Exec) {
-        self.modes = other.modes;
+        self.modes = InModes { return_level: self.modes.return_level, ..other.modes };
         self.position = other.position;
         self.frame = other.frame;
         self.chain.clone_from(&other.chain);
@@ -285,8 +302,12 @@ impl Exec {
         self.selected = other.selected;
         self.state = other.state;
         self.speed_watched = other.speed_watched;
-        self.said |= other.said;
+        self.said |= other.said & !RETURN;
         self.ended = other.ended;
+        if other.cycle.is_none() {
+            // A cycle that goes on stays in the words of its own control.
+            self.cycle = None;
+        }
     }
 }
 

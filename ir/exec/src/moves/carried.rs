@@ -186,10 +186,15 @@ impl Exec {
         self.modes.distance == Distance::Absolute && self.said & crate::DISTANCE != 0
     }
 
+    /// Whether any linear axis has had no word since a change of frame.
+    pub(crate) fn carries_linear(&self) -> bool {
+        let carries = |carried: &Carried| carried.from[..Axis::A as usize].iter().any(Option::is_some);
+        self.carried.as_deref().is_some_and(carries)
+    }
+
     /// Another control has executed plain lines for this one: what their axes carried is over.
     pub fn has_moved(&mut self, moves: &[Stmt]) {
-        let carries = |carried: &Carried| carried.from[..Axis::A as usize].iter().any(Option::is_some);
-        if self.carried.as_deref().is_some_and(carries) {
+        if self.carries_linear() {
             let executed: Vec<&Stmt> = moves.iter().filter(|stmt| !self.skips(stmt)).collect();
             executed.into_iter().filter_map(words).for_each(|to| self.not_carried(to));
         }

@@ -3,6 +3,8 @@
 //! The moves are defined in `passes::expand_cycles` as statements and here as events; a law in the
 //! tests holds the two together.
 
+pub(crate) mod same;
+
 use crate::{Attribute, Event, Exec, Kind, Z};
 use ncc_ir::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -17,7 +19,7 @@ use ncc_ir::source::Span;
 const MAX_PECKS: i64 = 100_000;
 
 /// A cycle in force, in program coordinates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ActiveCycle {
     plane: Plane,
     initial: Nanos,
@@ -45,7 +47,7 @@ impl ActiveCycle {
 }
 
 /// How the hole is made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Way {
     Drill {
         dwell: Option<Nanos>,
@@ -91,7 +93,7 @@ enum Way {
 }
 
 /// Pecks of a hole.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Strokes {
     /// Depth of the first below the retract plane.
     first: Nanos,
@@ -345,10 +347,7 @@ impl Exec {
         if matches!(cycle.way, Way::Tap { chuck: false, .. }) {
             self.turn_spindle(Spindle::Stopped, span, out)?;
         }
-        let level = match cycle.return_level.unwrap_or(self.modes.return_level) {
-            ReturnLevel::Retract => cycle.retract,
-            ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
-        };
+        let level = self.return_to(cycle);
         self.level_is_known(cycle, level, span)?;
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
@@ -379,8 +378,16 @@ impl Exec {
         self.after_hole(cycle, turned, span, out)
     }
 
+    /// The level to return to, where the cycle states no plane.
+    fn return_to(&self, cycle: &ActiveCycle) -> Nanos {
+        match cycle.return_level.unwrap_or(self.modes.return_level) {
+            ReturnLevel::Retract => cycle.retract,
+            ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
+        }
+    }
+
     /// Refuses a hole of which the level to return to is not known: that of another work offset or length.
-    fn level_is_known(&mut self, cycle: &ActiveCycle, level: Nanos, span: Span) -> Result<(), Diagnostic> {
+    fn level_is_known(&self, cycle: &ActiveCycle, level: Nanos, span: Span) -> Result<(), Diagnostic> {
         let normal = cycle.plane.axes().2 as usize;
         if cycle.return_plane.is_none()
             && level != cycle.retract

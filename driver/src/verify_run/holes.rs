@@ -1,0 +1,180 @@
+//! Holes of a program that streams: made once for both sides, where both controls make the same of them.
+//!
+//! ```text
+//! source: X10. Y20. under G81 | output: X10 Y20 under MCALL CYCLE81    counted as the events that both make
+//! ```
+//!
+//! The source is executed before its text is written, and for its effect on the state alone. When the text is read, and
+//! says holes at the same places under a cycle that comes to the same, the target's control follows: `ncc_exec` says why
+//! that proves what two executions would (`moves::holes::same`). Anything else has the source executed once more, from
+//! where it stood, and compared event by event.
+//!
+//! Not here: plain moves ([`Verifier::piece`]), and programs that are kept whole.
+
+use ncc_exec::{Exec, are_holes};
+use ncc_ir::canon::AXES;
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::{Op, Stmt};
+
+use super::facts::come_to;
+use super::verifier::{Stop, Verifier};
+
+/// Holes that the source has made, and the target not yet.
+pub(super) struct HolesAhead {
+    /// What the source says.
+    stmts: Vec<Stmt>,
+    /// What each run had of them.
+    runs: Vec<Made>,
+}
+
+/// Holes of one run.
+struct Made {
+    /// The source's control before them.
+    before: Exec,
+    places: Vec<[Nanos; AXES]>,
+    events: u64,
+}
+
+impl Verifier {
+    /// Executes the source's holes for their effect alone, where the target is likely to make the same of them; `false`,
+    /// and nothing done, where it is not.
+    pub(super) fn hold_holes(&mut self, stmts: &[Stmt]) -> Result<bool, Stop> {
+        let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
+        let begins = stmts.iter().any(|stmt| matches!(stmt.op, Op::StartCycle(_)));
+        self.holes_differ &= !begins;
+        if !level || self.holes_differ || !are_holes(stmts) {
+            return Ok(false);
+        }
+        // What the source takes for granted from here on, the target does when its text is read.
+        if !self.runs.iter().all(|run| run.source.has_cycle_like(&run.target)) {
+            return Ok(false);
+        }
+        let mut runs = Vec::with_capacity(self.runs.len());
+        for run in &mut self.runs {
+            let (before, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
+            let events = run.source.pass_holes(stmts, &mut places).map_err(Stop::Source)?;
+            runs.push(Made { before, places, events });
+        }
+        self.holes_ahead = Some(HolesAhead { stmts: stmts.to_vec(), runs });
+        Ok(true)
+    }
+
+    /// Lets holes pass that the text just read says as the source does; `false` where it does not.
+    pub(super) fn pass_holes(&mut self) -> Result<bool, Stop> {
+        let Some(ahead) = &self.holes_ahead else { return Ok(false) };
+        let (read, open) = (&self.batch.stmts, self.open[1]);
+        let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
+            (open == 0 || open & come_to(&run.target, read) == 0)
+                && made.before.makes_holes_of(&run.target)
+                && run.target.has_holes_at(read, &made.places)
+        });
+        if !same {
+            self.holes_differ = true;
+            return self.make_holes().map(|()| false);
+        }
+        for (run, made) in self.runs.iter_mut().zip(&ahead.runs) {
+            run.target.follow(&run.source);
+            run.comparison.pass(made.events, run.source.machine());
+        }
+        self.holes_ahead = None;
+        self.batch.stmts.clear();
+        Ok(true)
+    }
+
+    /// Executes holes that the source has passed once more, from where it stood, so that their events are compared.
+    pub(super) fn make_holes(&mut self) -> Result<(), Stop> {
+        let Some(HolesAhead { stmts, runs }) = self.holes_ahead.take() else { return Ok(()) };
+        for (run, made) in self.runs.iter_mut().zip(runs) {
+            run.source = made.before;
+        }
+        self.run_source(&stmts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ncc_dialects::{Settings, builtin};
+    use ncc_frontends::{Batch, Reader};
+
+    use super::*;
+    use crate::job::Job;
+
+    const HEAD: &str = "G71 G17 G90 G94 G40\nG54\nT1 M6\nD1\nG0 X0 Y0 S500 M3\nZ50\nF150\n";
+
+    /// Events of both sides, where the source calls a cycle up and makes holes in a later piece, and the output does it
+    /// in these words. By itself the output is executed for each piece.
+    fn verified(cycles: [&str; 2], holes: [&str; 2], by_itself: bool) -> Result<u64, Stop> {
+        let settings = Settings::new(builtin("siemens").expect("a built-in dialect"));
+        let job = Job::new(settings.clone(), settings, "holes.mpf");
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut verifier = Verifier::new(&job);
+        if by_itself {
+            verifier.watch();
+        }
+        let mut batch = Batch::default();
+        let heads = cycles.map(|cycle| format!("{HEAD}{cycle}\n"));
+        let ends = ["MCALL\nG0 Z50\nM30\n"; 2];
+        for [said, written] in [heads.each_ref().map(String::as_str), holes, ends] {
+            reader.read(said.as_bytes(), 0, &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            verifier.source(&stmts, &batch.assumed)?;
+            let held = verifier.holes_ahead.is_some();
+            verifier.target(written.as_bytes(), 0, &batch.assumed)?;
+            let passes = said == holes[0] && !by_itself;
+            assert!(!passes || held == (cycles[0] == cycles[1]), "{cycles:?}");
+        }
+        verifier.finish()?;
+        Ok(verifier.covered().events)
+    }
+
+    const HOLES: &str = "X1 Y1\nX2.5\nY7\n; a remark\nX-3 Y4\nX0 Y0\n";
+
+    const CYCLES: [&str; 6] = [
+        "MCALL CYCLE81(5,0,2,-20)",
+        "MCALL CYCLE81(2,0,2,-20)",
+        "MCALL CYCLE82(5,0,2,-20,,1)",
+        "MCALL CYCLE83(5,0,2,-20,,-4,,0,0,0,1,1)",
+        "MCALL CYCLE83(5,0,2,-20,,-5,,0,0,0,1,1)",
+        "MCALL CYCLE83(5,0,2,-20,,-5,,0,0,0,1,0)",
+    ];
+
+    #[test]
+    fn holes_count_as_all_events_that_both_make() {
+        for cycle in CYCLES {
+            let events = |by_itself| verified([cycle; 2], [HOLES; 2], by_itself).expect("the same program");
+            assert_eq!(events(false), events(true), "{cycle}");
+        }
+    }
+
+    #[test]
+    fn another_cycle_is_seen() {
+        for (said, written) in CYCLES.iter().flat_map(|a| CYCLES.iter().map(move |b| (a, b))) {
+            let verdict = verified([said, written], [HOLES; 2], false);
+            assert_eq!(verdict.is_ok(), said == written, "{said} and {written}");
+        }
+    }
+
+    /// Nothing is told of these before a hole is made with them.
+    #[test]
+    fn another_state_is_seen() {
+        for state in ["F151", "S501", "M4", "G55", "M8", "G91"] {
+            let written = format!("{}\n{state}", CYCLES[0]);
+            assert!(verified([CYCLES[0], &written], [HOLES; 2], false).is_err(), "{state}");
+        }
+    }
+
+    #[test]
+    fn another_place_is_seen() {
+        for (from, to) in [
+            ("Y7", "Y7.001"),
+            ("X0 Y0\n", ""),
+            ("X2.5\n", ""),
+            ("X0 Y0", "X0 Y0\nX0 Y0"),
+            ("X-3 Y4", "X-3 Y4.5"),
+        ] {
+            let written = HOLES.replacen(from, to, 1);
+            let verdict = verified([CYCLES[0]; 2], [HOLES, &written], false);
+            assert!(matches!(verdict, Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+}
