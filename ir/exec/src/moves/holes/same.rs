@@ -103,9 +103,11 @@ impl Exec {
     }
 
     fn makes_plain_holes(&self) -> bool {
-        !(self.ended || self.narrating || self.every_move || self.contour.watched)
-            && !(self.state.tip || self.state.tilted)
-            && self.modes.distance == Distance::Absolute
+        let otherwise = self.ended || self.narrating || self.every_move;
+        let beside = self.contour.watched || self.state.tip || self.state.tilted;
+        self.modes.distance == Distance::Absolute
+            && !otherwise
+            && !beside
             && !self.carries_linear()
             && self.waiting.is_none()
             && self.ways.is_none()
