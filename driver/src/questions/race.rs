@@ -13,7 +13,7 @@ use std::io::{self, SeekFrom};
 use std::mem::discriminant;
 
 use ncc_exec::verify::same_plain;
-use ncc_exec::{Event, Exec, Kind, Movement, Runner, State, Stored};
+use ncc_exec::{Event, Exec, Kind, Movement, Runner, State, Stored, are_holes};
 use ncc_frontends::{BareNumber, Batch, Reader};
 use ncc_ir::canon::{AXES, Axis, FeedMode, Spindle};
 use ncc_ir::diag::{Diagnostic, Gravity};
@@ -275,19 +275,22 @@ fn pass(runs: &mut [Run; 2]) -> bool {
     let [a, b] = runs;
     let (said, own) = (&a.batch.stmts, &b.batch.stmts);
     let ready = |run: &Run| run.fresh && run.refused.is_none() && run.events.is_empty();
-    if !ready(a)
-        || !ready(b)
-        || said.len() != own.len()
-        || !said.iter().zip(own).all(|(x, y)| same_plain(x, y))
-    {
+    if !ready(a) || !ready(b) {
+        return false;
+    }
+    let holes = are_holes(said) && are_holes(own);
+    if !holes && (said.len() != own.len() || !said.iter().zip(own).all(|(x, y)| same_plain(x, y))) {
         return false;
     }
     a.assume();
     b.assume();
-    if !a.exec.agrees(&b.exec) {
+    if holes {
+        if !pass_holes(a, b) {
+            return false;
+        }
+    } else if !a.exec.agrees(&b.exec) {
         return false;
-    }
-    if let Err(refusal) = a.exec.pass(&a.batch.stmts) {
+    } else if let Err(refusal) = a.exec.pass(&a.batch.stmts) {
         a.refuse(&refusal);
         b.refuse(&refusal);
     }
@@ -297,6 +300,21 @@ fn pass(runs: &mut [Run; 2]) -> bool {
         run.fresh = false;
     }
     true
+}
+
+/// Executes holes of the first reading, where the second one makes the same of them; `false`, and nothing done, where it
+/// does not, or one of them cannot be executed.
+fn pass_holes(a: &mut Run, b: &mut Run) -> bool {
+    if !a.exec.makes_holes_of(&b.exec) {
+        return false;
+    }
+    let (before, mut places) = (a.exec.clone(), Vec::with_capacity(a.batch.stmts.len()));
+    let made = a.exec.pass_holes(&a.batch.stmts, &mut places).is_ok();
+    let same = made && b.exec.has_holes_at(&b.batch.stmts, &places);
+    if !same {
+        a.exec = before;
+    }
+    same
 }
 
 /// Runs what is kept whole, so that none of the two is far ahead.
