@@ -56,6 +56,9 @@ impl Verifier {
             runs.push(Made { before, places, events });
         }
         self.holes_ahead = Some(HolesAhead { stmts: stmts.to_vec(), runs });
+        if let Some(stmt) = stmts.last() {
+            self.last = stmt.span;
+        }
         Ok(true)
     }
 
