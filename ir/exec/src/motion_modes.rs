@@ -223,10 +223,11 @@ impl Exec {
     /// Of frames a line reads what they come to, the frame and the chain: not in which slot what lies, which may be
     /// another one on each control (G68 turns in one of its own, ROT in that of TRANS). Slots are read where a frame or a
     /// length is changed; so where anything waits for a line, they count. The level to which cycles return that say none
-    /// no line reads or changes.
+    /// no line reads or changes; but while a cycle is in force, a position alone is a hole.
     pub fn agrees_on_lines(&self, other: &Exec) -> bool {
         (self.slots == other.slots || self.takes_lines())
-            && self.has_cycle_of(other)
+            && self.cycle.is_none()
+            && other.cycle.is_none()
             && self.agrees_in_place(other)
     }
 
