@@ -277,6 +277,12 @@ impl Inherited {
         }
     }
 
+    /// Whether nothing more is noted where a block relies on this mode.
+    pub(crate) fn has_noted<T: PartialEq>(&self, know: &Know<T>, mode: ModeName) -> bool {
+        let own = self.subs.last().filter(|_| self.in_sub).map_or(&self.main, |(_, own)| own);
+        *know != Know::Callers || own.relied.iter().any(|(other, _)| *other == mode)
+    }
+
     /// A text calls another one.
     pub(crate) fn call(&mut self, name: Option<Text>, unsaid: Unsaid) {
         if unsaid.0 != 0 {

@@ -195,11 +195,11 @@ fn fill(
 }
 
 /// Bytes of a word that are looked at together: its letter, a sign, and eight of its number.
-const WINDOW: usize = 10;
+pub(super) const WINDOW: usize = 10;
 
 /// The last bytes of a text, and after its end, as if its last line ended there.
 #[cold]
-fn last_window(text: &[u8], at: usize) -> [u8; WINDOW] {
+pub(super) fn last_window(text: &[u8], at: usize) -> [u8; WINDOW] {
     let mut window = [b'\n'; WINDOW];
     let rest = text.get(at..).unwrap_or_default();
     window.iter_mut().zip(rest).for_each(|(to, byte)| *to = *byte);
@@ -226,7 +226,7 @@ fn blank(here: &[u8; WINDOW]) -> Option<Blank> {
 
 /// The number of the word at `at`, of which `here` is the window, and the length of the word.
 #[inline(always)]
-fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize)> {
+pub(super) fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize)> {
     let negative = here[1] == b'-';
     let number = if negative { &here[2..] } else { &here[1..9] };
     match number.first_chunk::<8>().and_then(|eight| fast_parse::short(*eight)) {
@@ -253,7 +253,7 @@ fn is_plain(digits: Digits, bare: bool) -> bool {
 }
 
 #[inline(always)]
-fn literal(digits: Digits, unit: Unit) -> Num {
+pub(super) fn literal(digits: Digits, unit: Unit) -> Num {
     let Digits { mantissa, scale, point } = digits;
     Num { mantissa, scale, point, unit }
 }

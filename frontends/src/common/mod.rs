@@ -4,10 +4,12 @@
 //! ```text
 //! N10 G1 X10.5 F200      fast_parse::read    four words with their digits and spans
 //! X10.5 Y3.              fast_lower::line     the statement of a plain move, without words
+//! G2 X5. Y5. I5. (A)     fast_block::read    the words of a move of another kind
 //! ```
 //!
 //! Not here: what a word means, and what one reader alone needs.
 
+pub(crate) mod fast_block;
 pub(crate) mod fast_lower;
 pub(crate) mod fast_parse;
 pub(crate) mod known;

@@ -13,7 +13,7 @@ use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, Units};
 use ncc_ir::diag::{Fault, ModeName};
 
 use super::known::Know;
-use crate::initial_modes::{self, Asker, Unsaid};
+use crate::initial_modes::{self, Asker, Inherited, Unsaid};
 
 /// What is known of each mode; `M` is the family's motions. A mode is [`Know::Unsaid`] where the text has not said it
 /// and nothing has relied on it, [`Know::Taken`] where its power-on value was relied on, and [`Know::Lost`] after a
@@ -151,6 +151,24 @@ impl<M: Copy + PartialEq> ModalState<M> {
     /// Whether a straight move relies on a mode that nothing has said or asked for yet, the shift of the origin apart.
     pub(crate) fn is_open_to_moves(&self) -> bool {
         self.distance.unsaid() || self.units.unsaid() || self.work_offset.unsaid() || self.length.unsaid()
+    }
+
+    /// Whether a move relies on a mode of its caller's for the first time, the tool's length apart.
+    pub(crate) fn is_new_to_moves(&self, inherited: &Inherited) -> bool {
+        !(inherited.has_noted(&self.distance, ModeName::Distance)
+            && inherited.has_noted(&self.units, ModeName::Units)
+            && inherited.has_noted(&self.work_offset, ModeName::WorkOffset)
+            && inherited.has_noted(&self.no_shift, ModeName::OriginShift))
+    }
+
+    /// Whether a move along Z relies on the tool's length without anything to be noted.
+    pub(crate) fn is_length_noted(&self, inherited: &Inherited) -> bool {
+        inherited.has_noted(&self.length, ModeName::LengthOffset)
+    }
+
+    /// Whether a feed word relies on what it counts without anything to be told of that, or noted.
+    pub(crate) fn is_feed_mode_settled(&self, assume: bool, inherited: &Inherited) -> bool {
+        !(assume && self.feed_mode.unsaid()) && inherited.has_noted(&self.feed_mode, ModeName::FeedMode)
     }
 
     pub(crate) fn ask_distance(&mut self, by: &mut Asker) -> Fact<Distance> {

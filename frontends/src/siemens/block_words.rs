@@ -2,10 +2,13 @@
 //!
 //! Not here: how they are sorted (`sort`).
 
-use ncc_dialects::{NameMeaning, NameRole};
-use ncc_ir::canon::{Distance, FeedMode, RotaryWay};
+use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Settings};
+use ncc_ir::canon::{Axis, Distance, FeedMode, RotaryWay, Units};
 use ncc_ir::source::Span;
 
+use super::siemens_state::Motion;
+use crate::common::fast_block::{Letters, Line};
+use crate::common::fast_lower::repeated_motion_code;
 use crate::common::words::Digits;
 
 /// A G or M code, or a word of several letters with a meaning.
@@ -109,5 +112,56 @@ impl Words {
 
     pub(super) fn find(&self, wanted: impl Fn(NameMeaning) -> bool) -> Option<Code> {
         self.codes.iter().find(|c| wanted(c.meaning)).copied()
+    }
+}
+
+/// What of the dictionary the usual blocks of one move need (`lower/fast_block`), and the block at hand.
+#[derive(Debug)]
+pub(in crate::siemens) struct UsualBlocks {
+    pub(in crate::siemens) letters: Letters,
+    /// The motions of G0 to G3, if their rows are confirmed.
+    pub(in crate::siemens) motions: [Option<Motion>; 4],
+    /// The numbers of the codes of straight motions, the one at feed last.
+    pub(in crate::siemens) straight: [Option<u8>; 2],
+    /// Whether X, Y and Z are lengths.
+    pub(in crate::siemens) linear: bool,
+    /// The letter of the feed, if its row is confirmed.
+    pub(in crate::siemens) feed: Option<u8>,
+    /// The units of the machine's basic system.
+    pub(in crate::siemens) basic: Units,
+    pub(in crate::siemens) line: Line,
+    /// Whether the last block was one, so that the next one is likely to be one, and no plain move.
+    pub(in crate::siemens) likely: bool,
+}
+
+impl UsualBlocks {
+    pub(in crate::siemens) fn new(settings: &Settings) -> UsualBlocks {
+        let dialect = settings.dialect;
+        let row = |letter: u8| dialect.address_row(letter).filter(|row| row.sure);
+        let linear = |axis: Axis| {
+            let row = row(axis.letter());
+            row.is_some_and(|row| row.role == Role::Axis && row.quantity == Quantity::Length)
+        };
+        let motion = |code: u32| {
+            let row = dialect.code_row(b'G', 10 * code).filter(|row| row.sure && row.read_as.is_none())?;
+            match row.means? {
+                Meaning::StraightTraverse => Some(Motion::Traverse),
+                Meaning::StraightFeed => Some(Motion::Feed),
+                Meaning::ArcFeed(turn) => Some(Motion::Arc(turn)),
+                _ => None,
+            }
+        };
+        let letters = Letters::new(dialect, *b"IJK", 0).with_signs(b'/', [b';', 0, 0]);
+        let radius = dialect.name_row("CR").is_some_and(|row| row.role == Some(NameRole::Radius));
+        UsualBlocks {
+            letters: if radius { letters.with_equals() } else { letters },
+            motions: [0, 1, 2, 3].map(motion),
+            straight: [false, true].map(|feed| repeated_motion_code(dialect, feed)),
+            linear: linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z),
+            feed: dialect.letter_for(Role::Feed).map(|letter| letter as u8).filter(|l| row(*l).is_some()),
+            basic: if settings.get("feed_unit") == "inch" { Units::Inch } else { Units::Mm },
+            line: Line::default(),
+            likely: false,
+        }
     }
 }

@@ -10,6 +10,7 @@
 //! the functions, moves, frames, cycles, patterns and calls of a block mean; they have files of their own beside
 //! this one.
 
+mod fast_block;
 mod fast_lower;
 
 use std::collections::HashSet;
@@ -20,7 +21,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::block_words::Words;
+use super::block_words::{UsualBlocks, Words};
 use super::program::repeated_blocks::RepeatedBlocks;
 use super::siemens_state::{ModalCall, Motion, SiemensState, Stand};
 use super::text::tree::{Block, BlockNumber, Called, Item, Statement};
@@ -93,6 +94,7 @@ pub(super) struct Lower {
     pub(super) ended: bool,
     /// What plain moves need; `None` if a block must be looked at.
     pub(super) fast_lower: Option<FastLower>,
+    usual: UsualBlocks,
     pub(super) now: Now,
     words: Words,
     stretch: Option<Stretch>,
@@ -168,6 +170,7 @@ impl Head {
 
 impl Lower {
     pub(super) fn new(settings: Settings, assume: bool) -> Lower {
+        let usual = UsualBlocks::new(&settings);
         Lower {
             settings,
             assume,
@@ -195,6 +198,7 @@ impl Lower {
             callers_feed: None,
             ended: false,
             fast_lower: None,
+            usual,
             now: Now::default(),
             words: Words::default(),
             stretch: None,
@@ -222,18 +226,7 @@ impl Lower {
             self.leave_motion(head.span, out);
         }
         self.close(&head, src, out);
-        if let (Some((before, moved)), Some((level, _))) = (before, head.skip) {
-            let (inside, moved_inside) = (self.state.clone(), self.moved);
-            self.state.join(&before);
-            if self.state.modes.motion.value().is_none() {
-                self.motion_goes_on(&[before.modes.motion, inside.modes.motion], out);
-            }
-            self.stand.forget();
-            if self.moved != moved {
-                self.moved = None;
-            }
-            self.stretch = Some(Stretch { level, before, moved, inside, moved_inside });
-        }
+        self.leave_stretch(before, &head, out);
         if head.label.is_some() {
             self.repeated_blocks.label_over(&self.state);
         }
@@ -264,13 +257,29 @@ impl Lower {
         }
     }
 
+    /// What is in force after a block that may be skipped; `before` is what was in force before the first of those that
+    /// are skipped together.
+    fn leave_stretch(
+        &mut self,
+        before: Option<(SiemensState, Option<Motion>)>,
+        head: &Head,
+        out: &mut Batch,
+    ) {
+        let (Some((before, moved)), Some((level, _))) = (before, head.skip) else { return };
+        let (inside, moved_inside) = (self.state.clone(), self.moved);
+        self.state.join(&before);
+        if self.state.modes.motion.value().is_none() {
+            self.motion_goes_on(&[before.modes.motion, inside.modes.motion], out);
+        }
+        self.stand.forget();
+        if self.moved != moved {
+            self.moved = None;
+        }
+        self.stretch = Some(Stretch { level, before, moved, inside, moved_inside });
+    }
+
     fn begin(&mut self, head: &Head, src: Source, out: &mut Batch) {
-        let level = head.skip.map(|(level, _)| match level {
-            // The plain slash is level 0; the first level of both makes.
-            0 => 1,
-            1 => 10,
-            level => level,
-        });
+        let level = head.skip.map(|(level, _)| skip_level(level));
         self.exprs.clear();
         self.now = Now {
             number: head.number,
@@ -506,13 +515,14 @@ impl Lower {
         if std::mem::replace(&mut self.now.comment_taken, true) {
             return None;
         }
+        head.comment.map(|comment| self.text_of_comment(src.bytes(comment)))
+    }
+
+    fn text_of_comment(&self, text: &[u8]) -> Box<Text> {
         // The blank that is written between mark and text is no part of the text.
         let mark = self.settings.dialect.comment.open.as_bytes();
         let between = mark.get(1..).unwrap_or_default();
-        head.comment.map(|c| {
-            let text = src.bytes(c);
-            Box::new(decode(text.strip_prefix(between).unwrap_or(text)))
-        })
+        Box::new(decode(text.strip_prefix(between).unwrap_or(text)))
     }
 
     /// After a refused block, what it may have said is not asked for again.
@@ -520,6 +530,15 @@ impl Lower {
         self.state.modes.forgive();
         self.stand.forget();
         self.moved = None;
+    }
+}
+
+/// The level of a skip mark, as it is written: the plain slash is level 0, the first level of both makes.
+fn skip_level(written: u8) -> u8 {
+    match written {
+        0 => 1,
+        1 => 10,
+        level => level,
     }
 }
 

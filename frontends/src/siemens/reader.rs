@@ -145,7 +145,9 @@ impl Reader {
             #[cfg(not(test))]
             let short = true;
             let open = short && !self.passing && !self.lower.ended;
-            if open && let Some(end) = self.lower.fast_line(text, at, base, self.longest, out) {
+            if open && let Some(end) = self.lower.short_way(text, at, base, self.longest, out) {
+                self.blocks = true;
+                self.after_header = false;
                 at = end + 1;
                 continue;
             }

@@ -2,11 +2,13 @@
 //!
 //! Not here: how they are sorted (`sort`).
 
-use ncc_dialects::{CodeRow, Dialect, Meaning, Role};
-use ncc_ir::canon::Motion;
+use ncc_dialects::{BLOCK_SKIP, Bare, CodeRow, Dialect, Meaning, NumberRules, Quantity, Role, Settings};
+use ncc_ir::canon::{Axis, Motion};
 use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
 
+use crate::common::fast_block::{Letters, Line};
+use crate::common::fast_lower::repeated_motion_code;
 use crate::common::words::Word;
 
 /// Letters by role; 0 where the dialect has none.
@@ -105,5 +107,68 @@ pub(super) fn motion_of(meaning: Meaning) -> Option<Motion> {
         Meaning::StraightFeed | Meaning::SynchronisedFeed(_) => Some(Motion::Feed),
         Meaning::ArcFeed(turn) => Some(Motion::Arc(turn)),
         _ => None,
+    }
+}
+
+/// What of the dictionary the usual blocks of one move need (`lower/fast_block`), and the block at hand.
+#[derive(Debug)]
+pub(in crate::word) struct UsualBlocks {
+    pub(in crate::word) letters: Letters,
+    /// The motions of G0 to G3, if their rows are confirmed.
+    pub(in crate::word) motions: [Option<Motion>; 4],
+    /// The numbers of the codes of straight motions, the one at feed last.
+    pub(in crate::word) straight: [Option<u8>; 2],
+    /// Whether X, Y and Z are lengths.
+    pub(in crate::word) linear: bool,
+    /// Whether the feed's row is confirmed.
+    pub(in crate::word) feed: bool,
+    /// Whether a length without a point means the same, and an angle.
+    pub(in crate::word) lengths: bool,
+    pub(in crate::word) angles: bool,
+    /// Highest level of a block skip that goes this way.
+    pub(in crate::word) skip_levels: u8,
+    pub(in crate::word) line: Line,
+    /// Whether the last block was one, so that the next one is likely to be one, and no plain move.
+    pub(in crate::word) likely: bool,
+    /// Every block goes the long way.
+    #[cfg(test)]
+    pub(in crate::word) off: bool,
+}
+
+impl UsualBlocks {
+    pub(in crate::word) fn new(settings: &Settings, roles: &Roles, rules: &[NumberRules; 8]) -> UsualBlocks {
+        let dialect = settings.dialect;
+        let row = |letter: u8| dialect.address_row(letter).filter(|row| row.sure);
+        let linear = |axis: Axis| {
+            row(axis.letter()).is_some_and(|row| row.role == Role::Axis && row.quantity == Quantity::Length)
+        };
+        let motion = |code: u32| {
+            let row = dialect.code_row(b'G', 10 * code).filter(|row| row.sure)?;
+            let plain = row.refused_under_compensation.is_none() && row.read_as.is_none();
+            let meaning = row.means.filter(|_| plain && !row.passed_over)?;
+            motion_of(meaning).filter(|_| !matches!(meaning, Meaning::SynchronisedFeed(_)))
+        };
+        let understood = |quantity: Quantity| {
+            let rules = &rules[quantity as usize];
+            rules.bare == Bare::Units && !rules.unsigned
+        };
+        let first = |text: &str| text.bytes().next().unwrap_or(0);
+        let (block, comment) = (&dialect.block, &dialect.comment);
+        let signs = [&comment.open, &comment.close, &comment.line].map(|text| first(text));
+        let stated = ["on", "off"].contains(&settings.get(BLOCK_SKIP));
+        UsualBlocks {
+            letters: Letters::new(dialect, roles.centre, roles.radius).with_signs(first(&block.skip), signs),
+            skip_levels: if stated { 0 } else { block.skip_levels },
+            motions: [0, 1, 2, 3].map(motion),
+            straight: [false, true].map(|feed| repeated_motion_code(dialect, feed)),
+            linear: linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z),
+            feed: row(roles.feed).is_some(),
+            lengths: understood(Quantity::Length),
+            angles: understood(Quantity::Angle),
+            line: Line::default(),
+            likely: false,
+            #[cfg(test)]
+            off: false,
+        }
     }
 }

@@ -2,14 +2,14 @@
 //! they depend on is settled.
 
 use ncc_dialects::Quantity;
-use ncc_ir::canon::{Axis, FeedMode, Motion, ReturnLevel};
+use ncc_ir::canon::{FeedMode, Motion, ReturnLevel};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, Op, Stmt};
 
 use super::lower::Lower;
 use super::word_state::{AxisWords, CycleState};
 use crate::batch::Batch;
-use crate::common::fast_lower::{FastLower, FeedWord, counts_units, line, repeated_motion_code};
+use crate::common::fast_lower::{FastLower, FeedWord, counts_units, line};
 use crate::common::known::Know;
 use crate::common::number::unit_of;
 
@@ -20,42 +20,19 @@ impl Lower {
     }
 
     fn settled(&self) -> Option<FastLower> {
-        let linear =
-            |axis: Axis| self.axis_row(axis).is_some_and(|r| r.quantity == Quantity::Length && r.sure);
-        let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         let state = &self.state;
-        // Its code is not said yet.
-        if self.has_motion_without_move() || self.computes.at_moves.is_some() {
-            return None;
-        }
         let feed = match state.modes.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
             Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
             _ => return None,
         };
-        let open = self.assume && (state.modes.is_open_to_moves() || state.modes.no_shift == Know::Unsaid);
         // A time counts for one move, so every block is looked at.
         if state.modes.feed_mode.value() == Some(FeedMode::InverseTime) {
             return None;
         }
         let no_feed = feed && (state.modes.feed == Know::Unsaid || state.cycle_feed.is_some());
-        if !axes
-            || open
-            || no_feed
-            || state.after_cycle
-            || state.no_motion
-            || state.rigid.is_some()
-            || state.cycle != CycleState::None
-            || self.settings.dialect.cycles.level_lost
-                && state.return_level.value() == Some(ReturnLevel::Retract)
-            || state.unplaced != 0
-            || state.words != AxisWords::Cartesian
-            || state.follows_polar
-            || state.thread.is_some()
-            || self.level_open()
-            || self.ended
-            || self.computes.jumps
-        {
+        let length = state.modes.is_length_noted(&self.inherited);
+        if no_feed || !length || !self.usual.linear || !self.moves_are_settled() {
             return None;
         }
         let said = matches!(state.modes.motion, Know::Said(_));
@@ -65,17 +42,41 @@ impl Lower {
             feed,
             number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
             bare: false,
-            repeated_motion: said.then(|| repeated_motion_code(self.settings.dialect, feed)).flatten(),
+            repeated_motion: self.usual.straight[usize::from(feed)].filter(|_| said),
             feed_word: self.settled_feed(),
         })
+    }
+
+    /// Whether every fact is settled that a move depends on, whichever it is.
+    pub(super) fn moves_are_settled(&self) -> bool {
+        let state = &self.state;
+        let open = self.assume && (state.modes.is_open_to_moves() || state.modes.no_shift == Know::Unsaid);
+        let level_lost = self.settings.dialect.cycles.level_lost
+            && state.return_level.value() == Some(ReturnLevel::Retract);
+        !(open
+            || level_lost
+            || state.modes.is_new_to_moves(&self.inherited)
+            // Its code is not said yet.
+            || self.has_motion_without_move()
+            || self.computes.at_moves.is_some()
+            || state.after_cycle
+            || state.no_motion
+            || state.rigid.is_some()
+            || state.cycle != CycleState::None
+            || state.unplaced != 0
+            || state.words != AxisWords::Cartesian
+            || state.follows_polar
+            || state.thread.is_some()
+            || self.level_open()
+            || self.ended
+            || self.computes.jumps)
     }
 
     /// What a feed word needs, while it would change no more than the feed.
     fn settled_feed(&self) -> Option<FeedWord> {
         let state = &self.state;
-        let row = self.letters.get(usize::from(self.roles.feed.wrapping_sub(b'A'))).copied().flatten()?;
-        let open = self.assume && state.modes.feed_mode.unsaid();
-        if !row.sure || open || state.modes.feed != Know::Said(()) || state.cycle_feed.is_some() {
+        let settled = state.modes.is_feed_mode_settled(self.assume, &self.inherited);
+        if !self.usual.feed || !settled || state.modes.feed != Know::Said(()) || state.cycle_feed.is_some() {
             return None;
         }
         let rules = &self.rules[Quantity::Feed as usize];

@@ -7,6 +7,7 @@
 //! Not here: which word is what (`sort`), and what the functions, moves, cycles, patterns and calls
 //! of a block mean; they have files of their own beside this one.
 
+mod fast_block;
 mod message;
 
 use ncc_dialects::{
@@ -18,7 +19,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::block_words::{Code, Roles, Words};
+use super::block_words::{Code, Roles, UsualBlocks, Words};
 use super::text::block::Block;
 use super::text_facts::{
     CentreSeen, CyclesMet, Dwells, MainEnding, MotionWithoutMove, RadiusNamed, Reported, ToolsNamed,
@@ -74,6 +75,7 @@ pub(super) struct Lower {
     pub(super) cycles: CyclesMet,
     /// What plain moves need; `None` if a block must be looked at.
     pub(super) fast_lower: Option<FastLower>,
+    pub(super) usual: UsualBlocks,
     pub(super) now: Now,
     codes: Vec<Code>,
     /// What the text has said of control of the tool's tip, and of tilted planes.
@@ -169,12 +171,14 @@ impl Lower {
         if settings.get(DECIMAL_POINT) == INTEGER_FEED {
             table[Quantity::Feed as usize].bare = Bare::Units;
         }
+        let roles = Roles::new(dialect);
+        let usual = UsualBlocks::new(&settings, &roles, &table);
         let mut lower = Lower {
             calculator: settings.get(DECIMAL_POINT) == CALCULATOR,
             calculator_seconds: settings.takes(DECIMAL_POINT, CALCULATOR),
             rules: table,
             letters: std::array::from_fn(|i| dialect.address_row(b'A' + i as u8)),
-            roles: Roles::new(dialect),
+            roles,
             dwells: Dwells::default(),
             limits: None,
             reported: Reported { codes: vec![false; dialect.code.len()], ..Reported::default() },
@@ -193,6 +197,7 @@ impl Lower {
             motion_without_move: MotionWithoutMove::default(),
             cycles: CyclesMet::default(),
             fast_lower: None,
+            usual,
             now: Now::default(),
             codes: Vec::new(),
             tip: Met::default(),
@@ -351,6 +356,13 @@ impl Lower {
             }
         }
         self.settings.get(name)
+    }
+
+    /// Whether nothing more is told of an option that decides.
+    pub(super) fn option_is_told(&self, name: &str) -> bool {
+        let place = self.settings.dialect.option.iter().position(|o| o.name == name);
+        let reported = place.is_none_or(|place| self.reported.options >> (place & 31) & 1 == 1);
+        !self.assume || reported || self.settings.is_chosen(name)
     }
 
     fn check_unused(&mut self, words: &Words, src: Source, out: &mut Batch) {

@@ -185,6 +185,23 @@ impl Lower {
         }
     }
 
+    /// The same where it is settled, and nothing is to be told of it.
+    pub(super) fn settled_centre(&self) -> Option<CentreFrom> {
+        let dialect = self.settings.dialect;
+        let Some(row) = &dialect.power_on.centre else {
+            return Some(if dialect.arc.centre_absolute { CentreFrom::Zero } else { CentreFrom::Start });
+        };
+        match self.state.centre {
+            Know::Said(from) | Know::Taken(from) => Some(from),
+            Know::Unsaid if self.option_is_told(ARC_CENTRES) => Some(match self.settings.get(ARC_CENTRES) {
+                FROM_ZERO => CentreFrom::Zero,
+                FROM_START => CentreFrom::Start,
+                _ => row.value.into(),
+            }),
+            Know::Unsaid | Know::Lost | Know::Open | Know::Callers => None,
+        }
+    }
+
     /// From where they are measured by a program that has not said it.
     fn centre_at_start(&mut self, usual: CentreFrom, at: Span, out: &mut Batch) -> CentreFrom {
         match self.option(ARC_CENTRES, at, out) {

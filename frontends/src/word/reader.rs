@@ -120,7 +120,8 @@ impl Reader {
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
             let open = !self.frame.closed && !self.lower.ended;
-            if open && let Some(end) = self.lower.fast_line(text, at, base, self.uncounted, out) {
+            if open && let Some(end) = self.lower.short_way(text, at, base, self.uncounted, out) {
+                self.frame.blocks = true;
                 at = end + 1;
                 continue;
             }

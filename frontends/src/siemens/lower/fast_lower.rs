@@ -1,11 +1,11 @@
 //! Blocks that only move: what they need is kept as long as no other block comes.
 
-use ncc_dialects::{Quantity, Role};
-use ncc_ir::canon::{Axis, Distance, Fact, Units};
+use ncc_ir::canon::{Distance, Fact, FeedMode};
+use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 
-use super::super::siemens_state::{ModalCall, Motion};
+use super::super::siemens_state::{ModalCall, Motion, SiemensState};
 use super::{Head, Lower};
 use crate::batch::Batch;
 use crate::common::fast_lower::{FastLower, FeedWord};
@@ -46,38 +46,24 @@ impl Lower {
     }
 
     fn settled(&self) -> Option<FastLower> {
-        let dialect = self.settings.dialect;
-        let linear = |axis: Axis| {
-            let row = dialect.address_row(axis.letter());
-            row.is_some_and(|r| r.role == Role::Axis && r.quantity == Quantity::Length && r.sure)
-        };
         let state = &self.state;
         let feed = match state.modes.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
             Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
             _ => return None,
         };
-        let open = self.assume
-            && (state.modes.is_open_to_moves()
-                || state.modes.no_shift.unsaid()
-                || state.implied_edge.is_some());
-        let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         // The statements of a move say what is in force only after one has been looked at.
         let moved = self.moved == Some(if feed { Motion::Feed } else { Motion::Traverse });
         let no_feed = feed && state.modes.feed == Know::Unsaid;
-        if !axes
-            || open
-            || no_feed
+        if no_feed
             || !moved
-            || state.cycle != ModalCall::None
-            || self.ended
-            || !self.repeated_blocks.is_empty()
-            || self.rounding.is_some()
+            || !self.usual.linear
+            || !state.modes.is_length_noted(&self.inherited)
+            // A time counts for one move, so every block is looked at.
+            || state.modes.feed_mode.value() == Some(FeedMode::InverseTime)
             // The block after skipped ones ends their stretch.
             || self.stretch.is_some()
-            // Its number may be one that a jump names.
-            || self.has_targets()
-            || self.stale
+            || !self.moves_are_settled(state)
         {
             return None;
         }
@@ -88,29 +74,49 @@ impl Lower {
             feed,
             number: b'N',
             bare: true,
-            repeated_motion: said.then(|| fast_lower::repeated_motion_code(dialect, feed)).flatten(),
+            repeated_motion: self.usual.straight[usize::from(feed)].filter(|_| said),
             feed_word: self.settled_feed(),
         })
     }
 
+    /// Whether every fact is settled that a move depends on, whichever it is, in a block that begins with `state`.
+    pub(super) fn moves_are_settled(&self, state: &SiemensState) -> bool {
+        let open = self.assume
+            && (state.modes.is_open_to_moves()
+                || state.modes.no_shift.unsaid()
+                || state.implied_edge.is_some());
+        !(open
+            || state.modes.is_new_to_moves(&self.inherited)
+            || state.cycle != ModalCall::None
+            || self.ended
+            || !self.repeated_blocks.is_empty()
+            || self.rounding.is_some()
+            // Its number may be one that a jump names.
+            || self.has_targets()
+            || self.stale)
+    }
+
     /// What a feed word needs, while it would change no more than the feed.
     fn settled_feed(&self) -> Option<FeedWord> {
-        let (dialect, state) = (self.settings.dialect, &self.state);
-        let row = dialect.address.iter().find(|row| row.role == Role::Feed)?;
-        let open = self.assume && state.modes.feed_mode.unsaid();
-        if !row.sure || open || state.modes.feed != Know::Said(()) {
+        let unit = self.unit_of_feed(&self.state)?;
+        Some(FeedWord { letter: self.usual.feed?, unit, bare: true })
+    }
+
+    /// What a feed counts that is no time, if its word changes no more than the feed.
+    pub(super) fn unit_of_feed(&self, state: &SiemensState) -> Option<Unit> {
+        let settled = state.modes.is_feed_mode_settled(self.assume, &self.inherited);
+        if !settled || state.modes.feed != Know::Said(()) {
             return None;
         }
-        let basic = if self.settings.get("feed_unit") == "inch" { Units::Inch } else { Units::Mm };
-        let unit = match (state.scaled.value(), state.scaled) {
-            (Some(true), _) => unit_of(state.modes.units.fact()),
+        let basic = self.usual.basic;
+        match (state.scaled.value(), state.scaled) {
+            (Some(true), _) => Some(unit_of(state.modes.units.fact())),
             // Where the units in force are other ones, it is told that the feed is not in them.
             (Some(false), _) | (None, Know::Unsaid) if state.modes.units.value() == Some(basic) => {
-                unit_of(Fact::Known(basic))
+                Some(unit_of(Fact::Known(basic)))
             }
-            (Some(false) | None, _) => return None,
-        };
-        Some(FeedWord { letter: row.letter as u8, unit, bare: true })
+            (Some(false) | None, _) => None,
+        }
     }
 
     /// Lowers a block that the recogniser has read; its number, if any, is its first word.

@@ -88,6 +88,12 @@ impl Lower {
         self.tell_motion(out);
     }
 
+    /// Whether one that stands here adds nothing to what is told of them.
+    pub(in crate::word) fn position_is_told(&self) -> bool {
+        let motion = &self.motion_without_move;
+        motion.bare.is_some() && (motion.lost.is_none() || motion.reported)
+    }
+
     fn tell_motion(&mut self, out: &mut Batch) {
         let (Some(code), Some(bare)) = (self.motion_without_move.lost, self.motion_without_move.bare) else {
             return;

@@ -39,26 +39,79 @@ fn line() -> impl Strategy<Value = String> {
     (lead, prop::collection::vec(word(), 0..5), tail).prop_map(|(l, w, t)| format!("{l}{}{t}", w.concat()))
 }
 
-/// Nearly a plain move: what the short way takes, and what is only a sign away from it.
+/// Nearly a move of the usual kinds: what the short way takes, and what is only a sign away from it.
 fn move_line() -> impl Strategy<Value = String> {
     let number = prop_oneof![
         6 => "-?[0-9]{1,4}\\.[0-9]{0,4}",
         4 => "-?[0-9]{1,4}",
         1 => "-?[0-9]{0,9}\\.?[0-9]{0,9}",
     ];
-    let axis = (prop::sample::select(vec!["X", "Y", "Z", "x", "A"]), number.clone());
+    let sign = prop::sample::select(vec!["", "", "", "=", "= "]);
+    let axis = (prop::sample::select("XYZXYZXYZXYZxyABCa".chars().collect::<Vec<_>>()), sign, number.clone());
+    let centre = (
+        prop::sample::select(vec!["I", "J", "K", "I", "J", "i", "I=", "CR=", "cr=", "AR=", "CR"]),
+        number.clone(),
+    );
     let word = prop_oneof![
-        8 => axis.prop_map(|(l, n)| format!("{l}{n}")),
-        2 => number.prop_map(|n| format!("F{n}")),
-        2 => prop::sample::select(vec!["G0", "G1", "G01", "g1", "G1.", "G00", "G-0", "G2", "G90", "G91", "G500"])
+        12 => axis.prop_map(|(l, s, n)| format!("{l}{s}{n}")),
+        1 => centre.clone().prop_map(|(l, n)| format!("{l}{n}")),
+        2 => number.clone().prop_map(|n| format!("F{n}")),
+        3 => prop::sample::select(vec!["G0", "G1", "G01", "g1", "G1.", "G00", "G-0", "G2", "G3", "g02", "CT"])
             .prop_map(String::from),
-        1 => prop::sample::select(vec!["N5", "N-0", "N1.", "M8", "S5", "F0", "G70", "G71", "G700", "G94", "CR=5"])
+        1 => prop::sample::select(vec!["N5", "N-0", "N1.", "M8", "S5", "F0", "F=5", "X1=5", "X=1+2", "X=IC(1)", "A=DC(9)"])
             .prop_map(String::from),
     ];
-    let lead = prop::sample::select(vec!["", "", "", "N10 ", " N20", "n3", "/", "/N4 ", "/2 "]);
-    let blank = prop::sample::select(vec!["", " ", "\t"]);
-    let tail = prop::sample::select(vec!["", "", "", " ", "\r", "\r ", ";c"]);
-    (lead, prop::collection::vec(word, 1..6), blank, tail)
+    let plain = prop::collection::vec(word, 1..6);
+    let pair = ("[XYZ]", number.clone(), "[XYZ]", number.clone());
+    let arc = (prop::sample::select(vec!["G2", "G3", "g03", ""]), pair, prop::collection::vec(centre, 1..3));
+    let arc = arc.prop_map(|(code, (a, m, b, n), centre)| {
+        let mut words = vec![code.to_owned(), format!("{a}{m}"), format!("{b}{n}")];
+        words.extend(centre.into_iter().map(|(l, n)| format!("{l}{n}")));
+        words
+    });
+    let modes = "G17 G18 G19 G70 G71 G700 G710 G90 G91 G93 G94 G95 G41 G40 G54 G500 D1 D0 F10 G2";
+    let modes: Vec<&str> = modes.split_ascii_whitespace().collect();
+    let mode = prop::sample::select(modes).prop_map(|code| vec![code.to_owned()]);
+    let others = [
+        "MCALL CYCLE81(5,0,2,-3)",
+        "MCALL",
+        "TRANS X1",
+        "RND=2",
+        "RNDM=1",
+        "RNDM=0",
+        "R1=5",
+        "AA:",
+        "T2 M6",
+        "L1",
+    ];
+    let other = prop::sample::select(others.to_vec()).prop_map(|words| vec![words.to_owned()]);
+    let leads = [
+        "", "", "", "", "N10 ", " N20", "n3", "/", "/", "/N4 ", "/2 ", "/2", "/0 ", "/1 ", "/9 ", "/12 ",
+        "N5 /", "//",
+    ];
+    let lead = prop::sample::select(leads.to_vec());
+    let blank = prop::sample::select(vec!["", " ", "\t", "&"]);
+    let tails = [
+        "",
+        "",
+        "",
+        "",
+        "",
+        " ",
+        "\r",
+        "\r ",
+        ";c",
+        " ; d e ",
+        ";",
+        "; \r",
+        ";(\u{e9})",
+        "; a\rb",
+        "(a)",
+        ":",
+        "#",
+    ];
+    let tail = prop::sample::select(tails.to_vec());
+    (lead, prop_oneof![12 => plain, 6 => arc, 2 => mode, 1 => other], blank, tail)
         .prop_map(|(l, w, b, t)| format!("{l}{}{t}", w.join(b)))
 }
 
@@ -67,20 +120,37 @@ proptest! {
 
     #[test]
     fn the_short_way_and_the_long_way_agree(
-        lines in prop::collection::vec(prop_oneof![1 => line(), 3 => move_line()], 1..20),
+        lines in prop::collection::vec(prop_oneof![1 => line(), 6 => move_line()], 1..25),
         assume: bool,
+        watch: bool,
     ) {
         let text = format!("{HEAD}{}\nX1. Y2.\nN5 Z-3\nM30\n", lines.join("\n"));
-        let short = read_with(settings(), assume, text.as_bytes());
+        let mut short = Batch::default();
+        let mut first = Reader::new(settings(), assume);
+        if watch {
+            first.watch();
+        }
+        first.read(text.as_bytes(), 0, &mut short);
+        let state = (first.lower.state.clone(), first.lower.moved, first.lower.stand.axes);
+        first.finish(&mut short);
         // The other one is fed line by line, and every line goes through the grammar.
         let mut reader = Reader::new(settings(), assume);
         reader.grammar_alone();
+        if watch {
+            reader.watch();
+        }
         let mut long = Batch::default();
+        // What a block with a number is depends on the jumps of the text that is looked through before it.
+        let pieces: Vec<&str> = match text.contains("GOTO") {
+            true => vec![&text],
+            false => text.split_inclusive('\n').collect(),
+        };
         let mut at = 0;
-        for line in text.split_inclusive('\n') {
+        for line in pieces {
             reader.read(line.as_bytes(), at, &mut long);
             at += line.len() as u32;
         }
+        prop_assert_eq!(state, (reader.lower.state.clone(), reader.lower.moved, reader.lower.stand.axes));
         reader.finish(&mut long);
         prop_assert_eq!(&short.stmts, &long.stmts);
         prop_assert_eq!(&short.procedures, &long.procedures);
@@ -157,4 +227,69 @@ fn a_block_between_ends_a_stretch_of_skipped_ones() {
     // How the last X is measured is only known when the program runs.
     let lines = after_head("G1 X1\n/G91\nX5\n/X7\n");
     assert_eq!(lines, ["FEED! X1", "/1 SetDistanceMode(Incremental)", "FEED X?5", "/1 FEED X?7"]);
+}
+
+#[test]
+fn other_usual_blocks_go_the_short_way_too() {
+    let taken = |before: &str, line: &str| {
+        let mut reader = Reader::new(settings(), true);
+        let mut out = Batch::default();
+        reader.read(format!("{HEAD}G1 X1 F10\n{before}").as_bytes(), 0, &mut out);
+        let before = out.stmts.clone();
+        let end = reader.lower.short_way(line.as_bytes(), 0, 0, 60, &mut out);
+        assert_eq!(end.is_none(), out.stmts == before, "{line}");
+        end.is_some()
+    };
+    for line in [
+        "G0 X1 Y-2\n",
+        "G2 X1 Y2 I3 J0\n",
+        "N5 G3 Y2 Z-1 CR=-5.5 F20\n",
+        "g2 x1 cr=5\r\n",
+        "X=1 Y=-2.5 Z3\n",
+        "G2 X=1 I=3\n",
+        "X1 Y2 ; pass 1 \n",
+        "G0 Z5;",
+        "/X1\n",
+        "/3 N5 G1 X1 F10 ;a\n",
+        "X1 A90 B=-5 C0\n",
+    ] {
+        assert!(taken("", line), "{line}");
+    }
+    assert!(taken("G93\nG1 X1 F5\n", "X1 F10\n"));
+    assert!(taken("/G0 X1\n/X2\n", "/X1 F10\n"));
+    assert!(taken("/G0 X1\n/X2\n", "X1\n"));
+    for (before, line) in [
+        ("", "G2 X1 Y2 K3\n"),
+        ("", "G2 I3 J0\n"),
+        ("", "G2 X1 I3 CR=3\n"),
+        ("", "G2 X1 CR=0\n"),
+        ("", "G2 X1 AR=5\n"),
+        ("", "X=1+2\n"),
+        ("", "X= 1\n"),
+        ("", "X1=5\n"),
+        ("", "X=AC(5)\n"),
+        ("", "F=5 X1\n"),
+        ("", "/12 X1\n"),
+        ("", "N5 /X1\n"),
+        ("G93\nG1 X1 F5\n", "X1\n"),
+        ("RNDM=1\n", "G0 X1\n"),
+        ("MCALL CYCLE81(5,0,2,-3)\n", "G0 X1\n"),
+    ] {
+        assert!(!taken(before, line), "{before}{line}");
+    }
+}
+
+#[test]
+fn a_time_counts_for_the_move_of_its_block() {
+    let text = format!("{HEAD}G93\nG1 X1 F5\nX2 F6\nX3 F7\nM30\n");
+    let out = read_with(settings(), true, text.as_bytes());
+    let times = out.stmts.iter().filter_map(|stmt| match &stmt.op {
+        ncc_ir::program::Op::SetFeedRate(feed) => feed.literal().map(|num| num.unit),
+        _ => None,
+    });
+    let times: Vec<_> = times.collect();
+    assert!(times.ends_with(&[ncc_ir::expr::num::Unit::One; 3]), "{times:?}");
+    let text = format!("{HEAD}G93\nG1 X1 F5\nX2\nM30\n");
+    let out = read_with(settings(), true, text.as_bytes());
+    assert!(out.diagnostics.iter().any(|d| matches!(d.fault, ncc_ir::diag::Fault::NoFeed)));
 }

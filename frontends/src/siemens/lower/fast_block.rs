@@ -1,0 +1,181 @@
+//! Moves that go the short way of the usual blocks ([`crate::common::fast_block`]): which of them depend on nothing that
+//! is not settled, and what they change of the state.
+//!
+//! Not here: plain moves (`fast_lower`).
+
+use ncc_ir::canon::{Axis, Distance, Fact, FeedMode};
+use ncc_ir::expr::num::Unit;
+use ncc_ir::program::CentreFrom;
+
+use super::super::siemens_state::{Motion, SiemensState};
+use super::{Head, Lower, skip_level};
+use crate::batch::Batch;
+use crate::common::fast_block::{Known, Path, push, read};
+use crate::common::known::Know;
+use crate::common::number::unit_of;
+
+impl Lower {
+    /// Lowers the line that begins at `at` of `text` the short way, as a plain move or as another usual block of at most
+    /// `longest` bytes; gives where its end is. `None`, and then nothing was done, if it is neither.
+    #[inline]
+    pub(in crate::siemens) fn short_way(
+        &mut self,
+        text: &[u8],
+        at: usize,
+        base: u32,
+        longest: usize,
+        out: &mut Batch,
+    ) -> Option<usize> {
+        if !self.usual.likely
+            && let Some(end) = self.fast_line(text, at, base, longest, out)
+        {
+            return Some(end);
+        }
+        let end = self.fast_block(text, at, base, longest, out);
+        match end {
+            None if self.usual.likely => {
+                self.usual.likely = false;
+                self.fast_line(text, at, base, longest, out)
+            }
+            end => end,
+        }
+    }
+
+    /// The same of a usual block.
+    #[inline(never)]
+    fn fast_block(
+        &mut self,
+        text: &[u8],
+        at: usize,
+        base: u32,
+        longest: usize,
+        out: &mut Batch,
+    ) -> Option<usize> {
+        if !self.moves_are_settled(&self.state) {
+            return None;
+        }
+        let usual = &mut self.usual;
+        let end = read(&usual.letters, text, at, base, &mut usual.line).filter(|end| end - at <= longest)?;
+        let skip = usual.line.skip;
+        // Of blocks that one switch skips together, the ones before count.
+        let within = self.stretch.as_ref().filter(|stretch| skip == Some(stretch.level));
+        let state = within.map_or(&self.state, |stretch| &stretch.inside);
+        let moved = within.map_or(self.moved, |stretch| stretch.moved_inside);
+        if skip.is_some() && !self.can_be_skipped(state, moved) {
+            return None;
+        }
+        let (said, motion, known) = self.known(state, text)?;
+        let head = Head { skip: skip.map(|level| (level, known.span)), span: known.span, ..Head::default() };
+        let before = self.enter_stretch(&head, out);
+        push(&self.usual.line, known, out.body(&mut self.sub));
+        self.block_done(said, motion);
+        self.leave_stretch(before, &head, out);
+        if skip.is_some() {
+            self.refresh();
+        }
+        Some(end)
+    }
+
+    /// Whether nothing has to be said before the block at hand, and told behind it, because a switch may skip it.
+    fn can_be_skipped(&self, state: &SiemensState, moved: Option<Motion>) -> bool {
+        let said = match state.modes.motion {
+            Know::Said(motion) => moved == Some(motion),
+            _ => true,
+        };
+        said && self.rapid_taken.is_none() && self.moves_are_settled(state)
+    }
+
+    /// What the block at hand says, the motion of its code, and the one that it makes; `None` if that is not settled.
+    fn known(&self, state: &SiemensState, text: &[u8]) -> Option<(Option<Motion>, Option<Motion>, Known)> {
+        let usual = &self.usual;
+        let line = &usual.line;
+        let said = match line.code {
+            Some(code) => Some(usual.motions.get(usize::from(code)).copied().flatten()?),
+            None => None,
+        };
+        let motion = match (said, state.modes.motion) {
+            (Some(motion), _) | (None, Know::Said(motion) | Know::Taken(motion)) => Some(motion),
+            (None, Know::Unsaid) if self.assume => return None,
+            (None, _) => None,
+        };
+        // A position may be that of a hole, which the tool's length counts for.
+        if (line.moves(Axis::Z) || motion.is_none()) && !state.modes.is_length_noted(&self.inherited) {
+            return None;
+        }
+        let by_time = state.modes.feed_mode.value() == Some(FeedMode::InverseTime);
+        let feed = match line.feed {
+            Some((digits, _)) if !(by_time && digits.mantissa == 0) && self.flow.open.is_empty() => {
+                self.unit_of_feed(state)?
+            }
+            Some(_) => return None,
+            None => Unit::One,
+        };
+        let no_feed = line.feed.is_none() && (by_time || state.modes.feed == Know::Unsaid);
+        let path = match motion {
+            Some(Motion::Arc(turn)) if !no_feed => {
+                let plane = state.modes.plane.value().filter(|plane| line.is_arc(*plane))?;
+                // A variable may have the radius's name.
+                if line.has_radius() && (line.is_radius_zero() || !self.variables.is_empty()) {
+                    return None;
+                }
+                Path::Arc { plane, turn, from: CentreFrom::Start }
+            }
+            _ if !line.is_straight() => return None,
+            Some(Motion::Traverse) => Path::Traverse,
+            Some(Motion::Feed) if !no_feed => Path::Feed,
+            None if !self.cycled => Path::Position,
+            _ => return None,
+        };
+        let unit = unit_of(state.modes.units.fact());
+        let feed = if by_time { Unit::One } else { feed };
+        let skip = match line.skip {
+            Some(written) => {
+                let level = skip_level(written);
+                Some(level).filter(|level| *level <= self.settings.dialect.block.skip_levels)?;
+                Some(level)
+            }
+            None => None,
+        };
+        let comment = match line.comment {
+            Some((start, end)) => Some(self.text_of_comment(text.get(start..end)?.trim_ascii_end())),
+            None => None,
+        };
+        let distance = state.modes.distance.fact();
+        let known = Known { path, unit, distance, feed, span: line.span, skip, comment };
+        Some((said, motion, known))
+    }
+
+    /// The state after the block at hand; `motion` is the one that it has made.
+    fn block_done(&mut self, said: Option<Motion>, motion: Option<Motion>) {
+        let before = (self.state.modes.motion, self.state.modes.feed, self.moved);
+        self.executed = true;
+        let state = &mut self.state;
+        let by_time = state.modes.feed_mode.value() == Some(FeedMode::InverseTime);
+        if by_time {
+            // A time counts for the move of its own block.
+            state.modes.feed = Know::Unsaid;
+        }
+        let line = &self.usual.line;
+        if line.feed.is_some_and(|(digits, _)| digits.mantissa != 0) {
+            (state.modes.feed, state.spent) = (Know::Said(()), false);
+        }
+        state.spent |= by_time && !matches!(motion, Some(Motion::Traverse) | None);
+        let repeated = said.is_none() || before.0 == said.map_or(Know::Lost, Know::Said);
+        if let Some(motion) = said {
+            state.modes.motion = Know::Said(motion);
+        }
+        (self.moved, self.motion_without_move) = (motion, false);
+        let absolute = state.modes.distance.fact() == Fact::Known(Distance::Absolute);
+        let unit = unit_of(state.modes.units.fact());
+        for (place, stand) in self.stand.axes.iter_mut().enumerate() {
+            if let Some(num) = line.length(place, unit) {
+                *stand = if absolute { Some(num) } else { None };
+            }
+        }
+        let stretch_ended = self.fast_lower.is_none();
+        if stretch_ended || (state.modes.motion, state.modes.feed, self.moved) != before {
+            self.refresh();
+        }
+        self.usual.likely = !(repeated && self.usual.line.is_plain() && self.fast_lower.is_some());
+    }
+}
