@@ -1,7 +1,7 @@
 //! The reader of a Sinumerik's text: lines, units, what is main program and what is subprogram, and
 //! the end.
 //!
-//! A plain move goes from the line straight to its statement. Any other line goes to the recogniser
+//! A usual block of one move goes from the line straight to its statement. Any other line goes to the recogniser
 //! of plain blocks, which the word-address dialects have as well, and to the grammar if it is not
 //! one. The first program of a text is the main one; a unit of type SPF that follows is a subprogram.
 //! Without headers the whole text is the main program.
