@@ -9,17 +9,26 @@
 //! them, too, which is looked for ([`stand`]). Those behind say each axis, and the feed, that it says: what follows the tool
 //! may go past it.
 //!
-//! Not here: how moves are packed ([`ncc_ir::program::packing`]).
+//! What is computed has a shape (`Z[0.5+#1]` is □ + #1). Steps may say a shape in another way, as variables have other names
+//! there: then those that stand for the stretch have shown how, each of them in the same way and with the same numbers, and
+//! the stretch's words are said so, too ([`reshape`]).
+//!
+//! Not here: how moves are packed ([`ncc_ir::program::packing`]), and which kinds of words there are (`kinds`).
+
+mod kinds;
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use ncc_ir::canon::{Axis, Distance};
+use ncc_ir::canon::Axis;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::packing::packs;
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::program::shapes::WordShape;
+use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
+
+use self::kinds::{Kinds, computes};
 
 /// Moves of a stretch of which fewer are not worth it.
 pub const SHORTEST: usize = 64;
@@ -41,12 +50,27 @@ pub(crate) struct Stretch {
     behind: Vec<Stmt>,
 }
 
+/// Which words are packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Words {
+    /// Literals.
+    Literal,
+    /// Those that are computed as well.
+    All,
+}
+
+impl Words {
+    fn packs(self, stmt: &Stmt) -> bool {
+        packs(stmt) && (self == Words::All || !computes(stmt))
+    }
+}
+
 /// Packs the stretches of a body, of so many moves or more.
-pub(crate) fn pack(body: &mut Vec<Stmt>, shortest: usize) -> Vec<Stretch> {
+pub(crate) fn pack(body: &mut Vec<Stmt>, shortest: usize, words: Words) -> Vec<Stretch> {
     let mut found = Vec::new();
     let mut made = Vec::new();
     let mut from = 0;
-    for Place { probed, packed } in places(body, shortest) {
+    for Place { probed, packed } in places(body, shortest, words) {
         let Some(lines) = PackedLines::new(&body[packed.clone()]) else { continue };
         let lines = Arc::new(lines);
         let behind = &body[packed.end..body.len().min(packed.end + PROBES)];
@@ -81,31 +105,96 @@ pub(crate) fn unpack(body: &mut Vec<Stmt>) {
     }
 }
 
-/// Whether all stretches are in a body, in their order, and what stands for each is as it was.
-pub(crate) fn stand(stretches: &[Stretch], body: &[Stmt]) -> bool {
-    let same = |own: &Stmt, there: &Stmt, lines: &PackedLines| {
-        let mut own = own.clone();
-        lines.settle_as_these(&mut own);
-        own.op == there.op && own.skip == there.skip && own.joined == there.joined
-    };
-    let alike = |own: &[Stmt], there: Option<&[Stmt]>, lines: &PackedLines| {
-        there.is_some_and(|there| own.iter().zip(there).all(|(own, there)| same(own, there, lines)))
-    };
+/// A program with all of its moves.
+pub(crate) fn unpacked(program: &Program) -> Program {
+    let mut program = program.clone();
+    program.procedures.iter_mut().for_each(|procedure| unpack(&mut procedure.body));
+    program
+}
+
+/// What the shapes of one stretch have become.
+pub(crate) type Reshaped = Vec<WordShape>;
+
+/// Whether all stretches are in a body, in their order, and what stands for each is as it was but for the shapes of what
+/// is computed; what became of the shapes of each stretch.
+pub(crate) fn stand(stretches: &[Stretch], body: &[Stmt]) -> Option<Vec<Reshaped>> {
     let places = body.iter().enumerate().filter_map(|(at, stmt)| match &stmt.op {
         Op::Lines(lines) => Some((at, lines)),
         _ => None,
     });
     let mut left = stretches.iter();
-    places.into_iter().all(|(at, lines)| {
-        left.next().is_some_and(|own| {
-            let before = at.checked_sub(own.before.len()).map(|from| &body[from..at]);
-            let behind = body.get(at + 1..at + 1 + own.behind.len());
-            own.lines.are_moves_of(lines)
-                && !lines.are_increments()
-                && alike(&own.before, before, lines)
-                && alike(&own.behind, behind, lines)
-        })
-    }) && left.next().is_none()
+    let mut all = Vec::new();
+    for (at, lines) in places {
+        let own = left.next().filter(|own| own.lines.are_moves_of(lines) && !lines.are_increments())?;
+        let before = at.checked_sub(own.before.len()).map(|from| &body[from..at])?;
+        let behind = body.get(at + 1..at + 1 + own.behind.len())?;
+        let mut became = Became { lines, shapes: Vec::new() };
+        let own_stmts = own.before.iter().chain(&own.behind);
+        if !own_stmts.zip(before.iter().chain(behind)).all(|(own, there)| became.is_same(own, there)) {
+            return None;
+        }
+        all.push(own.lines.shapes().iter().map(|shape| became.of(shape)).collect::<Option<_>>()?);
+    }
+    left.next().is_none().then_some(all)
+}
+
+/// Says the words of stretches in their new shapes.
+pub(crate) fn reshape(body: &mut [Stmt], shapes: Vec<Reshaped>) {
+    let mut shapes = shapes.into_iter();
+    for stmt in body {
+        if let Op::Lines(lines) = &mut stmt.op
+            && let Some(shapes) = shapes.next()
+            && lines.shapes() != shapes
+        {
+            Arc::make_mut(lines).reshape(shapes);
+        }
+    }
+}
+
+/// What shapes have become in the statements that stand for a stretch.
+struct Became<'l> {
+    lines: &'l PackedLines,
+    shapes: Vec<[WordShape; 2]>,
+}
+
+impl Became<'_> {
+    /// Whether a statement is as it was, but for what became of its shapes, which is the same wherever they are.
+    fn is_same(&mut self, own: &Stmt, there: &Stmt) -> bool {
+        let mut own = own.clone();
+        self.lines.settle_as_these(&mut own);
+        if let (Op::StraightFeed(from), Op::StraightFeed(to))
+        | (Op::StraightTraverse(from), Op::StraightTraverse(to)) = (&mut own.op, &there.op)
+        {
+            for (from, to) in from.to.axes.iter_mut().zip(&to.to.axes) {
+                let (Some(from), Some(to)) = (from, to) else { continue };
+                if matches!(from.value, Expr::Node(_)) {
+                    if !self.became(&from.value, &to.value) {
+                        return false;
+                    }
+                    from.value = to.value.clone();
+                }
+            }
+        }
+        own.op == there.op && own.skip == there.skip && own.joined == there.joined
+    }
+
+    /// Whether a word has become this, with the same numbers, as all of its shape have.
+    fn became(&mut self, from: &Expr, to: &Expr) -> bool {
+        let Some(own) = WordShape::of(from) else { return from == to };
+        let Some(new) = own.become_of(from, to) else { return false };
+        match self.shapes.iter().find(|[own, _]| own.fits(from)) {
+            Some([_, known]) => known.fits(to),
+            None => {
+                self.shapes.push([own, new]);
+                true
+            }
+        }
+    }
+
+    fn of(&self, shape: &WordShape) -> Option<WordShape> {
+        let found = self.shapes.iter().find(|[own, _]| own.fits(shape.expr()));
+        found.map(|[_, new]| new.clone())
+    }
 }
 
 /// Whether a place is among those that stand for a stretch.
@@ -120,34 +209,11 @@ struct Place {
     packed: Range<usize>,
 }
 
-/// What a statement has, a bit each: what the steps may ask of it.
-fn kinds(stmt: &Stmt) -> u32 {
-    let (words, feed) = match &stmt.op {
-        Op::StraightFeed(to) => (&to.to, true),
-        Op::StraightTraverse(to) => (&to.to, false),
-        _ => return 1 << 6,
-    };
-    let mut bits = 0;
-    for (axis, word) in words.axes[..Axis::A as usize].iter().enumerate() {
-        let Some(word) = word else { continue };
-        bits |= if feed { 1 } else { 8 } << axis;
-        bits |= match word.distance.known() {
-            None => 1 << 7,
-            Some(Distance::Absolute) => 1 << 8,
-            Some(Distance::Incremental) => 1 << 9,
-        };
-        if let Expr::Num(num) = &word.value {
-            bits |= 1 << (10 + num.unit as u32);
-        }
-    }
-    bits
-}
-
-fn places(body: &[Stmt], shortest: usize) -> Vec<Place> {
+fn places(body: &[Stmt], shortest: usize, words: Words) -> Vec<Place> {
     let mut found = Vec::new();
     let mut from = 0;
     while from < body.len() {
-        let run = body[from..].iter().take_while(|stmt| packs(stmt)).count();
+        let run = body[from..].iter().take_while(|stmt| words.packs(stmt)).count();
         let end = from + run;
         while let Some((place, next)) = next_place(body, from..end, shortest) {
             found.extend(place);
@@ -165,15 +231,16 @@ fn next_place(body: &[Stmt], run: Range<usize>, shortest: usize) -> Option<(Opti
     if start.saturating_add(shortest) > run.end {
         return None;
     }
-    let mut known = body[probed..start].iter().fold(0, |bits, stmt| bits | kinds(stmt));
+    let mut known = Kinds::default();
+    body[probed..start].iter().for_each(|stmt| {
+        known.has_more(stmt);
+    });
     let mut end = start;
     while end < run.end {
-        let more = kinds(&body[end]) & !known;
-        if more != 0 {
+        if known.has_more(&body[end]) {
             if end - start >= shortest {
                 break;
             }
-            known |= more;
             start = end + 1;
         }
         end += 1;
@@ -218,9 +285,15 @@ fn tail(body: &[Stmt], stretch: Range<usize>) -> usize {
 #[cfg(test)]
 mod tests {
     use ncc_dialects::{Settings, builtin};
+    use ncc_exec::world::World;
+    use ncc_exec::{Exec, Runner};
     use ncc_frontends::{Batch, Reader};
-    use ncc_ir::canon::Fact;
+    use ncc_ir::canon::{Distance, Fact};
+    use ncc_ir::expr::num::{Num, Unit};
+    use ncc_ir::expr::{Node, Var};
+    use ncc_ir::program::{Procedure, Program};
 
+    use super::kinds::bits as bits_of;
     use super::*;
 
     fn read(text: &str) -> Vec<Stmt> {
@@ -244,13 +317,13 @@ mod tests {
         }
         let own = read(&text);
         let mut body = own.clone();
-        let stretches = pack(&mut body, SHORTEST);
+        let stretches = pack(&mut body, SHORTEST, Words::All);
         assert!(stretches.len() >= 2 && body.len() < own.len() / 4, "{} {}", stretches.len(), body.len());
-        assert!(stand(&stretches, &body));
+        assert!(stand(&stretches, &body).is_some());
         for (at, stmt) in body.iter().enumerate() {
             let Op::Lines(lines) = &stmt.op else { continue };
             let all: Vec<Stmt> = lines.unpack().collect();
-            let said = |stmts: &[Stmt]| stmts.iter().fold(0, |bits, stmt| bits | kinds(stmt) & 0x7F);
+            let said = |stmts: &[Stmt]| stmts.iter().fold(0, |bits, stmt| bits | bits_of(stmt) & 0x7F);
             let axes = |bits: u32| bits & 7 | bits >> 3 & 7 | bits & 1 << 6;
             let behind = body[at + 1..].iter().take_while(|stmt| !matches!(stmt.op, Op::Lines(_)));
             let behind: Vec<Stmt> = behind.take_while(|stmt| packs(stmt)).cloned().collect();
@@ -266,15 +339,15 @@ mod tests {
     fn increments_are_not_packed() {
         let moves: String = (0..200).map(|n| format!("X{n}.5\n")).collect();
         let mut body = read(&format!("{HEAD}G91\n{moves}"));
-        assert!(pack(&mut body, SHORTEST).is_empty());
+        assert!(pack(&mut body, SHORTEST, Words::All).is_empty());
         let mut body = read(&format!("{HEAD}{moves}"));
         let words = body.iter_mut().filter_map(|stmt| match &mut stmt.op {
             Op::StraightFeed(to) => Some(to.to.axes.iter_mut().flatten()),
             _ => None,
         });
         words.flatten().for_each(|word| word.distance = Fact::Entry);
-        let stretches = pack(&mut body, SHORTEST);
-        assert!(!stretches.is_empty() && stand(&stretches, &body));
+        let stretches = pack(&mut body, SHORTEST, Words::All);
+        assert!(!stretches.is_empty() && stand(&stretches, &body).is_some());
         for stmt in &mut body {
             match &mut stmt.op {
                 Op::Lines(lines) => Arc::make_mut(lines).settle(None, Some(Distance::Incremental)),
@@ -284,21 +357,106 @@ mod tests {
                 _ => {}
             }
         }
-        assert!(!stand(&stretches, &body));
+        assert!(stand(&stretches, &body).is_none());
     }
 
     #[test]
     fn a_change_beside_a_stretch_is_seen() {
         let moves: String = (0..200).map(|n| format!("X{n}.5\n")).collect();
         let mut body = read(&format!("{HEAD}{moves}"));
-        let stretches = pack(&mut body, SHORTEST);
+        let stretches = pack(&mut body, SHORTEST, Words::All);
         let at = body.iter().position(|stmt| matches!(stmt.op, Op::Lines(_))).expect("a stretch");
         for place in [at - 1, at + 1] {
             let mut other = body.clone();
             other[place].op = Op::Blank;
-            assert!(!stand(&stretches, &other));
+            assert!(stand(&stretches, &other).is_none());
         }
         body.remove(at);
-        assert!(!stand(&stretches, &body));
+        assert!(stand(&stretches, &body).is_none());
+    }
+
+    /// Moves by what is computed, of two shapes.
+    fn computed() -> String {
+        let word = |n: u32| if n % 3 == 0 { format!("Y[#2-{}.]", n % 7) } else { String::new() };
+        (0..300).map(|n| format!("X[#1+{n}.5]{}\n", word(n))).collect()
+    }
+
+    /// Says local variables as ones that all programs see.
+    fn renamed(stmt: &mut Stmt) {
+        fn rename(expr: &mut Expr) {
+            if let Expr::Node(node) = expr
+                && let Node::Var(var @ Var::Local(_)) = &mut **node
+            {
+                *var = Var::Common(format!("R{}", var.name()).into());
+            }
+            expr.parts_mut().for_each(rename);
+        }
+        if let Op::StraightFeed(to) = &mut stmt.op {
+            to.to.axes.iter_mut().flatten().for_each(|word| rename(&mut word.value));
+        }
+    }
+
+    /// What is done to the words in front is done to all of them, as if they had been there.
+    #[test]
+    fn a_stretch_is_said_in_the_shapes_beside_it() {
+        let mut body = read(&format!("{HEAD}{}", computed()));
+        let mut own = body.clone();
+        let stretches = pack(&mut body, SHORTEST, Words::All);
+        assert!(stretches.len() == 1 && body.len() < own.len() / 2, "{} {}", stretches.len(), body.len());
+        body.iter_mut().chain(&mut own).for_each(renamed);
+        let shapes = stand(&stretches, &body).expect("the same moves");
+        reshape(&mut body, shapes);
+        unpack(&mut body);
+        assert_eq!(body, own);
+        // The source's are as they were.
+        assert!(stretches[0].lines.unpack().any(|stmt| reads_local(&stmt)));
+        let mut literals = read(&format!("{HEAD}{}", computed()));
+        assert!(pack(&mut literals, SHORTEST, Words::Literal).is_empty());
+    }
+
+    fn reads_local(stmt: &Stmt) -> bool {
+        let mut other = stmt.clone();
+        renamed(&mut other);
+        other != *stmt
+    }
+
+    /// One of its shapes that is said in two ways, or with another number, is a change.
+    #[test]
+    fn shapes_that_are_not_said_alike_are_seen() {
+        let mut body = read(&format!("{HEAD}{}", computed()));
+        let stretches = pack(&mut body, SHORTEST, Words::All);
+        let at = body.iter().position(|stmt| matches!(stmt.op, Op::Lines(_))).expect("a stretch");
+        for place in [at - 1, at + 1] {
+            let mut other = body.clone();
+            renamed(&mut other[place]);
+            assert!(stand(&stretches, &other).is_none());
+            let mut other = body.clone();
+            let Op::StraightFeed(to) = &mut other[place].op else { panic!("a move") };
+            let word = to.to.axes[0].as_mut().expect("its X");
+            let numbered = WordShape::of(&word.value).expect("a shape");
+            word.value = numbered.with(&[Num { scale: 1, point: true, ..Num::int(1, Unit::One) }]);
+            assert!(stand(&stretches, &other).is_none());
+        }
+    }
+
+    /// Packed moves are executed as all of them are: to the same events, and to the same fault in the same place.
+    #[test]
+    fn packed_moves_are_worth_what_their_words_are() {
+        let events = |before: &str, packs: bool| {
+            let mut body = read(&format!("{HEAD}{before}{}", computed()));
+            assert_ne!(packs && pack(&mut body, SHORTEST, Words::All).is_empty(), packs);
+            let procedures = vec![Procedure { body, ..Procedure::default() }];
+            let program = Program { procedures, ..Program::default() };
+            let world = World::generate(1, &program.assumed);
+            let (mut exec, mut runner, mut events) =
+                (Exec::new(&world, 0), Runner::new(&program), Vec::new());
+            let came = runner.run(&mut exec, usize::MAX, &mut events);
+            (events, came)
+        };
+        for before in ["", "#1=1.\n", "#1=1.2345\n#2=-3.00051\n", "#1=1E14\n#2=1.\n"] {
+            assert_eq!(events(before, true), events(before, false), "{before}");
+        }
+        let (events, came) = events("#1=2.\n#2=7.\n", true);
+        assert!(events.len() > 290 && came.is_ok());
     }
 }

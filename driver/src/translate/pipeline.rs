@@ -8,6 +8,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::io;
 
 use ncc_ir::canon::Modes;
+use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
 use ncc_ir::program::{Lines, Op, Program, Stmt};
@@ -25,7 +26,7 @@ use ncc_passes::watch::{ran, ran_whole};
 use super::parametric::{self, target};
 use super::snapshot::Snapshot;
 use super::translation::{FLATTEN, Translation};
-use crate::stretches::{Stretch, concerns, pack, stand, unpack};
+use crate::stretches::{Stretch, Words, concerns, pack, reshape, stand, unpack};
 use crate::translate::rewrite::{self, Folder};
 
 /// What goes through the steps at once.
@@ -144,12 +145,15 @@ impl Translation<'_> {
     /// they are; where they do not, with all of its moves.
     fn send_kept(&mut self, mut source: Program) -> io::Result<()> {
         let packs = self.job.passes.is_empty() && self.folder.is_none();
+        // Variables that are not set are given values from among the program's numbers.
+        let words = if packs && free_variables(&source).is_empty() { Words::All } else { Words::Literal };
         let main = source.procedures.first_mut().filter(|_| packs);
-        let stretches = main.map(|main| pack(&mut main.body, self.job.shortest_stretch)).unwrap_or_default();
+        let stretches =
+            main.map(|main| pack(&mut main.body, self.job.shortest_stretch, words)).unwrap_or_default();
         if !stretches.is_empty() {
             let before = Snapshot::of(self);
             let mut part = Part::Kept(Box::new(Kept::new(source.clone())));
-            if self.rewrite(&mut part).is_ok() && self.leaves(&stretches, &part, &before) {
+            if self.rewrite(&mut part).is_ok() && self.leaves(&stretches, &mut part, &before) {
                 self.write(&mut part);
                 return self.release(&mut part);
             }
@@ -160,12 +164,19 @@ impl Translation<'_> {
         self.send(&mut Part::Kept(Box::new(Kept::new(source))))
     }
 
-    /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one.
-    fn leaves(&self, stretches: &[Stretch], part: &Part, before: &Snapshot) -> bool {
+    /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one. Says what
+    /// stretches compute as it is said beside them.
+    fn leaves(&self, stretches: &[Stretch], part: &mut Part, before: &Snapshot) -> bool {
         let Part::Kept(kept) = part else { return false };
-        let main = kept.program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         let told = self.diagnostics.iter().skip(before.diagnostics()).chain(&kept.found);
-        stand(stretches, main) && !told.into_iter().any(|found| concerns(stretches, found.span))
+        if told.into_iter().any(|found| concerns(stretches, found.span)) {
+            return false;
+        }
+        let main = kept.program.procedures.first_mut();
+        let main = main.map(|main| main.body.as_mut_slice()).unwrap_or_default();
+        let Some(shapes) = stand(stretches, main) else { return false };
+        reshape(main, shapes);
+        true
     }
 
     /// Sends a part through all the steps; not further than to one that refuses it.

@@ -27,7 +27,7 @@ use super::forks::{Forks, Shown};
 use super::levels::levels;
 use super::twice::outliving;
 use super::verifier::{Other, Run, Stop, Verifier};
-use crate::stretches::pack;
+use crate::stretches::{Words, pack, unpacked};
 
 pub use self::values::Given;
 
@@ -262,7 +262,7 @@ impl Verifier {
         self.reader.finish(&mut self.batch);
         self.read_back(inherited)?;
         let mut body = std::mem::take(&mut self.batch.stmts);
-        pack(&mut body, self.shortest_stretch);
+        pack(&mut body, self.shortest_stretch, Words::All);
         let mut procedures = vec![Procedure { body, ..Procedure::default() }];
         procedures.append(&mut self.batch.procedures);
         Ok(Program { procedures, ..Program::default() })
@@ -310,13 +310,16 @@ impl Verifier {
         gone: &mut Gone,
     ) -> Result<Came, Stop> {
         let mut came = Came { through, goes_on: None, new_paths: Vec::new(), events: 0 };
+        if starts.is_empty() {
+            return Ok(came);
+        }
         let [a, b] = sides.map(Runner::new);
         for set in 1..=SETS {
             let all = || {
                 a.uncovered_branches(&gone.source).is_empty() && b.uncovered_branches(&gone.target).is_empty()
             };
             let endless = set > FEW_SETS && !came.through && came.goes_on.is_some();
-            if starts.is_empty() || endless || set > 2 && came.through && all() {
+            if endless || set > 2 && came.through && all() {
                 break;
             }
             for (at, start) in starts.iter().enumerate() {
@@ -359,6 +362,8 @@ impl Verifier {
         let start = given.read_otherwise.then(|| run.clone());
         let ended = self.run_both(run, [source, target], given, set, to, forks);
         let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
+        // What a reading changes of one move it changes of all.
+        let source = &unpacked(source);
         let compared = run.comparison.events;
         let same = |other: &Program| {
             let mut run = start.clone();
@@ -539,7 +544,8 @@ impl Verifier {
             self.notes.push(Diagnostic::new(fault, *span));
         }
         let ways = |taken: u8| Fault::BranchUncovered { holds: taken & 1 == 0, fails: taken & 2 == 0 };
-        let mut uncovered_branches = Runner::new(source).uncovered_branches(&gone.source);
+        let own = Runner::new(source);
+        let mut uncovered_branches = own.uncovered_branches(&gone.source);
         let open = uncovered_branches.len();
         uncovered_branches.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
         // The output has none of these.
@@ -547,7 +553,7 @@ impl Verifier {
         let of_target = Runner::new(target).uncovered_branches(&gone.target);
         let told = uncovered_branches.iter().take(MOST_TOLD);
         self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
-        if of_target.len() > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
+        if of_target.len() > own.open_ways(&gone.source).saturating_sub(answered) {
             // The output decides what the source does not, or in several places what the source does in one.
             let blocks = of_target
                 .iter()

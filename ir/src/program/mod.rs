@@ -16,6 +16,7 @@ pub mod kinds;
 pub mod numbered;
 pub mod packed;
 pub mod packing;
+pub mod shapes;
 pub mod valid;
 
 mod arc;

@@ -4,6 +4,8 @@
 //! G1 X0.358 Z-0.164    one byte of which words it has, two of its place, five of its numbers
 //! ```
 //!
+//! Of words that are computed, the numbers alone are packed; the rest of them is a [`WordShape`], of which there are few.
+//!
 //! A program that is kept whole has a million of them between two statements of control, and no step but writing and
 //! execution looks at each. Whoever packs a stretch leaves statements of it in front and behind that stand for it: those in
 //! front have each kind of word that it has, and those behind say all again that it leaves in force. So what follows a
@@ -15,12 +17,15 @@ use std::sync::Arc;
 
 use crate::canon::{Distance, Fact, Units};
 use crate::expr::num::Unit;
+use crate::program::shapes::WordShape;
 use crate::source::Span;
 
-/// Straight moves in X, Y and Z by literals, and feeds: each as [`packs`](super::packing::packs) says.
+/// Straight moves in X, Y and Z, and feeds: each as [`packs`](super::packing::packs) says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedLines {
     pub(super) bytes: Arc<[u8]>,
+    /// Of the words that are computed.
+    pub(super) shapes: Arc<[WordShape]>,
     pub(super) last: Span,
     pub(super) in_force: InForce,
 }
@@ -61,6 +66,18 @@ impl PackedLines {
     /// Whether what is in force has made increments of them: then no moves behind them say where they leave the tool.
     pub fn are_increments(&self) -> bool {
         self.in_force.distance == Fact::Known(Distance::Incremental)
+    }
+
+    /// The shapes of the words that are computed.
+    pub fn shapes(&self) -> &[WordShape] {
+        &self.shapes
+    }
+
+    /// Has words of each shape be of another one, with the same numbers; there must be as many.
+    pub fn reshape(&mut self, shapes: Vec<WordShape>) {
+        let same = |(own, new): (&WordShape, &WordShape)| own.numbers() == new.numbers();
+        assert!(shapes.len() == self.shapes.len() && self.shapes.iter().zip(&shapes).all(same));
+        self.shapes = shapes.into();
     }
 
     /// The place of the last statement.

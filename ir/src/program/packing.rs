@@ -2,7 +2,10 @@
 //!
 //! Not here: what is known of them without unpacking (`packed`).
 
+use std::convert::Infallible;
+
 use super::packed::{InForce, PackedLines};
+use super::shapes::{MOST_NUMBERS, WordShape, each_number, has_shape};
 use super::{Coord, Move, Op, Point, Stmt};
 use crate::canon::{AXES, Axis, Distance, Fact};
 use crate::expr::Expr;
@@ -15,7 +18,8 @@ const JOINED: u8 = 1 << 3;
 const NUMBERED: u8 = 1 << 4;
 const AXIS: u8 = 1 << 5;
 
-/// Kinds of statements, and of the note that the words behind it have another unit or distance.
+/// Kinds of statements, and of the note that the words behind it have another unit or distance; with [`SAID`], that they
+/// have other shapes.
 const FEED: u8 = 0;
 const TRAVERSE: u8 = 1;
 const RATE: u8 = 2;
@@ -34,13 +38,20 @@ fn place<T: PartialEq>(all: &[T], value: &T) -> u8 {
 /// Largest mantissa that is packed.
 const MOST: u64 = 1 << 56;
 
-fn packs_number(value: &Expr) -> bool {
-    value.literal().is_some_and(|num| num.mantissa.unsigned_abs() < MOST && num.scale < 16)
+/// Most shapes of a stretch; 0 is that of a literal.
+const MOST_SHAPES: usize = 255;
+
+pub(super) fn packs_num(num: Num) -> bool {
+    num.mantissa.unsigned_abs() < MOST && num.scale < 16
 }
 
-/// Whether a statement may be packed: a straight move in X, Y and Z by literals that are no increments (moves behind a
-/// stretch could not say again where it leaves the tool), or a feed, without a comment, that no switch
-/// leaves out.
+fn packs_number(value: &Expr) -> bool {
+    value.literal().is_some_and(packs_num)
+}
+
+/// Whether a statement may be packed: a straight move in X, Y and Z by words that are no increments (moves behind a
+/// stretch could not say again where it leaves the tool), literals or computed ones that have a shape, or a feed by a
+/// literal, without a comment, that no switch leaves out.
 pub fn packs(stmt: &Stmt) -> bool {
     stmt.skip.is_none()
         && stmt.comment.is_none()
@@ -48,12 +59,15 @@ pub fn packs(stmt: &Stmt) -> bool {
             Op::StraightFeed(to) | Op::StraightTraverse(to) => {
                 let (linear, rotary) = to.to.axes.split_at(Axis::A as usize);
                 let mut words = linear.iter().flatten();
-                let first = words.next().map(|word| (form_of(word), packs_number(&word.value)));
-                let same = |word: &Coord| first.is_some_and(|(form, _)| form == form_of(word));
-                let counts = |word: &Coord| word.distance != Fact::Known(Distance::Incremental);
-                first.is_some_and(|(_, packs)| packs)
-                    && linear.iter().flatten().all(counts)
-                    && words.all(|word| packs_number(&word.value) && same(word))
+                let first = words.next().map(|word| word.distance);
+                let unit = unit_of(linear);
+                let packs = |word: &Coord| match &word.value {
+                    Expr::Num(num) => packs_num(*num) && Some(num.unit) == unit,
+                    value => has_shape(value),
+                };
+                first.is_some_and(|first| {
+                    first != Fact::Known(Distance::Incremental) && words.all(|word| word.distance == first)
+                }) && linear.iter().flatten().all(packs)
                     && rotary.iter().all(Option::is_none)
             }
             Op::SetFeedRate(feed) => packs_number(feed),
@@ -61,9 +75,24 @@ pub fn packs(stmt: &Stmt) -> bool {
         }
 }
 
-fn form_of(word: &Coord) -> (u8, u8) {
-    let unit = word.value.literal().map_or(Unit::One, |num| num.unit);
-    (place(&UNITS, &unit), place(&DISTANCES, &word.distance))
+/// The unit of the first word that is a literal.
+fn unit_of(axes: &[Option<Coord>]) -> Option<Unit> {
+    axes.iter().flatten().find_map(|word| word.value.literal()).map(|num| num.unit)
+}
+
+/// The unit of literals and the distance of words; where there is no literal, the unit stays.
+fn form_of(axes: &[Option<Coord>], before: (u8, u8)) -> (u8, u8) {
+    let distance = axes.iter().flatten().next().map_or(before.1, |word| place(&DISTANCES, &word.distance));
+    (unit_of(axes).map_or(before.0, |unit| place(&UNITS, &unit)), distance)
+}
+
+/// The place of a word's shape among those that are known, from 1 on; `None` where there are too many.
+fn shape_of(word: &Expr, shapes: &mut Vec<WordShape>) -> Option<u8> {
+    if let Some(at) = shapes.iter().position(|shape| shape.fits(word)) {
+        return Some(at as u8 + 1);
+    }
+    shapes.push(WordShape::of(word)?);
+    (shapes.len() <= MOST_SHAPES).then_some(shapes.len() as u8)
 }
 
 fn put(bytes: &mut Vec<u8>, mut value: u64) {
@@ -89,6 +118,7 @@ impl PackedLines {
     pub fn new(stmts: &[Stmt]) -> Option<PackedLines> {
         let mut bytes = Vec::new();
         let (mut end, mut number, mut form) = (0u32, 0u32, (0, 0));
+        let (mut shapes, mut shaped) = (Vec::new(), [0; 3]);
         for stmt in stmts {
             if !packs(stmt) {
                 return None;
@@ -99,9 +129,23 @@ impl PackedLines {
                 _ => (RATE, None, false),
             };
             let axes = words.map_or(&[][..], |to| &to.axes[..Axis::A as usize]);
-            if let Some(own) = axes.iter().flatten().next().map(form_of).filter(|own| *own != form) {
+            let own = form_of(axes, form);
+            if own != form {
                 bytes.extend([FORM, own.0, own.1]);
                 form = own;
+            }
+            let mut own = shaped;
+            for (own, word) in own.iter_mut().zip(axes) {
+                let Some(word) = word else { continue };
+                *own = match &word.value {
+                    Expr::Num(_) => 0,
+                    value => shape_of(value, &mut shapes)?,
+                };
+            }
+            if own != shaped {
+                bytes.push(FORM | SAID);
+                bytes.extend(own);
+                shaped = own;
             }
             let named = (0u8..).zip(axes).filter(|(_, word)| word.is_some());
             let bit = |has: bool, bit: u8| if has { bit } else { 0 };
@@ -118,8 +162,8 @@ impl PackedLines {
                 put_signed(&mut bytes, i64::from(own) - i64::from(number));
                 number = own;
             }
-            for num in axes.iter().flatten().filter_map(|word| word.value.literal()) {
-                put_number(&mut bytes, num);
+            for word in axes.iter().flatten() {
+                each_number(&word.value, &mut |num| put_number(&mut bytes, num));
             }
             if let Op::SetFeedRate(feed) = &stmt.op {
                 let num = feed.literal()?;
@@ -129,7 +173,7 @@ impl PackedLines {
         }
         let last = stmts.last().map_or(Span::default(), |stmt| stmt.span);
         let in_force = InForce { unit: Unit::Entry, distance: Fact::Entry };
-        Some(PackedLines { bytes: bytes.into(), last, in_force })
+        Some(PackedLines { bytes: bytes.into(), shapes: shapes.into(), last, in_force })
     }
 
     /// Puts into another move what was put into these.
@@ -153,7 +197,15 @@ impl PackedLines {
 
     /// Its statements, one after the other.
     pub fn unpack(&self) -> Unpack<'_> {
-        Unpack { rest: &self.bytes, end: 0, number: 0, form: (0, 0), in_force: self.in_force }
+        Unpack {
+            rest: &self.bytes,
+            shapes: &self.shapes,
+            end: 0,
+            number: 0,
+            form: (0, 0),
+            shaped: [0; 3],
+            in_force: self.in_force,
+        }
     }
 }
 
@@ -161,9 +213,11 @@ impl PackedLines {
 #[derive(Clone, Debug)]
 pub struct Unpack<'p> {
     rest: &'p [u8],
+    shapes: &'p [WordShape],
     end: u32,
     number: u32,
     form: (u8, u8),
+    shaped: [u8; 3],
     in_force: InForce,
 }
 
@@ -204,15 +258,65 @@ impl Unpack<'_> {
         let mantissa = if value >> 5 & 1 == 1 { -mantissa } else { mantissa };
         Some(Num { mantissa, scale: (value & 15) as u8, point: value >> 4 & 1 == 1, unit })
     }
-}
 
-impl Iterator for Unpack<'_> {
-    type Item = Stmt;
+    /// The next statement. What the words are that are computed, `word` says of their shape's place and their numbers;
+    /// `None` leaves them out.
+    ///
+    /// # Errors
+    /// The first of `word`, with the statement's place.
+    #[inline]
+    pub fn next_by<E>(
+        &mut self,
+        word: &mut impl FnMut(usize, &[Num]) -> Result<Option<Expr>, E>,
+    ) -> Result<Option<Stmt>, (Span, E)> {
+        let Some((first, span, number)) = self.head() else { return Ok(None) };
+        let op = if first & 3 == RATE {
+            let feed = self.byte().and_then(|unit| self.num(UNITS[usize::from(unit)]));
+            let Some(mut feed) = feed else { return Ok(None) };
+            feed.unit = self.in_force.unit(feed.unit);
+            Op::SetFeedRate(feed.into())
+        } else {
+            let unit = self.in_force.unit(UNITS[usize::from(self.form.0)]);
+            let distance = self.in_force.distance(DISTANCES[usize::from(self.form.1)]);
+            let mut axes: [Option<Coord>; AXES] = Default::default();
+            for (axis, to) in axes[..Axis::A as usize].iter_mut().enumerate() {
+                if first & AXIS << axis == 0 {
+                    continue;
+                }
+                let value = match self.shaped[axis] {
+                    0 => {
+                        let Some(num) = self.num(unit) else { return Ok(None) };
+                        Some(Expr::Num(num))
+                    }
+                    shape => {
+                        let shape = usize::from(shape) - 1;
+                        let mut numbers = [Num::int(0, Unit::One); MOST_NUMBERS];
+                        let many = self.shapes.get(shape).map_or(0, WordShape::numbers);
+                        for number in &mut numbers[..many] {
+                            let Some(num) = self.num(Unit::One) else { return Ok(None) };
+                            *number = num;
+                        }
+                        word(shape, &numbers[..many]).map_err(|why| (span, why))?
+                    }
+                };
+                *to = value.map(|value| Coord { value, distance });
+            }
+            let to = Move { to: Point { axes }, said: first & SAID != 0 };
+            if first & 3 == FEED { Op::StraightFeed(to) } else { Op::StraightTraverse(to) }
+        };
+        Ok(Some(Stmt { span, number, skip: None, joined: first & JOINED != 0, comment: None, op }))
+    }
 
-    fn next(&mut self) -> Option<Stmt> {
+    /// The first byte of a statement, and where it stands.
+    #[inline]
+    fn head(&mut self) -> Option<(u8, Span, Option<u32>)> {
         let mut first = self.byte()?;
-        if first == FORM {
-            self.form = (self.byte()?, self.byte()?);
+        while first & 3 == FORM {
+            if first & SAID == 0 {
+                self.form = (self.byte()?, self.byte()?);
+            } else {
+                self.shaped = [self.byte()?, self.byte()?, self.byte()?];
+            }
             first = self.byte()?;
         }
         let start = (i64::from(self.end) + self.signed()?) as u32;
@@ -223,22 +327,22 @@ impl Iterator for Unpack<'_> {
             _ => Some((i64::from(self.number) + self.signed()?) as u32),
         };
         self.number = number.unwrap_or(self.number);
-        let op = if first & 3 == RATE {
-            let unit = self.in_force.unit(UNITS[usize::from(self.byte()?)]);
-            Op::SetFeedRate(self.num(unit)?.into())
-        } else {
-            let unit = self.in_force.unit(UNITS[usize::from(self.form.0)]);
-            let distance = self.in_force.distance(DISTANCES[usize::from(self.form.1)]);
-            let mut axes: [Option<Coord>; AXES] = Default::default();
-            for (axis, word) in axes[..Axis::A as usize].iter_mut().enumerate() {
-                if first & AXIS << axis != 0 {
-                    *word = Some(Coord { value: Expr::Num(self.num(unit)?), distance });
-                }
-            }
-            let to = Move { to: Point { axes }, said: first & SAID != 0 };
-            if first & 3 == FEED { Op::StraightFeed(to) } else { Op::StraightTraverse(to) }
+        Some((first, span, number))
+    }
+}
+
+impl Iterator for Unpack<'_> {
+    type Item = Stmt;
+
+    fn next(&mut self) -> Option<Stmt> {
+        let shapes = self.shapes;
+        let mut word = |shape: usize, numbers: &[Num]| {
+            Ok::<_, Infallible>(shapes.get(shape).map(|shape| shape.with(numbers)))
         };
-        Some(Stmt { span, number, skip: None, joined: first & JOINED != 0, comment: None, op })
+        match self.next_by(&mut word) {
+            Ok(stmt) => stmt,
+            Err((_, never)) => match never {},
+        }
     }
 }
 
@@ -248,6 +352,19 @@ mod tests {
 
     use super::*;
     use crate::canon::Units;
+    use crate::expr::{Binary, Function, Node, Unary, Var};
+
+    /// A word with a number, of one of a few shapes.
+    fn shaped(shape: u8, num: Num) -> Expr {
+        let node = |node: Node| Expr::Node(Box::new(node));
+        let var = |name: &str| node(Node::Var(Var::Local(name.into())));
+        match shape {
+            0 => Expr::binary(Binary::Add, Expr::Num(num), var("1")),
+            1 => node(Node::Unary(Unary::Negate, Expr::binary(Binary::Multiply, var("2"), Expr::Num(num)))),
+            2 => node(Node::Call(Function::RoundTo, vec![shaped(0, num), Expr::int(3)])),
+            _ => node(Node::Call(Function::RoundTo, vec![shaped(1, num), Expr::int(4)])),
+        }
+    }
 
     fn num() -> impl Strategy<Value = Num> {
         (-(MOST as i64) + 1..MOST as i64, 0u8..16, any::<bool>()).prop_map(|(mantissa, scale, point)| Num {
@@ -261,13 +378,17 @@ mod tests {
     prop_compose! {
         fn stmt()(
             words in prop::array::uniform3(prop::option::of(num())),
+            shapes in prop::array::uniform3(prop::option::of(0u8..4)),
             (kind, unit, distance) in (0u8..3, 0usize..6, 0usize..3),
             (said, joined, number) in (any::<bool>(), any::<bool>(), prop::option::of(0u32..100_000)),
             (start, length) in (0u32..1_000_000, 0u32..300),
         ) -> Stmt {
             let mut axes: [Option<Coord>; AXES] = Default::default();
-            for (axis, word) in axes.iter_mut().zip(words) {
-                let value = |num: Num| Expr::Num(Num { unit: UNITS[unit], ..num });
+            for ((axis, word), shape) in axes.iter_mut().zip(words).zip(shapes) {
+                let value = |num: Num| match shape {
+                    Some(shape) => shaped(shape, num),
+                    None => Expr::Num(Num { unit: UNITS[unit], ..num }),
+                };
                 *axis = word.map(|num| Coord { value: value(num), distance: DISTANCES[distance] });
             }
             let rate = words[0].map_or(Num::int(1, Unit::Mm), |num| Num { unit: UNITS[unit], ..num });
@@ -311,5 +432,14 @@ mod tests {
         assert!(!packed(Op::Blank));
         let skipped = Stmt { skip: Some(1), ..Stmt::new(Span::default(), Op::StraightFeed(to(Axis::X))) };
         assert!(!packs(&skipped));
+        let computed = |value: Expr| {
+            let mut to = Move::default();
+            to.to.axes[0] = Some(Coord { value, distance: Fact::Entry });
+            Op::StraightFeed(to)
+        };
+        let num = Num::int(1, Unit::One);
+        assert!(packed(computed(shaped(2, num))));
+        assert!(!packed(computed(shaped(2, Num { unit: Unit::Mm, ..num }))));
+        assert!(!packed(computed(Expr::Node(Box::new(Node::Call(Function::Sin, vec![shaped(0, num)]))))));
     }
 }

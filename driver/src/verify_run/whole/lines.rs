@@ -93,4 +93,26 @@ mod tests {
             assert!(matches!(verified(&moves, &written), Err(Stop::Target(_))), "{from} → {to}");
         }
     }
+
+    /// The same of moves whose words are computed: what is compared is what they are worth.
+    #[test]
+    fn a_computed_move_that_is_worth_something_else_is_seen() {
+        let set = "#2=0.25\n";
+        let moves: String = (0..200).map(|n| format!("X[#1+{n}.5] Y[{}.*#2]\n", n % 7)).collect();
+        let (said, other) = (format!("{set}{moves}"), moves.replace("X[#1+", "X[3.+"));
+        let events = verified(&said, &said).expect("the same program");
+        assert!(events > 400, "{events}");
+        assert_eq!(verified(&said, &format!("{set}{other}")).expect("the same values"), events);
+        for (from, to) in [
+            ("#2=0.25", "#2=0.26"),
+            ("X[#1+3.5]", "X[#1+3.501]"),
+            ("X[#1+100.5]", "X[#2+100.5]"),
+            ("X[#1+101.5]", "X[#1-101.5]"),
+            ("X[#1+198.5]", "G00 X[#1+198.5]"),
+            ("X[#1+150.5] Y[3.*#2]\n", ""),
+        ] {
+            let written = said.replacen(from, to, 1);
+            assert!(written != said && matches!(verified(&said, &written), Err(Stop::Target(_))), "{from}");
+        }
+    }
 }

@@ -20,8 +20,8 @@ pub(crate) type At = u32;
 pub(crate) enum Step<'p> {
     /// A statement that is executed by itself.
     Do(&'p Stmt),
-    /// Straight moves and feeds that are packed.
-    Lines(&'p Stmt, &'p PackedLines),
+    /// Straight moves and feeds that are packed, and the place of their shapes in [`Code::shapes`].
+    Lines(&'p Stmt, &'p PackedLines, u32),
     /// One of which arguments are computed first: its place in [`Code::computed`].
     Compute(&'p Stmt, u32),
     /// A value for a variable; without a place it is one of the control's own.
@@ -112,7 +112,7 @@ impl<'p> Step<'p> {
     pub(crate) fn stmt(&self) -> Option<&'p Stmt> {
         match self {
             Step::Do(stmt)
-            | Step::Lines(stmt, _)
+            | Step::Lines(stmt, ..)
             | Step::Compute(stmt, _)
             | Step::Assign(stmt, _)
             | Step::AssignElement(stmt, _)
@@ -138,6 +138,8 @@ impl<'p> Step<'p> {
 pub(crate) struct Code<'p> {
     pub(crate) steps: Vec<Step<'p>>,
     pub(crate) computed: Vec<Computed<'p>>,
+    /// Shapes of words of packed moves.
+    pub(crate) shapes: Vec<Box<[Term]>>,
     pub(crate) names: Names,
 }
 
@@ -172,7 +174,8 @@ struct Turning {
 impl<'p> Code<'p> {
     pub(crate) fn new(program: &'p Program) -> Code<'p> {
         let length = program.procedures.iter().map(|p| p.body.len() + 1).sum();
-        let code = Code { steps: Vec::with_capacity(length), computed: Vec::new(), names: Names::default() };
+        let (steps, computed, shapes) = (Vec::with_capacity(length), Vec::new(), Vec::new());
+        let code = Code { steps, computed, shapes, names: Names::default() };
         let mut maker = Maker {
             code,
             entries: HashMap::new(),
@@ -289,7 +292,11 @@ impl<'p> Maker<'p> {
                 Step::Call(stmt, Box::new(Called { call, entry: None, arguments, parameters: Rc::new([]) }))
             }
             Op::Return => Step::Return(stmt),
-            Op::Lines(lines) => Step::Lines(stmt, lines),
+            Op::Lines(lines) => {
+                let shapes = lines.shapes().iter().map(|shape| self.code.names.term(shape.expr())).collect();
+                self.code.shapes.push(shapes);
+                Step::Lines(stmt, lines, self.code.shapes.len() as u32 - 1)
+            }
             Op::RepeatBlocks(repeat) => {
                 let blocks = repeated::blocks_again(body, place, &repeat.from, repeat.to.as_deref());
                 let steps = blocks.map(|blocks| (begins[blocks.start], begins[blocks.end]));

@@ -1,11 +1,19 @@
-//! Packed moves that a run has come to, unpacked some at a time.
+//! Packed moves that a run has come to, unpacked some at a time, with what their words are worth that are computed: no move
+//! gives a variable a value, so that all of them are what the first one finds.
 //!
 //! Not here: where they are executed once for two runs (the verification).
 
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::expr::value::{self, Value};
+use ncc_ir::expr::{Expr, Unary};
 use ncc_ir::program::Stmt;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::packing::Unpack;
 use ncc_ir::source::Span;
+
+use crate::run::compute::literal;
+use crate::run::term::{Names, Term, Variables, Why, real};
 
 /// So many are unpacked at once: few enough that they stay in the second-level cache.
 const AT_ONCE: usize = 512;
@@ -16,19 +24,89 @@ pub(crate) struct LinesAhead<'p> {
     rest: Option<Unpack<'p>>,
     now: Vec<Stmt>,
     done: usize,
+    /// Why the one behind those that are unpacked has no value.
+    fault: Option<Box<Diagnostic>>,
+}
+
+/// What the words of a run's packed moves are worth.
+#[derive(Clone, Copy)]
+pub(crate) struct Worth<'a> {
+    pub(crate) shapes: &'a [Term],
+    pub(crate) names: &'a Names,
+    pub(crate) variables: &'a Variables,
+}
+
+impl Worth<'_> {
+    /// A word of a shape with these numbers; nothing leaves it out.
+    fn word(self, shape: usize, numbers: &[Num]) -> Result<Option<Expr>, Fault> {
+        let Some(term) = self.shapes.get(shape) else { return Ok(None) };
+        let value = self.value(term, &mut numbers.iter()).map_err(|why| self.names.fault(why))?;
+        Ok(literal(value, Unit::Entry)?.map(Expr::Num))
+    }
+
+    /// As [`Variables::value`], with the numbers in the places of its own.
+    fn value(self, term: &Term, numbers: &mut std::slice::Iter<Num>) -> Result<Value, Why> {
+        Ok(match term {
+            Term::Number(own) => Value::Number(numbers.next().map_or(*own, |num| real(*num))),
+            Term::Read(place) => self.variables.read(*place)?,
+            Term::Unary(f, a) => match (f, self.value(a, numbers)?) {
+                (Unary::Negate, Value::Vacant) => Value::Vacant,
+                (f, value) => Value::Number(value::unary(*f, value.number())),
+            },
+            Term::Binary(f, both) => {
+                let [a, b] = &**both;
+                let (a, b) = (self.value(a, numbers)?.number(), self.value(b, numbers)?.number());
+                Value::Number(value::binary(*f, a, b).map_err(Why::Wrong)?)
+            }
+            Term::OfTwo(f, both) => match (self.value(&both[0], numbers)?, &both[1]) {
+                (Value::Vacant, _) => Value::Vacant,
+                (Value::Number(n), Term::Number(digits)) => {
+                    Value::Number(value::function(*f, n, *digits).map_err(Why::Wrong)?)
+                }
+                _ => return Err(Why::Measured),
+            },
+            // No shape has it.
+            Term::Vacant
+            | Term::System(_)
+            | Term::Measured
+            | Term::Of(..)
+            | Term::OfThree(..)
+            | Term::Element(_)
+            | Term::Given(_)
+            | Term::Miscounted => return Err(Why::Measured),
+        })
+    }
 }
 
 impl<'p> LinesAhead<'p> {
-    /// Some of those that come next; none is the end.
+    /// Some of those that come next; none is the end, or one that has no value.
     #[inline]
-    pub(crate) fn of(&mut self, lines: &'p PackedLines) -> &[Stmt] {
-        if self.done == self.now.len() {
-            let rest = self.rest.get_or_insert_with(|| lines.unpack());
-            self.now.clear();
-            self.done = 0;
-            self.now.extend(rest.by_ref().take(AT_ONCE));
+    pub(crate) fn of(&mut self, lines: &'p PackedLines, worth: Worth) -> &[Stmt] {
+        if self.done == self.now.len() && self.fault.is_none() {
+            self.unpack(lines, worth);
         }
         &self.now[self.done..]
+    }
+
+    fn unpack(&mut self, lines: &'p PackedLines, worth: Worth) {
+        let rest = self.rest.get_or_insert_with(|| lines.unpack());
+        self.now.clear();
+        self.done = 0;
+        while self.now.len() < AT_ONCE {
+            match rest.next_by(&mut |shape, numbers| worth.word(shape, numbers)) {
+                Ok(Some(stmt)) => self.now.push(stmt),
+                Ok(None) => break,
+                Err((span, fault)) => {
+                    self.fault = Some(Box::new(Diagnostic::new(fault, span)));
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Why the next one has no value, where that is so.
+    pub(crate) fn fault(&self) -> Option<&Diagnostic> {
+        self.fault.as_deref().filter(|_| self.done == self.now.len())
     }
 
     /// The same, as they are unpacked.

@@ -9,6 +9,7 @@
 
 mod calls;
 pub(crate) mod code;
+mod compute;
 pub(crate) mod endless_loop;
 pub(crate) mod entry;
 pub(crate) mod go;
@@ -21,24 +22,20 @@ pub(crate) mod term;
 
 use std::rc::Rc;
 
-use super::{Exec, message};
+use super::Exec;
 use crate::halt;
 use crate::run::code::{At, Code, Counter, Declared, Step};
 use crate::run::endless_loop::EndlessLoop;
-use crate::run::lines::LinesAhead;
+use crate::run::lines::{LinesAhead, Worth};
 use crate::run::nesting::{Blocks, Frame};
 pub use crate::run::repeated::again;
 use crate::run::required_arguments::required_arguments;
-use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why, real};
-use ncc_ir::canon::FeedMode;
+use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why};
 use ncc_ir::computed::computed_code::is_last;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::num::{Num, ONE, Unit};
+use ncc_ir::expr::Var;
 use ncc_ir::expr::value::Value;
-use ncc_ir::expr::{Expr, Var};
-use ncc_ir::program::arguments;
-use ncc_ir::program::packed::PackedLines;
-use ncc_ir::program::{Centre, Coord, Op, Program, Stmt};
+use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 
 /// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
@@ -68,8 +65,9 @@ pub struct Runner<'p> {
     /// Where those of them that are the innermost end, if the present call executes them.
     end: At,
     pub(super) variables: Variables,
-    /// Statements with what was computed for them last.
-    now: Vec<Stmt>,
+    /// The statement of which arguments were computed last, with them, and its place in [`Code::computed`].
+    now: Stmt,
+    now_of: usize,
     pub(super) steps: u64,
     /// Steps at the last event.
     pub(super) eventful: u64,
@@ -104,7 +102,8 @@ impl<'p> Runner<'p> {
             blocks: Vec::new(),
             end: NOWHERE,
             variables: Variables::new(&code.names),
-            now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
+            now: Stmt::new(Span::default(), Op::Blank),
+            now_of: usize::MAX,
             steps: 0,
             eventful: 0,
             endless_loop: EndlessLoop::default(),
@@ -141,7 +140,7 @@ impl<'p> Runner<'p> {
     /// The block of the step that was made last.
     pub fn here(&self) -> Span {
         let before = || match self.code.steps.get((self.at as usize).saturating_sub(1)) {
-            Some(Step::Lines(_, lines)) => lines.last(),
+            Some(Step::Lines(_, lines, _)) => lines.last(),
             step => step.and_then(Step::stmt).map_or(Span::default(), |stmt| stmt.span),
         };
         self.lines.last().unwrap_or_else(before)
@@ -248,7 +247,10 @@ impl<'p> Runner<'p> {
             if let Step::Lines(..) = step {
                 match self.lines_ahead().first().map(|stmt| stmt.span) {
                     Some(span) => return self.next_line(before, span),
-                    None => continue,
+                    None => match self.lines.fault() {
+                        Some(fault) => return Err(fault.clone()),
+                        None => continue,
+                    },
                 }
             }
             self.steps += 1;
@@ -272,7 +274,7 @@ impl<'p> Runner<'p> {
                 Step::Do(_) => return Ok(Some(stmt)),
                 Step::Compute(_, at) => {
                     if self.compute(*at as usize, asked)? {
-                        return Ok(Some(&self.now[*at as usize]));
+                        return Ok(Some(&self.now));
                     }
                 }
                 Step::Assign(_, to) => self.assign(to.0, &to.1, asked, span)?,
@@ -362,9 +364,10 @@ impl<'p> Runner<'p> {
         if self.at == self.end {
             return &[];
         }
-        let Some(Step::Lines(_, lines)) = self.code.steps.get(self.at as usize) else { return &[] };
-        let lines: &'p PackedLines = lines;
-        if self.lines.of(lines).is_empty() {
+        let Code { steps, shapes, names, .. } = &*self.code;
+        let Some(Step::Lines(_, lines, at)) = steps.get(self.at as usize) else { return &[] };
+        let worth = Worth { shapes: &shapes[*at as usize], names, variables: &self.variables };
+        if self.lines.of(lines, worth).is_empty() && self.lines.fault().is_none() {
             self.lines.leave();
             self.at += 1;
         }
@@ -486,104 +489,4 @@ impl<'p> Runner<'p> {
     fn no_value(&self, why: Why, span: Span) -> Diagnostic {
         Diagnostic::new(self.code.names.fault(why), span)
     }
-
-    /// Computes a statement's arguments; `false` where nothing is left of it.
-    fn compute(&mut self, at: usize, asked: Asked) -> Result<bool, Diagnostic> {
-        let code = Rc::clone(&self.code);
-        let computed = &code.computed[at];
-        let (stmt, now) = (computed.stmt, &mut self.now[at]);
-        let variables = &self.variables;
-        let fault = |fault| Diagnostic::new(fault, stmt.span);
-        let mut terms = computed.terms.iter();
-        match (&stmt.op, &mut now.op) {
-            (Op::StraightFeed(from), Op::StraightFeed(to))
-            | (Op::StraightTraverse(from), Op::StraightTraverse(to))
-            | (Op::Position(from), Op::Position(to))
-            | (Op::Hole(from), Op::Hole(to)) => {
-                for ((axis, word), term) in from.to.axes.iter().enumerate().zip(terms) {
-                    if let (Some(word), Some(term)) = (word, term) {
-                        let value =
-                            variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?;
-                        let unit = if axis < 3 { Unit::Entry } else { Unit::Degree };
-                        let value = literal(value, unit).map_err(fault)?;
-                        to.to.axes[axis] =
-                            value.map(|n| Coord { value: Expr::Num(n), distance: word.distance });
-                    }
-                }
-                let makes_holes = matches!(stmt.op, Op::Hole(_) | Op::Position(_));
-                if makes_holes && to.to.axes.iter().all(Option::is_none) {
-                    let what = "a position of which no word has a value".into();
-                    return Err(fault(Fault::NotExecuted { what }));
-                }
-                return Ok(true);
-            }
-            _ => {}
-        }
-        if asked.exec.shown.leaves_out(&stmt.op) {
-            return Ok(false);
-        }
-        if let Some(pieces) = message::pieces(&stmt.op) {
-            let text = asked.exec.shown.clone().with_values(pieces, &mut |value| match terms.next() {
-                Some(Some(term)) => variables.value(term, asked).map_err(|why| fault(code.names.fault(why))),
-                _ => Ok(value.literal().map_or(Value::Vacant, |n| Value::Number(real(n)))),
-            })?;
-            now.op = message::said(&stmt.op, text);
-            return Ok(true);
-        }
-        now.op = stmt.op.clone();
-        let per_time = asked.exec.state.feed_mode == FeedMode::InverseTime;
-        let rate = matches!(now.op, Op::SetFeedRate(_));
-        let positive = rate || matches!(now.op, Op::SetSpindleSpeed(_) | Op::SelectTool(_) | Op::Dwell(_));
-        let mut left = true;
-        let droppable = matches!(now.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
-        arguments::each(&mut now.op, &mut |argument, unit| {
-            let Some(Some(term)) = terms.next() else { return Ok(()) };
-            let value = variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?;
-            let unit = if rate && per_time { Unit::One } else { unit };
-            if positive && value != Value::Vacant && value.number() < 0.0
-                || rate && value == Value::Number(0.0)
-            {
-                let what = "a feed, a speed, a time or a number that is not positive".into();
-                return Err(fault(Fault::NotExecuted { what }));
-            }
-            match literal(value, unit).map_err(fault)? {
-                Some(n) => argument.set(Expr::Num(n)),
-                None => match argument {
-                    arguments::Argument::Word(word) => *word = None,
-                    arguments::Argument::Optional(place) => *place = None,
-                    arguments::Argument::Value(_) if droppable => left = false,
-                    arguments::Argument::Value(_) => {
-                        let what = "a word without a value that cannot be left out".into();
-                        return Err(fault(Fault::NotExecuted { what }));
-                    }
-                },
-            }
-            Ok(())
-        })?;
-        if let Op::ArcFeed(arc) = &now.op
-            && let Centre::Point { words, .. } = &arc.centre
-            && words.iter().all(Option::is_none)
-        {
-            return Err(fault(Fault::ArcWithoutCentre));
-        }
-        Ok(left)
-    }
-}
-
-/// A value as a literal, to a billionth, or where it may be of an inch to a hundred-millionth; nothing is none.
-fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
-    let Value::Number(n) = value else { return Ok(None) };
-    if unit == Unit::One && n == n.trunc() && n.abs() < 1e15 {
-        return Ok(Some(Num::int(n as i64, unit)));
-    }
-    let (scale, scaled) = match unit {
-        Unit::Entry => (8, n * (ONE as f64 / 10.0)),
-        Unit::One | Unit::Mm | Unit::Inch | Unit::Degree | Unit::Second => (9, n * ONE as f64),
-    };
-    if scaled.abs() >= 9e18 {
-        return Err(Fault::OutOfRange { word: "".into() });
-    }
-    // Half away from zero.
-    let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
-    Ok(Some(Num { mantissa, scale, point: true, unit }))
 }

@@ -320,7 +320,7 @@ impl Variables {
     }
 
     #[inline]
-    fn read(&self, place: Place) -> Result<Value, Why> {
+    pub(crate) fn read(&self, place: Place) -> Result<Value, Why> {
         match place {
             Place::Local(at) => Ok(self.locals[self.base + at as usize]),
             Place::Shared(at) => self.shared[at as usize].ok_or(Why::Unset(at)),

@@ -1,0 +1,97 @@
+//! Kinds of words of straight moves: what steps may ask of them, so that what they do to one they do to all of its kind.
+//!
+//! Not here: which moves stand for which (the stretches).
+
+use ncc_ir::canon::{Axis, Distance};
+use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::Num;
+use ncc_ir::program::shapes::{WordShape, each_number};
+use ncc_ir::program::{Op, Stmt};
+
+/// Kinds that some moves have.
+#[derive(Debug, Default)]
+pub(super) struct Kinds {
+    bits: u32,
+    shapes: Vec<WordShape>,
+    /// Of words that are computed: their shapes' places, and the kinds of their numbers, each with the most digits that
+    /// one of them has behind the point.
+    computed: Vec<(usize, u64, u8)>,
+}
+
+impl Kinds {
+    /// Whether a move has a kind that the ones before it do not have; adds its kinds.
+    pub(super) fn has_more(&mut self, stmt: &Stmt) -> bool {
+        let own = bits(stmt);
+        let mut more = own & !self.bits != 0;
+        self.bits |= own;
+        if let Op::StraightFeed(to) | Op::StraightTraverse(to) = &stmt.op {
+            for word in to.to.axes.iter().flatten().filter(|word| matches!(word.value, Expr::Node(_))) {
+                more |= self.has_more_words(&word.value);
+            }
+        }
+        more
+    }
+
+    fn has_more_words(&mut self, word: &Expr) -> bool {
+        let shape = self.shapes.iter().position(|shape| shape.fits(word)).unwrap_or_else(|| {
+            self.shapes.extend(WordShape::of(word));
+            self.shapes.len()
+        });
+        let (mut numbers, mut digits) = (0, 0);
+        each_number(word, &mut |num| {
+            numbers = numbers << 8 | kind_of(num);
+            digits = num.scale.max(digits);
+        });
+        match self.computed.iter_mut().find(|(own, kinds, _)| (*own, *kinds) == (shape, numbers)) {
+            Some((_, _, most)) => digits > std::mem::replace(most, digits.max(*most)),
+            None => {
+                self.computed.push((shape, numbers, digits));
+                true
+            }
+        }
+    }
+}
+
+/// Whether a number is below zero, zero, one, and has a point, in eight bits.
+fn kind_of(num: Num) -> u64 {
+    let bit = |has: bool, bit: u64| if has { bit } else { 0 };
+    let one = 10_u64.checked_pow(u32::from(num.scale));
+    bit(num.point, 1)
+        | bit(num.mantissa < 0, 1 << 1)
+        | bit(num.mantissa == 0, 1 << 2)
+        | bit(Some(num.mantissa.unsigned_abs()) == one, 1 << 3)
+}
+
+/// Whether a word of a move is computed.
+pub(super) fn computes(stmt: &Stmt) -> bool {
+    match &stmt.op {
+        Op::StraightFeed(to) | Op::StraightTraverse(to) => {
+            to.to.axes.iter().flatten().any(|word| matches!(word.value, Expr::Node(_)))
+        }
+        _ => false,
+    }
+}
+
+/// What a statement has, a bit each: what the steps may ask of it. Of words that are computed, their distance is asked
+/// alone.
+pub(super) fn bits(stmt: &Stmt) -> u32 {
+    let (words, feed) = match &stmt.op {
+        Op::StraightFeed(to) => (&to.to, true),
+        Op::StraightTraverse(to) => (&to.to, false),
+        _ => return 1 << 6,
+    };
+    let mut bits = 0;
+    for (axis, word) in words.axes[..Axis::A as usize].iter().enumerate() {
+        let Some(word) = word else { continue };
+        bits |= if feed { 1 } else { 8 } << axis;
+        bits |= match word.distance.known() {
+            None => 1 << 7,
+            Some(Distance::Absolute) => 1 << 8,
+            Some(Distance::Incremental) => 1 << 9,
+        };
+        if let Expr::Num(num) = &word.value {
+            bits |= 1 << (10 + num.unit as u32);
+        }
+    }
+    bits
+}
