@@ -377,7 +377,7 @@ mod tests {
 
     /// Moves by what is computed, of two shapes.
     fn computed() -> String {
-        let word = |n: u32| if n % 3 == 0 { format!("Y[#2-{}.]", n % 7) } else { String::new() };
+        let word = |n: u32| if n.is_multiple_of(3) { format!("Y[#2-{}.]", n % 7) } else { String::new() };
         (0..300).map(|n| format!("X[#1+{n}.5]{}\n", word(n))).collect()
     }
 

@@ -41,9 +41,10 @@ fn a_program_in_many_pieces_is_translated_as_in_one() {
 
 /// A program with each plain move of it many times, so that there are stretches of them.
 fn stretched(text: &[u8]) -> Vec<u8> {
+    // Computed words stand in brackets, or behind an equals sign.
     let plain = |line: &[u8]| {
         let words = line.trim_ascii();
-        let number = |byte: &u8| byte.is_ascii_digit() || b" .-XYZ".contains(byte);
+        let number = |byte: &u8| byte.is_ascii_digit() || b" .-XYZ#[]+*/=R".contains(byte);
         words.first().is_some_and(|first| b"XYZ".contains(first)) && words.iter().all(number)
     };
     let mut made = Vec::new();

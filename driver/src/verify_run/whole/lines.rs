@@ -7,6 +7,10 @@
 //! Why that proves the same as two executions: a control is a function of its state and of the statement, and events are
 //! made of nothing else. Where both states agree in all that a plain move reads (`Exec::agrees_on_lines`), and both statements say
 //! the same ([`same_plain`]), both sides make the same event and come to states that agree again.
+//!
+//! Words that are computed are there as what they are worth on each side: each program's own expressions, with its own
+//! variables. No move gives a variable a value, so that what the next ones are worth is known before they are executed; and
+//! a statement that has no value ends the ones that are looked at, so that the fault is found where it is.
 
 use ncc_exec::Runner;
 use ncc_exec::verify::same_plain;
