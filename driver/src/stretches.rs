@@ -444,7 +444,7 @@ mod tests {
     fn packed_moves_are_worth_what_their_words_are() {
         let events = |before: &str, packs: bool| {
             let mut body = read(&format!("{HEAD}{before}{}", computed()));
-            assert_ne!(packs && pack(&mut body, SHORTEST, Words::All).is_empty(), packs);
+            assert_eq!(packs && !pack(&mut body, SHORTEST, Words::All).is_empty(), packs);
             let procedures = vec![Procedure { body, ..Procedure::default() }];
             let program = Program { procedures, ..Program::default() };
             let world = World::generate(1, &program.assumed);

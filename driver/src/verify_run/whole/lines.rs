@@ -62,6 +62,7 @@ mod tests {
     use super::super::super::verifier::Stop;
     use super::*;
     use crate::job::Job;
+    use crate::stretches::{SHORTEST, Words, pack};
 
     /// A loop keeps the program whole; behind it are plain moves.
     fn program(moves: &str) -> String {
@@ -77,7 +78,8 @@ mod tests {
         let (mut reader, mut batch) = (Reader::new(job.from.clone(), true), Batch::default());
         reader.read(program(said).as_bytes(), 0, &mut batch);
         reader.finish(&mut batch);
-        let body = std::mem::take(&mut batch.stmts);
+        let mut body = std::mem::take(&mut batch.stmts);
+        assert!(!pack(&mut body, SHORTEST, Words::All).is_empty());
         let source =
             Program { assumed: batch.assumed, procedures: vec![batch.main(body)], ..Program::default() };
         let mut verifier = Verifier::new(&job);
@@ -110,6 +112,7 @@ mod tests {
         for (from, to) in [
             ("#2=0.25", "#2=0.26"),
             ("X[#1+3.5]", "X[#1+3.501]"),
+            ("X[#1+100.5]", "X[#1+100.6]"),
             ("X[#1+100.5]", "X[#2+100.5]"),
             ("X[#1+101.5]", "X[#1-101.5]"),
             ("X[#1+198.5]", "G00 X[#1+198.5]"),
