@@ -202,8 +202,15 @@ impl Translation<'_> {
 
     /// The program that is kept, put together from all that was read.
     fn kept(&mut self) -> Program {
-        let mut body = self.folder.as_mut().map(Folder::held).unwrap_or_default();
-        body.append(&mut self.batch.stmts);
+        let mut read = std::mem::take(&mut self.batch.stmts);
+        let body = match self.folder.as_mut().map(Folder::held) {
+            Some(mut held) => {
+                held.append(&mut read);
+                held
+            }
+            // There is one of them in memory, not two.
+            None => read,
+        };
         let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
         let name = self.batch.name.clone();
