@@ -5,7 +5,7 @@
 use std::convert::Infallible;
 
 use super::packed::{InForce, PackedLines};
-use super::shapes::{MOST_NUMBERS, WordShape, each_number, has_shape};
+use super::shapes::{MOST_NUMBERS, WordShape, each_number, has_shape, packs_num};
 use super::{Coord, Move, Op, Point, Stmt};
 use crate::canon::{AXES, Axis, Distance, Fact};
 use crate::expr::Expr;
@@ -35,15 +35,8 @@ fn place<T: PartialEq>(all: &[T], value: &T) -> u8 {
     all.iter().position(|own| own == value).unwrap_or(0) as u8
 }
 
-/// Largest mantissa that is packed.
-const MOST: u64 = 1 << 56;
-
 /// Most shapes of a stretch; 0 is that of a literal.
 const MOST_SHAPES: usize = 255;
-
-pub(super) fn packs_num(num: Num) -> bool {
-    num.mantissa.unsigned_abs() < MOST && num.scale < 16
-}
 
 fn packs_number(value: &Expr) -> bool {
     value.literal().is_some_and(packs_num)
@@ -350,6 +343,7 @@ impl Iterator for Unpack<'_> {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::shapes::MOST;
     use super::*;
     use crate::canon::Units;
     use crate::expr::{Binary, Function, Node, Unary, Var};

@@ -12,6 +12,14 @@ use crate::expr::{Binary, Expr, Function, Node, Unary, Var};
 /// Most numbers of a shape.
 pub const MOST_NUMBERS: usize = 8;
 
+/// Largest mantissa that is packed.
+pub(super) const MOST: u64 = 1 << 56;
+
+/// Whether a number is among those that are packed.
+pub(super) fn packs_num(num: Num) -> bool {
+    num.mantissa.unsigned_abs() < MOST && num.scale < 16
+}
+
 /// The shape of computed words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WordShape {
@@ -66,7 +74,7 @@ fn is_plain(expr: &Expr, numbers: &mut usize) -> bool {
     match expr {
         Expr::Num(num) => {
             *numbers += 1;
-            num.unit == Unit::One && super::packing::packs_num(*num)
+            num.unit == Unit::One && packs_num(*num)
         }
         Expr::Node(node) => match &**node {
             Node::Var(Var::Local(_) | Var::Common(_) | Var::Retentive(_)) => true,

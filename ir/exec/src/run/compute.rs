@@ -7,14 +7,14 @@ use std::rc::Rc;
 use ncc_ir::canon::FeedMode;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Num, ONE, Unit};
+use ncc_ir::expr::num::Unit;
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Centre, Coord, Move, Op, Point, Stmt};
 
 use super::Runner;
 use crate::message;
-use crate::run::term::{Asked, real};
+use crate::run::term::{Asked, literal, real};
 
 impl Runner<'_> {
     /// Computes a statement's arguments; `false` where nothing is left of it.
@@ -121,23 +121,4 @@ fn written(stmt: &Stmt) -> Stmt {
     };
     let Stmt { span, number, skip, joined, .. } = *stmt;
     Stmt { span, number, skip, joined, comment: stmt.comment.clone(), op }
-}
-
-/// A value as a literal, to a billionth, or where it may be of an inch to a hundred-millionth; nothing is none.
-#[inline]
-pub(super) fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
-    let Value::Number(n) = value else { return Ok(None) };
-    if unit == Unit::One && n == n.trunc() && n.abs() < 1e15 {
-        return Ok(Some(Num::int(n as i64, unit)));
-    }
-    let (scale, scaled) = match unit {
-        Unit::Entry => (8, n * (ONE as f64 / 10.0)),
-        Unit::One | Unit::Mm | Unit::Inch | Unit::Degree | Unit::Second => (9, n * ONE as f64),
-    };
-    if scaled.abs() >= 9e18 {
-        return Err(Fault::OutOfRange { word: "".into() });
-    }
-    // Half away from zero.
-    let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
-    Ok(Some(Num { mantissa, scale, point: true, unit }))
 }

@@ -12,8 +12,7 @@ use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::packing::Unpack;
 use ncc_ir::source::Span;
 
-use crate::run::compute::literal;
-use crate::run::term::{Names, Term, Variables, Why, real};
+use crate::run::term::{Names, Term, Variables, Why, literal, real};
 
 /// So many are unpacked at once: few enough that they stay in the second-level cache.
 const AT_ONCE: usize = 512;

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use crate::Exec;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::num::{Num, POW10, Unit};
+use ncc_ir::expr::num::{Num, ONE, POW10, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::value::{self, Value, Wrong};
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Unary, Var};
@@ -268,6 +268,25 @@ impl Names {
 
 pub(crate) fn real(n: Num) -> f64 {
     n.mantissa as f64 / POW10[usize::from(n.scale.min(18))] as f64
+}
+
+/// A value as a literal, to a billionth, or where it may be of an inch to a hundred-millionth; nothing is none.
+#[inline]
+pub(crate) fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
+    let Value::Number(n) = value else { return Ok(None) };
+    if unit == Unit::One && n == n.trunc() && n.abs() < 1e15 {
+        return Ok(Some(Num::int(n as i64, unit)));
+    }
+    let (scale, scaled) = match unit {
+        Unit::Entry => (8, n * (ONE as f64 / 10.0)),
+        Unit::One | Unit::Mm | Unit::Inch | Unit::Degree | Unit::Second => (9, n * ONE as f64),
+    };
+    if scaled.abs() >= 9e18 {
+        return Err(Fault::OutOfRange { word: "".into() });
+    }
+    // Half away from zero.
+    let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
+    Ok(Some(Num { mantissa, scale, point: true, unit }))
 }
 
 /// Who answers for the control's own values.
