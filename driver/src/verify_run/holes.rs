@@ -11,29 +11,11 @@
 //!
 //! Not here: plain moves ([`Verifier::piece`]), and programs that are kept whole.
 
-use ncc_exec::{Exec, are_holes};
-use ncc_ir::canon::AXES;
-use ncc_ir::expr::num::Nanos;
+use ncc_exec::are_holes;
 use ncc_ir::program::{Op, Stmt};
 
 use super::facts::come_to;
-use super::verifier::{Stop, Verifier};
-
-/// Holes that the source has made, and the target not yet.
-pub(super) struct HolesAhead {
-    /// What the source says.
-    stmts: Vec<Stmt>,
-    /// What each run had of them.
-    runs: Vec<Made>,
-}
-
-/// Holes of one run.
-struct Made {
-    /// The source's control before them.
-    before: Exec,
-    places: Vec<[Nanos; AXES]>,
-    events: u64,
-}
+use super::verifier::{HolesAhead, HolesMade, Stop, Verifier};
 
 impl Verifier {
     /// Executes the source's holes for their effect alone, where the target is likely to make the same of them; `false`,
@@ -53,7 +35,7 @@ impl Verifier {
         for run in &mut self.runs {
             let (before, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
             let events = run.source.pass_holes(stmts, &mut places).map_err(Stop::Source)?;
-            runs.push(Made { before, places, events });
+            runs.push(HolesMade { before, places, events });
         }
         self.holes_ahead = Some(HolesAhead { stmts: stmts.to_vec(), runs });
         if let Some(stmt) = stmts.last() {

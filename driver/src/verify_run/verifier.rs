@@ -10,14 +10,14 @@ use ncc_exec::verify::Comparison;
 use ncc_exec::{Event, Exec};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::behaviour::Behaviour;
-use ncc_ir::canon::Modes;
+use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::num::Num;
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::expr::{Function, Var};
+use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
-use super::holes::HolesAhead;
 use crate::job;
 use crate::job::given::Given;
 
@@ -81,6 +81,22 @@ pub struct Outliving {
     pub(super) at: Span,
     /// Whether the program sets it too: then its next run reads what this one has left.
     pub(super) set: bool,
+}
+
+/// Holes that the source has made, and the target not yet.
+pub struct HolesAhead {
+    /// What the source says.
+    pub(super) stmts: Vec<Stmt>,
+    /// What each run had of them.
+    pub(super) runs: Vec<HolesMade>,
+}
+
+/// Holes of one run.
+pub struct HolesMade {
+    /// The source's control before them.
+    pub(super) before: Exec,
+    pub(super) places: Vec<[Nanos; AXES]>,
+    pub(super) events: u64,
 }
 
 /// A verification in progress.

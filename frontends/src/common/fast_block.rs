@@ -191,8 +191,8 @@ impl Line {
         self.seen == 0 && self.code.is_none() && self.feed.is_none() && self.number.is_none()
     }
 
-    /// Whether every number has a point, or needs none: of lengths, of angles.
-    pub(crate) fn is_understood(&self, lengths: bool, angles: bool) -> bool {
+    /// Whether every number has a point, or is one of lengths or of angles where these need none.
+    pub(crate) fn is_understood(&self, [lengths, angles]: [bool; 2]) -> bool {
         (lengths || self.bare & !ROTARY == 0) && (angles || self.bare & ROTARY == 0)
     }
 

@@ -82,7 +82,7 @@ impl Lower {
         let (state, usual) = (&self.state, &self.usual);
         let line = &usual.line;
         let new_length = line.moves(Axis::Z) && !state.modes.is_length_noted(&self.inherited);
-        if new_length || !line.is_understood(usual.lengths, usual.angles) {
+        if new_length || !line.is_understood([usual.lengths, usual.angles]) {
             return None;
         }
         let said = match line.code {
