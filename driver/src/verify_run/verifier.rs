@@ -84,7 +84,7 @@ pub struct Outliving {
 }
 
 /// Holes that the source has made, and the target not yet.
-pub struct HolesAhead {
+pub(super) struct HolesAhead {
     /// What the source says.
     pub(super) stmts: Vec<Stmt>,
     /// What each run had of them.
@@ -92,7 +92,7 @@ pub struct HolesAhead {
 }
 
 /// Holes of one run.
-pub struct HolesMade {
+pub(super) struct HolesMade {
     /// The source's control before them.
     pub(super) before: Exec,
     pub(super) places: Vec<[Nanos; AXES]>,
