@@ -148,6 +148,8 @@ impl Reader {
             if open && let Some(end) = self.lower.short_way(text, at, base, self.longest, out) {
                 self.blocks = true;
                 self.after_header = false;
+                let returns = text[..end].ends_with(b"\r");
+                self.end = base + end as u32 - u32::from(returns);
                 at = end + 1;
                 continue;
             }
