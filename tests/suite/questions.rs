@@ -150,3 +150,23 @@ fn the_corpus_has_no_other_questions() {
     let path = corpus::root().join("tests/questions/corpus.txt");
     expect::file(Path::new(&path), list.as_bytes()).unwrap_or_else(|fault| panic!("{fault}"));
 }
+
+/// Holes that two readings make at the same places are executed once; one among them at another place is asked for, however
+/// far it is from where the cycle is called up.
+#[test]
+fn a_hole_without_points_among_many_is_asked_for() {
+    let holes = |among: &str| {
+        let mut text =
+            "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z50.\n\
+                        G99 G81 X1. Y1. Z-20. R2. F150.\n"
+                .to_owned();
+        for n in 0..8000 {
+            let _ = writeln!(text, "X{}.5 Y{}.", n % 300, n % 70);
+            text += if n == 3000 { among } else { "" };
+        }
+        text + "G80\nG00 Z50.\nM30\n%\n"
+    };
+    let found = |text: String| of_text(&job("fanuc", "holes.nc", text.as_bytes()), text.as_bytes());
+    assert!(found(holes("")).expect("a text in memory").is_empty());
+    assert_eq!(found(holes("X100 Y50\n")).expect("a text in memory").len(), 1);
+}
