@@ -6,7 +6,7 @@ use ncc_ir::program::{Op, Stmt};
 /// So many are unpacked at once.
 const AT_ONCE: usize = 512;
 
-/// The packed moves that a statement stands for.
+/// The packed moves of a statement.
 pub(crate) fn packed(stmt: &Stmt) -> Option<&PackedLines> {
     let Op::Lines(lines) = &stmt.op else { return None };
     Some(lines)

@@ -1,4 +1,4 @@
-//! What an arc is where the written text puts its ends: rounded ends may become one point.
+//! Arcs between the ends that the text writes: two ends that are rounded may be one point.
 //!
 //! Not here: the words of arcs, which every language has in its own form.
 
@@ -46,7 +46,7 @@ impl Words {
         letter.ok_or_else(|| cannot("an arc's centre"))
     }
 
-    /// Where the written words of an arc put an axis.
+    /// The place of an axis at the end of an arc, by the words that are written.
     pub(crate) fn arrives(&self, arc: &Arc, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
         let Some(coord) = arc.to.get(axis) else { return self.axis_position(axis) };

@@ -1,4 +1,4 @@
-//! What is known of the program as a whole before its blocks are written.
+//! Facts of the whole program, known before its blocks are written.
 
 use std::collections::HashMap;
 

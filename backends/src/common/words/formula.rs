@@ -41,7 +41,7 @@ impl Words {
         }
     }
 
-    /// What is taken for granted of the machine where an expression stands.
+    /// Reports what an expression takes for granted of the machine.
     pub(crate) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
         if arcs(e) {
             self.rely(ANGLE_RANGE, span, sink);

@@ -54,7 +54,7 @@ pub(crate) use statement::rounded;
 pub(crate) struct Words {
     pub(crate) dialect: &'static Dialect,
     pub(crate) settings: Settings,
-    /// Options that nobody chose and the text relies on, as far as told.
+    /// Options that the user did not choose, that the text relies on, and that are reported already.
     told_options: Vec<&'static str>,
     /// Numbers of blocks.
     pub(crate) numbers: Numbers,
@@ -64,7 +64,7 @@ pub(crate) struct Words {
     pub(crate) block: Block,
     pub(crate) active: ActiveModes,
     pub(crate) tracker: Tracker,
-    /// What the written position lags behind the program's, by rounding; nanos per axis.
+    /// By how much rounding puts the written position behind the program's: nanos of a millimetre or degree, by axis.
     pub(crate) residue: [Nanos; AXES],
     /// Which way round A, B and C go in the next move.
     pub(crate) ways: [Option<RotaryWay>; 3],
