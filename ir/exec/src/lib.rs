@@ -310,15 +310,22 @@ impl Exec {
     /// A literal's value in nanos.
     #[inline]
     fn value(&self, value: &Expr, span: Span) -> Result<Nanos, Diagnostic> {
-        let Expr::Num(n) = value else {
-            return self.fault(Fault::NotExecuted { what: "an expression".into() }, span);
-        };
-        let inch = n.unit == Unit::Entry && self.modes.inch;
-        match n.nanos(inch) {
-            // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
-            Some(v) if v.unsigned_abs() < 1 << MOST_BITS => Ok(v),
-            _ => self.fault(Fault::OutOfRange { word: "value".into() }, span),
+        if let Some(value) = self.plain_value(value) {
+            return Ok(value);
         }
+        match value {
+            Expr::Num(_) => self.fault(Fault::OutOfRange { word: "value".into() }, span),
+            Expr::Node(_) => self.fault(Fault::NotExecuted { what: "an expression".into() }, span),
+        }
+    }
+
+    /// The value of a word; `None` if it is an expression or out of range.
+    #[inline]
+    fn plain_value(&self, value: &Expr) -> Option<Nanos> {
+        let Expr::Num(n) = value else { return None };
+        let inch = n.unit == Unit::Entry && self.modes.inch;
+        // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
+        n.nanos(inch).filter(|value| value.unsigned_abs() < 1 << MOST_BITS)
     }
 
     #[inline]

@@ -52,6 +52,8 @@ impl Exec {
         if !self.quiet || !self.takes_lines() {
             return Ok(0);
         }
+        // Then a line to where the axes stand moves nothing.
+        let in_place = same_point(&self.place(&self.position), &self.last);
         for (at, stmt) in stmts.iter().enumerate() {
             if self.skips(stmt) {
                 continue;
@@ -78,25 +80,30 @@ impl Exec {
             let (mut next, mut named) = (self.position, 0);
             for (axis, word) in to.axes[..3].iter().enumerate() {
                 let Some(word) = word else { continue };
+                // What has no value is told by the step that executes it.
+                let Some(value) = self.plain_value(&word.value) else { return Ok(at) };
                 if word.distance.or(Distance::Absolute) != Distance::Absolute {
                     return Ok(at);
                 }
-                next[axis] = self.value(&word.value, stmt.span)?;
+                next[axis] = value;
                 named |= 1 << axis;
             }
             self.shown.goes_on();
             self.relies_on_slots(named);
             self.at_place &= named >> Z & 1 == 0;
-            if !same_point(&next, &self.position) {
+            let moved = !same_point(&next, &self.position);
+            if moved {
                 self.heading = Heading::From(self.position);
+                self.position = next;
             }
-            self.position = next;
             self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
             self.said |= MOTION;
-            let end = self.place(&next);
-            if !same_point(&end, &self.last) {
-                self.last = end;
-                self.counted += 1;
+            if moved || !in_place {
+                let end = self.place(&next);
+                if !same_point(&end, &self.last) {
+                    self.last = end;
+                    self.counted += 1;
+                }
             }
         }
         Ok(stmts.len())
