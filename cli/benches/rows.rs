@@ -1,6 +1,7 @@
 //! What one line costs: long programs of one kind each, translated by the finished program, beside the plain one.
 //! `cargo bench --bench rows` (Linux only); `NCC_ROWS_MB` is the size of each, `NCC_ROWS` names some of them, with commas,
-//! by how they begin, and `NCC_BINARY` another program to compare with.
+//! by how they begin, `NCC_BINARY` another program to compare with, and `NCC_ROWS_KEEP` a folder that gets the programs
+//! and nothing else happens (`.ci/peers`).
 //!
 //! A row tells MB of source a second of processor time, and the peak of memory.
 //!
@@ -28,6 +29,22 @@ struct Row {
     lines: &'static [&'static str],
     moves: Moves,
     foot: &'static str,
+    verb: Verb,
+}
+
+/// What ncc is asked for. Where it takes two programs, they are the source and its translation.
+#[derive(Clone, Copy, PartialEq)]
+enum Verb {
+    Translate,
+    /// A translation with its map of provenance.
+    Map,
+    Check,
+    Time,
+    Verify,
+    Diff,
+    /// The source with itself, as text.
+    DiffText,
+    Fmt,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -46,6 +63,7 @@ const PLAIN: Row = Row {
     lines: &["{}"],
     moves: Moves::Lines,
     foot: "",
+    verb: Verb::Translate,
 };
 
 const ROWS: &[Row] = &[
@@ -112,6 +130,13 @@ const ROWS: &[Row] = &[
         foot: "MCALL",
         ..PLAIN
     },
+    Row { name: "plain, with its map", verb: Verb::Map, ..PLAIN },
+    Row { name: "plain, check", verb: Verb::Check, ..PLAIN },
+    Row { name: "plain, time", verb: Verb::Time, ..PLAIN },
+    Row { name: "plain, verify", verb: Verb::Verify, ..PLAIN },
+    Row { name: "plain, diff", verb: Verb::Diff, ..PLAIN },
+    Row { name: "plain, diff --text", verb: Verb::DiffText, ..PLAIN },
+    Row { name: "plain, fmt", verb: Verb::Fmt, ..PLAIN },
 ];
 
 fn heads(dialect: &str) -> [&'static str; 2] {
@@ -199,11 +224,50 @@ fn text(row: &Row, bytes: usize) -> String {
 }
 
 /// The command line that translates a row.
-fn arguments(row: &Row, source: &Path, output: &Path) -> Vec<OsString> {
+fn translation(row: &Row, source: &Path, output: &Path) -> Vec<OsString> {
     let mut all: Vec<OsString> =
         ["translate", "--from", row.from, "--to", row.to, "--quiet", "-o"].map(OsString::from).to_vec();
     all.extend([output.into(), source.into()]);
     all
+}
+
+/// The command line of a row.
+fn arguments(row: &Row, source: &Path, output: &Path) -> Vec<OsString> {
+    let read = |dialect: &str, path: &Path| OsString::from(format!("{dialect}:{}", path.display()));
+    let (ours, theirs) = (read(row.from, source), read(row.to, output));
+    let verb = |words: &[&str], programs: &[&OsString]| {
+        let words = words.iter().map(OsString::from);
+        words.chain(programs.iter().map(|program| (*program).clone())).collect()
+    };
+    match row.verb {
+        Verb::Translate => translation(row, source, output),
+        Verb::Map => {
+            let mut all = translation(row, source, output);
+            all.extend(["--map".into(), output.with_extension("map").into()]);
+            all
+        }
+        Verb::Check => verb(&["check"], &[&ours]),
+        Verb::Time => verb(&["time"], &[&ours]),
+        Verb::Verify => verb(&["verify"], &[&ours, &theirs]),
+        Verb::Diff => verb(&["diff"], &[&ours, &theirs]),
+        Verb::DiffText => verb(&["diff", "--text"], &[&ours, &ours]),
+        Verb::Fmt => verb(&["fmt"], &[&ours]),
+    }
+}
+
+/// Writes the program of a row, and its translation where the verb takes two; gives the program's bytes.
+fn prepare(
+    binary: &str,
+    row: &Row,
+    bytes: usize,
+    [source, output]: [&Path; 2],
+) -> Result<usize, Box<dyn std::error::Error>> {
+    let text = text(row, bytes);
+    fs::write(source, &text)?;
+    if matches!(row.verb, Verb::Verify | Verb::Diff) {
+        Command::new(binary).args(translation(row, source, output)).status()?;
+    }
+    Ok(text.len())
 }
 
 /// Instructions that the program executes for a row.
@@ -250,8 +314,9 @@ fn counts(binary: &str, only: &str, write: bool) -> Result<(), Box<dyn std::erro
     let mut far = Vec::new();
     for row in ROWS.iter().filter(|row| only.split(',').any(|begin| row.name.starts_with(begin))) {
         let source = folder.path().join("source");
-        fs::write(&source, text(row, 1_000_000))?;
-        let count = count(binary, row, &source, &folder.path().join("output"))? / 1000;
+        let output = folder.path().join("output");
+        prepare(binary, row, 1_000_000, [&source, &output])?;
+        let count = count(binary, row, &source, &output)? / 1000;
         let change = before.rows.get(row.name).map(|before| (count as f64 / *before as f64 - 1.0) * 100.0);
         let told = change.map_or("new".to_owned(), |change| format!("{change:+.1} %"));
         writeln!(report, "{:<24} {count:>12} thousand instructions, {told}", row.name)?;
@@ -269,6 +334,15 @@ fn counts(binary: &str, only: &str, write: bool) -> Result<(), Box<dyn std::erro
     }
 }
 
+/// Writes the programs of the rows into a folder, for other tools to be measured by.
+fn keep(folder: &Path, bytes: usize, only: &str) -> Result<(), Box<dyn std::error::Error>> {
+    for row in ROWS.iter().filter(|row| only.split(',').any(|begin| row.name.starts_with(begin))) {
+        let name: String = row.name.replace(|c: char| !c.is_ascii_alphanumeric(), "-");
+        fs::write(folder.join(format!("{name}.{}", row.from)), text(row, bytes))?;
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let megabytes: f64 = std::env::var("NCC_ROWS_MB").map_or(Ok(4.0), |mb| mb.parse())?;
     let only = std::env::var("NCC_ROWS").unwrap_or_default();
@@ -276,16 +350,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if let Ok(counted) = std::env::var("NCC_COUNTS") {
         return counts(&binary, &only, counted == "write");
     }
+    if let Ok(folder) = std::env::var("NCC_ROWS_KEEP") {
+        return keep(Path::new(&folder), (megabytes * 1e6) as usize, &only);
+    }
     let folder = tempfile::tempdir()?;
     let mut report = std::io::stdout().lock();
     writeln!(report, "{:<24} {:<20} {:>8} {:>9}  exit", "row", "", "MB/s", "peak MiB")?;
     for row in ROWS.iter().filter(|row| only.split(',').any(|begin| row.name.starts_with(begin))) {
         let source = folder.path().join("source");
-        let text = text(row, (megabytes * 1e6) as usize);
-        fs::write(&source, &text)?;
-        let done = run(&binary, row, &source, &folder.path().join("output"))?;
+        let output = folder.path().join("output");
+        let bytes = prepare(&binary, row, (megabytes * 1e6) as usize, [&source, &output])?;
+        let done = run(&binary, row, &source, &output)?;
         let way = format!("{} to {}", row.from, row.to);
-        let speed = text.len() as f64 / 1e6 / done.seconds;
+        let speed = bytes as f64 / 1e6 / done.seconds;
         let (name, peak, code) = (row.name, done.peak_kib as f64 / 1024.0, done.code);
         writeln!(report, "{name:<24} {way:<20} {speed:>8.1} {peak:>9.1}  {code}")?;
     }
