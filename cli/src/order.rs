@@ -172,6 +172,7 @@ impl Order {
             allow: args.allow.clone(),
             piece: PIECE,
             shortest_stretch: ncc_driver::job::SHORTEST_STRETCH,
+            one_thread: false,
             deny: args.deny.clone(),
         })
     }

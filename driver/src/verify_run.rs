@@ -207,6 +207,16 @@ impl Verifier {
         all.flat_map(|run| [&mut run.source, &mut run.target]).for_each(|exec| with_parameters(exec, job));
     }
 
+    /// Whether [`Verifier::take`] has anything to do with it.
+    pub fn takes(found: &[Diagnostic]) -> bool {
+        found.iter().any(|diagnostic| {
+            matches!(
+                diagnostic.fault,
+                Fault::AssumedParameter { .. } | Fault::PatternFolded { .. } | Fault::MachineCutFolded { .. }
+            )
+        })
+    }
+
     /// What the passes have taken for granted of both controls, and patterns that they have folded:
     /// their holes are where the source writes them to half a unit of its own last digit.
     pub fn take(&mut self, found: &[Diagnostic], job: &Job) {

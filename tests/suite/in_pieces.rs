@@ -39,6 +39,31 @@ fn a_program_in_many_pieces_is_translated_as_in_one() {
     assert!(differing.is_empty(), "{} of {cut}:\n{}", differing.len(), differing.join("\n"));
 }
 
+/// Nor on which thread the verification runs, also where it stops: text, verdict and what is told are the same.
+#[test]
+fn a_program_is_verified_on_a_second_thread_as_on_one() {
+    let targets = ["fanuc", "siemens", "linuxcnc", "mach9", "grbl"];
+    let mut differing = Vec::new();
+    for program in corpus::all() {
+        let longest = program.text.split(|byte| *byte == b'\n').map(<[u8]>::len).max().unwrap_or(0);
+        for to in targets.into_iter().filter(|_| longest < PIECE) {
+            let mut job = job(program.dialect, to, &program.file);
+            job.piece = PIECE;
+            let (two, two_written) = translate(&job, &program.text);
+            job.one_thread = true;
+            let (one, one_written) = translate(&job, &program.text);
+            let same = one.release == two.release
+                && one_written == two_written
+                && one.diagnostics == two.diagnostics
+                && one.verified.map(|own| own.events) == two.verified.map(|own| own.events);
+            if !same {
+                differing.push(format!("{} {} to {to}: {:?}", program.dialect, program.file, two.release));
+            }
+        }
+    }
+    assert!(differing.is_empty(), "{}:\n{}", differing.len(), differing.join("\n"));
+}
+
 /// A program with each plain move of it many times, so that there are stretches of them.
 fn stretched(text: &[u8]) -> Vec<u8> {
     // Computed words stand in brackets, or behind an equals sign.

@@ -166,6 +166,7 @@ impl Bench<'_> {
         let mut job = order.job(args, from, &source.name, crlf)?;
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
         job.rivals = rivals;
+        job.one_thread = true;
         called::gather(&mut source, &job.from, self.known.folders(), &files::Disk)?;
         job.called.clone_from(&source.called);
         job.assumed.extend_from_slice(&source.assumed);

@@ -101,6 +101,9 @@ pub struct Job {
     /// Straight moves one behind the other of which fewer are not packed in a program that is kept whole. What comes of it
     /// does not depend on it.
     pub shortest_stretch: usize,
+    /// Whether a long program is verified on the thread that translates it: where other programs are translated beside it.
+    /// What comes of it does not depend on it.
+    pub one_thread: bool,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
@@ -157,6 +160,7 @@ impl Job {
             questions: Policy::default(),
             piece: PIECE,
             shortest_stretch: SHORTEST_STRETCH,
+            one_thread: false,
             allow: Vec::new(),
             deny: Vec::new(),
         }

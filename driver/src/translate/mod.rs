@@ -8,12 +8,14 @@
 //! `translation`   what is between source and output
 //! `pipeline`      the steps, from what was read to what is released
 //! `writing`       the text, and passing it on
+//! `beside`        the verification on a second thread
 //! `per_tool`      a file for each use of a tool
 //! `outcome`       what comes of it at the end
 //! ```
 //!
 //! Not here: how a difference or a refusal is told (`render`).
 
+mod beside;
 pub mod difference;
 pub mod heading;
 pub mod judge;
@@ -39,6 +41,7 @@ use self::translation::Translation;
 use crate::job::{Job, Outcome};
 use crate::provenance::trace::{Asked, Recorded, Trace};
 use crate::questions::{self, Policy};
+use crate::side_by_side::has_threads;
 use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks, ends_by_return};
 use crate::source::reader::reader_for;
@@ -75,7 +78,22 @@ pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Ou
     Ok((outcome, inherited))
 }
 
-fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
+/// An outcome, with the assumed facts that the output does not state itself, and the record that was asked for.
+type Run = (Outcome, Modes, Option<Recorded>);
+
+fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<Run> {
+    match attempt(job, asked, source, !job.one_thread && has_threads())? {
+        Some(run) => Ok(run),
+        None => {
+            source.rewind()?;
+            let run = attempt(job, asked, source, false)?;
+            Ok(run.expect("without a second thread nothing is thrown away"))
+        }
+    }
+}
+
+/// Translates a program; `None` if a verification on a second thread stopped, so that it is to be done without one.
+fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, threads: bool) -> io::Result<Option<Run>> {
     // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
     let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
     let reader = reader_for(job, true, source)?;
@@ -83,6 +101,7 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcom
     let mut translation = Translation::new(job);
     translation.reader = reader;
     translation.batch.whole |= returns;
+    translation.goes_beside = threads && !asked.anything();
     translation.record(asked);
     loop {
         match chunks.take()? {
@@ -97,11 +116,14 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcom
             }
             Chunk::End => break,
         }
-        if translation.errors >= ENOUGH_ERRORS {
+        if translation.errors >= ENOUGH_ERRORS || translation.stopped_beside {
             break;
         }
     }
     translation.end()?;
+    if !translation.is_verified_here() {
+        return Ok(None);
+    }
     let (hash, bytes) = match (chunks.finish(), &job.called) {
         // The source is what calls the others.
         (_, Some(called)) => (called.sha256, called.bytes),
@@ -123,5 +145,5 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<(Outcom
     let record = translation.trace.take();
     let outcome = Outcome { straight, ..translation.outcome(hash, bytes)? };
     let record = record.filter(|_| outcome.release.is_ok()).map(Trace::finish).transpose()?;
-    Ok((outcome, inherited, record))
+    Ok(Some((outcome, inherited, record)))
 }

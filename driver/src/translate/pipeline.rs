@@ -110,6 +110,7 @@ impl Translation<'_> {
             return Ok(());
         }
         self.count();
+        self.verify_beside();
         self.streamed(false)
     }
 
@@ -384,8 +385,7 @@ impl Translation<'_> {
                 }
                 if let Some(original) = original {
                     self.take_parameters(found);
-                    let assumed = self.batch.assumed;
-                    self.check(|v| v.source(original, &assumed));
+                    self.execute_source(original);
                 }
             }
             Part::Kept(kept) => {
@@ -444,7 +444,7 @@ impl Translation<'_> {
         let assumed = self.batch.assumed;
         match part {
             Part::Piece(Piece { stmts, original, .. }) => {
-                self.release_text(&assumed, original.is_none().then_some(&stmts[..]))
+                self.release_text(&assumed, original.is_none().then_some(stmts))
             }
             Part::Kept(kept) => self.release_kept(&kept.source, &kept.renamed),
         }

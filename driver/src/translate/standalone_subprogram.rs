@@ -37,6 +37,7 @@ impl Translation<'_> {
             self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
             return true;
         }
+        self.verify_here();
         if let Some(verifier) = &mut self.verifier {
             verifier.read_as_called(self.job, &source.assumed);
         }
@@ -139,6 +140,7 @@ impl Translation<'_> {
             told.extend(checks);
         }
         self.take(told, Told::Writer);
+        self.verify_here();
         if let Some(verifier) = &mut self.verifier {
             verifier.answered(asked.into_iter().map(|asked| asked.at).collect());
         }

@@ -1,5 +1,6 @@
 //! One translation on its way: what is between source and output, piece by piece.
 
+use super::beside::Beside;
 use super::parametric::{self, target};
 use super::per_tool::origins::PerTool;
 use crate::job::parameters::{bore_shift, orientation, parameter};
@@ -29,6 +30,9 @@ use crate::verify_run::{Stop, Verifier};
 /// Pass that executes what is computed.
 pub(super) const FLATTEN: &str = "flatten";
 
+/// From so many pieces on a second thread verifies: it costs more than a short program takes.
+const PIECES_HERE: usize = 4;
+
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
 
@@ -45,7 +49,16 @@ pub(super) struct Translation<'j> {
     pub(super) legaliser: Legaliser,
     pub(super) writer: Writer,
     pub(super) text: Vec<u8>,
+    /// Absent where nothing is verified, and while a second thread has it.
     pub(super) verifier: Option<Verifier>,
+    /// The verification on a second thread.
+    pub(super) beside: Option<Beside>,
+    /// Whether it may go there.
+    pub(super) goes_beside: bool,
+    /// Pieces since it began, or came back.
+    pub(super) pieces_here: usize,
+    /// Whether it has stopped there: then this attempt is thrown away.
+    pub(super) stopped_beside: bool,
     /// Puts the source beside the text.
     pub(super) annotator: Option<Annotator>,
     /// Where the text comes from.
@@ -116,6 +129,10 @@ impl<'j> Translation<'j> {
             writer,
             text: Vec::new(),
             verifier: job.verify.then(|| Verifier::new(job)),
+            beside: None,
+            goes_beside: false,
+            pieces_here: 0,
+            stopped_beside: false,
             annotator: None,
             trace: None,
             per_tool: file_per_tool(&job.to).then(PerTool::default),
@@ -165,6 +182,10 @@ impl<'j> Translation<'j> {
 
     /// Lets the verification know what the passes took for granted, and what they folded.
     pub(super) fn take_parameters(&mut self, found: &[Diagnostic]) {
+        if !Verifier::takes(found) {
+            return;
+        }
+        self.verify_here();
         if let Some(verifier) = &mut self.verifier {
             verifier.take(found, self.job);
         }
@@ -185,7 +206,8 @@ impl<'j> Translation<'j> {
 
     /// A step of the verification, as long as there is something to verify.
     pub(super) fn check(&mut self, step: impl FnOnce(&mut Verifier) -> Result<(), Stop>) {
-        if self.errors > 0 || self.failed {
+        self.verify_here();
+        if self.errors > 0 || self.failed || self.stopped_beside {
             return;
         }
         let Some(verifier) = &mut self.verifier else { return };
@@ -197,6 +219,35 @@ impl<'j> Translation<'j> {
                 self.diagnostics.push(diagnostic);
             }
         }
+    }
+
+    /// Lets the verification of a long program go on on a second thread.
+    pub(super) fn verify_beside(&mut self) {
+        self.pieces_here += 1;
+        if !self.goes_beside || self.pieces_here < PIECES_HERE || self.per_tool.is_some() {
+            return;
+        }
+        if let Some(verifier) = self.verifier.take() {
+            match Beside::start(verifier) {
+                Ok(beside) => self.beside = Some(beside),
+                Err(verifier) => (self.verifier, self.goes_beside) = (Some(*verifier), false),
+            }
+        }
+    }
+
+    /// Takes the verification back from the second thread, when it has done its steps.
+    pub(super) fn verify_here(&mut self) {
+        let Some(beside) = self.beside.take() else { return };
+        let (verifier, result) = beside.end();
+        self.verifier = Some(verifier);
+        self.pieces_here = 0;
+        self.stopped_beside |= result.is_err();
+    }
+
+    /// Whether the verification has come as far as the text, without having stopped on a second thread.
+    pub(super) fn is_verified_here(&mut self) -> bool {
+        self.verify_here();
+        !self.stopped_beside
     }
 
     pub(super) fn count(&mut self) {

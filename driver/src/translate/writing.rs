@@ -11,6 +11,7 @@ use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 use ncc_passes::values::variables::renamed::Renamed;
 
+use super::beside::{Spare, Step};
 use super::translation::Translation;
 use crate::verify_run::Verifier;
 use crate::verify_run::controls::fixed;
@@ -104,21 +105,44 @@ impl Translation<'_> {
 
     /// Verifies the text written so far and passes it on; `said` are the statements that it says, if
     /// they are the source's own.
-    pub(super) fn release_text(&mut self, assumed: &Modes, said: Option<&[Stmt]>) -> io::Result<()> {
+    pub(super) fn release_text(&mut self, assumed: &Modes, said: Option<&mut Vec<Stmt>>) -> io::Result<()> {
         let text = self.finished_text()?;
         let inherited = self.inherited(assumed);
         // Places in the output are told by a map alone, which refuses a base that does not fit.
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
+        self.output.push(&text)?;
+        self.written += text.len() as u64;
+        if let Some(beside) = self.beside.as_ref().filter(|_| self.errors == 0) {
+            let Spare { stmts, text: next } = beside.spare();
+            let said = said.map(|said| std::mem::replace(said, stmts.unwrap_or_default()));
+            self.text = next.unwrap_or_default();
+            let step = Step::Text { said, assumed: *assumed, text, base, inherited };
+            if !beside.go_on(step) {
+                self.verify_here();
+            }
+            return Ok(());
+        }
         self.check(|v| match said {
             Some(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
             None => v.target(&text, base, &inherited),
         });
-        self.trace_events()?;
-        self.output.push(&text)?;
-        self.written += text.len() as u64;
         self.text = text;
         self.text.clear();
-        Ok(())
+        self.trace_events()
+    }
+
+    /// Executes what the passes have changed, as it was read.
+    pub(super) fn execute_source(&mut self, stmts: &mut Vec<Stmt>) {
+        let assumed = self.batch.assumed;
+        match self.beside.as_ref().filter(|_| self.errors == 0) {
+            Some(beside) => {
+                let step = Step::Source { stmts: std::mem::take(stmts), assumed };
+                if !beside.go_on(step) {
+                    self.verify_here();
+                }
+            }
+            None => self.check(|v| v.source(stmts, &assumed)),
+        }
     }
 
     /// Verifies the text of a program that was kept whole, and passes it on.

@@ -137,6 +137,31 @@ fn with_a_map_both_sides_are_executed() {
     assert!(level, "nothing would be shown");
 }
 
+/// What differs behind the first pieces is seen on the second thread too, and ends the attempt.
+#[test]
+fn a_difference_on_a_second_thread_ends_the_attempt() {
+    let job = job();
+    let text = PART.replace("T4 M06", &format!("{}T4 M06", "X11.\nX12.\n".repeat(10)));
+    for wrong in [false, true] {
+        let mut translation = Translation::new(&job);
+        let mut maps = job.machines.maps(job.to.dialect);
+        if let (true, Some(entries)) = (wrong, &mut maps.entries) {
+            // The length of the second tool.
+            entries.insert(4, 27);
+        }
+        translation.renumbering = Renumbering::new(maps);
+        translation.goes_beside = true;
+        let (mut base, mut went) = (0, false);
+        for piece in text.split_inclusive('\n') {
+            translation.piece(piece.as_bytes(), base).expect("an output in memory");
+            base += piece.len() as u32;
+            went |= translation.beside.is_some();
+        }
+        translation.end().expect("an output in memory");
+        assert_eq!((went, translation.is_verified_here()), (true, !wrong));
+    }
+}
+
 /// A part of a control that calls tools by name.
 const NAMED: &str = "G710 G17 G90 G40 G94\nG54\nT=\"drill\" M6\nD1\nS500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX10\nG0 Z50\nT=\"mill\" M6\nD1\nG0 X1 Y2 Z3\nM30\n";
 

@@ -1,0 +1,106 @@
+//! The verification of a long program on a second thread, while the next pieces are read, rewritten and written.
+//!
+//! ```text
+//! first thread     read, passes, write    | piece 5 | piece 6 | piece 7
+//! second thread    read back, compare               | piece 5 | piece 6
+//! ```
+//!
+//! The outcome is that of one thread: both do the same steps in the same order. Where the verification stops, the first
+//! thread is ahead of it, and may have found what it would not have looked for. So the whole attempt is thrown away, and
+//! the program is translated anew on one thread, which reports the stop (`translate::run`).
+//!
+//! Not here: what a step of the verification does (`verify_run`).
+
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::thread::{Builder, JoinHandle};
+
+use ncc_ir::canon::Modes;
+use ncc_ir::program::Stmt;
+
+use crate::verify_run::{Stop, Verifier};
+
+/// Pieces that the first thread may be ahead: enough that neither waits for long, and few enough for memory.
+const AHEAD: usize = 2;
+
+/// The stack of the second thread, in bytes: that of a program's first thread.
+const STACK: usize = 8 << 20;
+
+/// A step of the verification, with what it works on.
+pub(super) enum Step {
+    /// Statements of the source that the passes change.
+    Source { stmts: Vec<Stmt>, assumed: Modes },
+    /// A piece of the output; `said` are the source's statements, where the text is to say them one by one.
+    Text { said: Option<Vec<Stmt>>, assumed: Modes, text: Vec<u8>, base: u32, inherited: Modes },
+}
+
+/// What the step of a text has worked on, without its contents: its memory serves a later piece.
+#[derive(Default)]
+pub(super) struct Spare {
+    pub(super) stmts: Option<Vec<Stmt>>,
+    pub(super) text: Option<Vec<u8>>,
+}
+
+/// A verification that runs on a second thread.
+pub(super) struct Beside {
+    steps: SyncSender<Step>,
+    spare: Receiver<Spare>,
+    thread: JoinHandle<(Verifier, Result<(), Stop>)>,
+}
+
+impl Beside {
+    /// Moves a verification to a second thread; gives it back where there is none to be had.
+    pub(super) fn start(verifier: Verifier) -> Result<Beside, Box<Verifier>> {
+        let (hand, handed) = channel();
+        let (steps, to_do) = sync_channel(AHEAD);
+        let (done, spare) = channel();
+        let work = move || {
+            let mut verifier: Verifier = handed.recv().expect("the first thread hands it over");
+            let result = work(&mut verifier, &to_do, &done);
+            (verifier, result)
+        };
+        let thread = Builder::new().stack_size(STACK).spawn(work);
+        match thread {
+            Ok(thread) => match hand.send(verifier) {
+                Ok(()) => Ok(Beside { steps, spare, thread }),
+                Err(back) => Err(Box::new(back.0)),
+            },
+            Err(_) => Err(Box::new(verifier)),
+        }
+    }
+
+    /// Has a step done behind those before it; `false` if the verification has stopped.
+    pub(super) fn go_on(&self, step: Step) -> bool {
+        self.steps.send(step).is_ok()
+    }
+
+    /// Memory for the next piece, where there is some.
+    pub(super) fn spare(&self) -> Spare {
+        self.spare.try_recv().unwrap_or_default()
+    }
+
+    /// Waits until all steps are done; gives the verification back, and why it stopped, if it did.
+    pub(super) fn end(self) -> (Verifier, Result<(), Stop>) {
+        drop(self.steps);
+        self.thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    }
+}
+
+/// The second thread's work: all steps up to the first that stops.
+fn work(verifier: &mut Verifier, steps: &Receiver<Step>, done: &Sender<Spare>) -> Result<(), Stop> {
+    for step in steps {
+        match step {
+            Step::Source { stmts, assumed } => verifier.source(&stmts, &assumed)?,
+            Step::Text { mut said, assumed, mut text, base, inherited } => {
+                match &said {
+                    Some(stmts) => verifier.piece(stmts, &assumed, &text, base, &inherited)?,
+                    None => verifier.target(&text, base, &inherited)?,
+                }
+                said.iter_mut().for_each(Vec::clear);
+                text.clear();
+                // Nobody waits for it at the end.
+                let _ = done.send(Spare { stmts: said, text: Some(text) });
+            }
+        }
+    }
+    Ok(())
+}
