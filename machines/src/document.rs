@@ -6,7 +6,7 @@ use crate::schema::{
 };
 use crate::table::Table;
 
-/// The tables with fixed keys, as `docs/machine-profile.md` has them.
+/// The tables with fixed keys, as `docs/book/src/reference/machine-profile.md` has them.
 pub fn tables() -> String {
     let parts = [
         table::<PowerOn>(),
@@ -40,9 +40,12 @@ mod tests {
 
     #[test]
     fn the_document_has_every_key_of_the_types() {
-        let document = include_str!("../../docs/machine-profile.md");
+        let document = include_str!("../../docs/book/src/reference/machine-profile.md");
         let tables = tables();
-        assert!(document.contains(&tables), "docs/machine-profile.md differs from:\n{tables}");
+        assert!(
+            document.contains(&tables),
+            "docs/book/src/reference/machine-profile.md differs from:\n{tables}"
+        );
         use crate::reading::{BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, OFFSET_WITH_Z};
         for key in [BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, OFFSET_WITH_Z] {
             assert!(document.contains(&format!("| `{key}` |")), "{key}");

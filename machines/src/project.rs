@@ -311,7 +311,7 @@ impl<'de> Deserialize<'de> for Machine {
     }
 }
 
-/// The keys of a row, as `docs/project-file.md` has them.
+/// The keys of a row, as `docs/book/src/reference/project-file.md` has them.
 pub fn keys() -> String {
     let mut text = "| key | takes | what it is |\n|---|---|---|\n".to_owned();
     for key in KEYS {
@@ -331,8 +331,12 @@ mod tests {
 
     #[test]
     fn the_document_has_the_keys_of_the_types() {
-        let document = include_str!("../../docs/project-file.md");
-        assert!(document.contains(&keys()), "docs/project-file.md differs from:\n{}", keys());
+        let document = include_str!("../../docs/book/src/reference/project-file.md");
+        assert!(
+            document.contains(&keys()),
+            "docs/book/src/reference/project-file.md differs from:\n{}",
+            keys()
+        );
         let Err(wrong) = read("[[programs]]\nfiles = \"*\"\nnothing = 1\n") else { panic!("a key too many") };
         let names: Vec<String> = KEYS.iter().map(|key| format!("`{}`", key.name)).collect();
         let message = format!("unknown field `nothing`, expected one of {}", names.join(", "));
@@ -341,7 +345,7 @@ mod tests {
 
     #[test]
     fn examples_of_the_document_are_project_files() {
-        let document = include_str!("../../docs/project-file.md");
+        let document = include_str!("../../docs/book/src/reference/project-file.md");
         let examples: Vec<&str> =
             document.split("```toml\n").skip(1).filter_map(|e| e.split("```").next()).collect();
         assert_eq!(examples.len(), 2);

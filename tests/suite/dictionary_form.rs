@@ -1,4 +1,4 @@
-//! `docs/dialect.md`, the documented form of a dictionary, is that of the Rust types.
+//! `docs/book/src/reference/dialect.md`, the documented form of a dictionary, is that of the Rust types.
 //!
 //! Its reference is made from the types' own comments (`UPDATE_EXPECT=1` writes it), and the fields and
 //! values it names are those that the loader itself names when it meets one that there is not.
@@ -65,7 +65,7 @@ const VALUES: &[(&str, &str)] = &[
     ("FunctionName", "[formula.functions]\n@ = \"zz\""),
 ];
 
-/// `docs/behaviours.md` is made from the dictionaries: what codes do besides their names, with source and how sure.
+/// `docs/book/src/reference/behaviours.md` is made from the dictionaries: what codes do besides their names, with source and how sure.
 #[test]
 fn what_codes_do_besides_is_documented() {
     let mut text = String::from(concat!(
@@ -98,7 +98,10 @@ fn what_codes_do_besides_is_documented() {
         }
     }
     let mut failures = Failures::default();
-    failures.check("docs/behaviours.md", expect::file(&root().join("docs/behaviours.md"), text.as_bytes()));
+    failures.check(
+        "docs/book/src/reference/behaviours.md",
+        expect::file(&root().join("docs/book/src/reference/behaviours.md"), text.as_bytes()),
+    );
     failures.finish();
 }
 
@@ -312,12 +315,12 @@ fn meanings(file: &str) -> Vec<String> {
 
 #[test]
 fn the_reference_is_that_of_the_types() {
-    let path = root().join("docs/dialect.md");
+    let path = root().join("docs/book/src/reference/dialect.md");
     let text = fs::read_to_string(&path).expect("the page");
     let prose = text.split(REFERENCE).next().unwrap_or_default();
     let mut failures = Failures::default();
     let whole = format!("{}\n{}", prose.trim_end(), format!("\n{}", reference()).trim_end()) + "\n";
-    failures.check("docs/dialect.md", expect::file(&path, whole.as_bytes()));
+    failures.check("docs/book/src/reference/dialect.md", expect::file(&path, whole.as_bytes()));
     failures.finish();
 }
 

@@ -29,7 +29,7 @@ use crate::known::Known;
 use crate::{files, machines};
 
 /// The schema of profiles, as it is documented.
-pub const SCHEMA: &str = include_str!("../../../docs/machine-profile.md");
+pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/machine-profile.md");
 
 /// `ncc machines`.
 ///

@@ -23,7 +23,7 @@ use crate::{files, machines};
 const MOST: usize = 100_000;
 
 /// The form of the file, as it is documented.
-pub const SCHEMA: &str = include_str!("../../../docs/project-file.md");
+pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/project-file.md");
 
 /// Runs it.
 ///

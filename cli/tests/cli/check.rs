@@ -11,12 +11,12 @@ fn write(folder: &Path, name: &str, text: &[u8]) {
 }
 
 #[test]
-fn the_readme_shows_what_is_found() {
+fn the_book_shows_what_is_found() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let page = book::page("use/check.md");
     let arguments = ["tests/check/example.nc", "--machine", "tests/check/machine.toml"];
     let printed = check(&root, &arguments).exits(1).out;
-    assert!(readme.contains(&format!("```\n{printed}```\n")), "the README does not show\n{printed}");
+    assert!(page.contains(&format!("```\n{printed}```\n")), "the book does not show\n{printed}");
 }
 
 #[test]

@@ -52,9 +52,9 @@ fn programs_that_cannot_be_compared() {
     assert!(stdin.out.starts_with("<stdin> (mach9) and good.cn (mach9)\n"), "{}", stdin.out);
 }
 
-/// The README's example.
+/// The book's example.
 #[test]
-fn the_readme_shows_what_is_told() {
+fn the_book_shows_what_is_told() {
     let folder = folder();
     let old = "%\nO1\nN10 G21 G17 G90 G40 G49 G80 G94\nN20 G54\nN30 T3 M06\nN40 S1000 M03\n\
         N50 G00 X10. Y0. Z5.\nN60 G01 X0. F300.\nN70 Y5.\nN80 G00 X0. Y0.\nN90 G43 Z25. H3\n\
@@ -64,8 +64,8 @@ fn the_readme_shows_what_is_told() {
     let new = old.replace("F300", "F250").replace("N110 X20.", "N110 X20.02");
     std::fs::write(folder.path().join("new.nc"), new).unwrap();
     let told = ncc(folder.path(), &["diff", "--from", "fanuc", "old.nc", "new.nc"]).exits(1).out;
-    let readme = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")).unwrap();
-    assert!(readme.contains(&format!("```\n{told}```\n")), "the README does not show\n{told}");
+    let page = book::page("use/differences.md");
+    assert!(page.contains(&format!("```\n{told}```\n")), "the book does not show\n{told}");
 }
 
 /// Whether there is a git to be called; if not, its tests say so.

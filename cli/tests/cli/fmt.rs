@@ -116,9 +116,9 @@ fn a_program_that_cannot_be_executed_is_told_as_such() {
 }
 
 #[test]
-fn the_readme_shows_what_changes() {
+fn the_book_shows_what_changes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let page = book::page("use/layout.md");
     let printed = fmt(&root, &["--diff", "-q", "tests/fmt/example.nc", "--number", "10:10"]).exits(0).out;
-    assert!(readme.contains(&format!("```\n{printed}```\n")), "the README does not show\n{printed}");
+    assert!(page.contains(&format!("```\n{printed}```\n")), "the book does not show\n{printed}");
 }

@@ -3,6 +3,7 @@
 mod alone;
 mod arrow;
 mod batch;
+mod book;
 mod called;
 mod check;
 mod cycles;
@@ -21,7 +22,6 @@ mod plot;
 mod project;
 mod provenance;
 mod questions;
-mod readme;
 mod sessions;
 mod stored;
 mod terminal;

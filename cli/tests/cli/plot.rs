@@ -1,4 +1,4 @@
-//! `ncc plot` as a process: what it writes, what it refuses; and the pictures of the README.
+//! `ncc plot` as a process: what it writes, what it refuses; and the pictures of the book.
 
 use super::*;
 
@@ -6,7 +6,7 @@ fn plot(folder: &Path, arguments: &[&str]) -> Done {
     ncc(folder, &[&["plot"], arguments].concat())
 }
 
-/// The pictures of the README, by the arguments that make them.
+/// The pictures of the book, by the arguments that make them.
 const PICTURES: [(&str, &[&str]); 3] = [
     ("teste-charts.svg", &[]),
     ("teste-plan.svg", &["--view", "plan"]),
@@ -14,10 +14,10 @@ const PICTURES: [(&str, &[&str]); 3] = [
 ];
 
 #[test]
-fn the_pictures_of_the_readme_are_what_is_drawn() {
+fn the_pictures_of_the_book_are_what_is_drawn() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     for (name, arguments) in PICTURES {
-        let file = root.join("docs/images").join(name);
+        let file = root.join("docs/book/src/images").join(name);
         let call = ["corpus/mach9/teste.cn", "--machine", "romi-discovery-4022", "-q"];
         let drawn = plot(&root, &[&call, arguments].concat()).exits(0);
         assert_eq!(drawn.err, "");
@@ -26,8 +26,10 @@ fn the_pictures_of_the_readme_are_what_is_drawn() {
         }
         let expected = std::fs::read_to_string(&file).unwrap_or_default();
         assert!(expected == drawn.out, "{} differs; bless it with UPDATE_EXPECT=1", file.display());
-        let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
-        assert!(readme.contains(&format!("(docs/images/{name})")), "{name} is not in the README");
+        assert!(
+            book::page("use/pictures.md").contains(&format!("(../images/{name})")),
+            "{name} is not in the book"
+        );
     }
 }
 

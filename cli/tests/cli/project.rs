@@ -29,9 +29,9 @@ fn every_code_of_a_project_file_is_in_a_session() {
 }
 
 #[test]
-fn the_readme_shows_a_project_file() {
-    let readme = include_str!("../../../README.md");
-    let (_, block) = readme.split_once("```toml\n[[programs]]\n").unwrap();
+fn the_book_shows_a_project_file() {
+    let page = book::page("use/machines.md");
+    let (_, block) = page.split_once("```toml\n[[programs]]\n").unwrap();
     let (file, rest) = block.split_once("```\n").unwrap();
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("ncc.toml"), format!("[[programs]]\n{file}")).unwrap();
@@ -39,7 +39,7 @@ fn the_readme_shows_a_project_file() {
     let told = ncc(folder.path(), &["to", "siemens", "part.nc"]).exits(0).err;
     let (_, shown) = rest.split_once("```\n").unwrap();
     let (shown, _) = shown.split_once("```\n").unwrap();
-    assert!(told.starts_with(shown), "the README does not show\n{told}");
+    assert!(told.starts_with(shown), "the book does not show\n{told}");
 }
 
 #[test]

@@ -87,10 +87,10 @@ fn maps_and_comments_are_refused_where_they_cannot_be() {
 }
 
 #[test]
-fn the_readme_shows_what_stands_beside() {
+fn the_book_shows_what_stands_beside() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let page = book::page("use/why.md");
     let done = ncc(&root, &["mach9", "to", "fanuc", "corpus/mach9/arcs-xy.cn", "--annotate", "-q"]).exits(0);
     let shown: Vec<&str> = done.out.lines().skip_while(|l| !l.starts_with("G00 X0.")).take(3).collect();
-    assert!(readme.contains(&format!("```\n{}\n```\n", shown.join("\n"))), "{shown:#?}");
+    assert!(page.contains(&format!("```\n{}\n```\n", shown.join("\n"))), "{shown:#?}");
 }

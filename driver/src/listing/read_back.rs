@@ -9,7 +9,7 @@
 //! before that. Feeds that the program says by the time of a move are printed, and compared, as those of its way.
 //!
 //! Not here: how calls are printed. Nothing is shared with the printer but the form that
-//! `docs/rs274-listing.md` and the interpreter itself define.
+//! `docs/book/src/reference/rs274-listing.md` and the interpreter itself define.
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_exec::verify::{Comparison, Resolution};

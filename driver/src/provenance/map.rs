@@ -2,7 +2,7 @@
 //!
 //! One line of the document for each line of the output, written as they come: neither the document nor
 //! the output is held in memory, only where the lines of the source begin. The rows of the dictionaries
-//! that the lines refer to stand at its end. `docs/provenance-map.md` describes the form; its schema is
+//! that the lines refer to stand at its end. `docs/book/src/reference/provenance-map.md` describes the form; its schema is
 //! [`SCHEMA`]. The number in `version` changes when a field changes its meaning or goes, not when one is
 //! added.
 

@@ -7,7 +7,7 @@ use ncc_ir::canon::ReturnLevel;
 use ncc_ir::caps::ReturnsTo;
 
 /// The form of a dictionary, for whoever writes one.
-pub const SCHEMA: &str = include_str!("../../../docs/dialect.md");
+pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/dialect.md");
 
 /// One line for each dialect.
 pub fn list(dialects: &[&Dialect]) -> String {

@@ -1,5 +1,5 @@
 //! What a comparison has come to, as it is written down: the document of `--format json`, and the
-//! certificate, which are one form. `docs/certificate.md` describes it, `driver/schema/certificate.schema.json`
+//! certificate, which are one form. `docs/book/src/reference/certificate.md` describes it, `driver/schema/certificate.schema.json`
 //! is its JSON Schema.
 //!
 //! The number in `version` changes when a field changes its meaning, comes or goes: a certificate is
