@@ -69,6 +69,18 @@ fn blocks(page: &str) -> Vec<(&str, &str)> {
     found
 }
 
+/// Copies a folder.
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir(to).unwrap();
+    for entry in fs::read_dir(from).unwrap().map(Result::unwrap) {
+        let to = to.join(entry.file_name());
+        match entry.file_type().unwrap().is_dir() {
+            true => copy(&entry.path(), &to),
+            false => drop(fs::copy(entry.path(), to).unwrap()),
+        }
+    }
+}
+
 /// What a command of a `console` block prints.
 fn console(folder: &Path, command: &str) -> String {
     let words: Vec<&str> = command.split(' ').collect();
@@ -88,6 +100,9 @@ fn consoles_print_what_their_pages_show() {
     for path in pages() {
         let text = fs::read_to_string(&path).unwrap();
         let folder = tempfile::tempdir().unwrap();
+        if text.contains(" corpus/") && text.contains("```console") {
+            copy(&root().join("corpus"), &folder.path().join("corpus"));
+        }
         for (head, text) in blocks(&text) {
             if let Some(name) = head.strip_prefix("gcode ") {
                 fs::write(folder.path().join(name), text).unwrap();
