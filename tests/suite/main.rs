@@ -11,6 +11,7 @@ mod computing;
 mod computing_pages;
 mod controls;
 mod cycles;
+mod dialect_pages;
 mod dialects;
 mod dictionary_form;
 mod diff;
