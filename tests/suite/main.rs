@@ -5,13 +5,13 @@
 
 mod anywhere;
 mod beside;
+mod book_pages;
 mod check;
 mod circles;
 mod computing;
 mod computing_pages;
 mod controls;
 mod cycles;
-mod dialect_pages;
 mod dialects;
 mod dictionary_form;
 mod diff;

@@ -1,7 +1,8 @@
-//! `docs/book/src/reference/dialects/*.md` are made from the dictionaries: one page a dialect, with the meaning of each word, what it
-//! does besides, what is refused, and who says so.
+//! Pages of the book that are made: of each dialect, from its dictionary (`reference/dialects`), with the meaning of each word, what it
+//! does besides, what is refused, and who says so; and of all messages, from the pages of `ncc explain` (`reference/messages`).
 
 use std::fmt::Write as _;
+use std::fs;
 
 use ncc_dialects::{CodeRow, Dialect, builtins};
 use ncc_driver::render::dialects::spaced;
@@ -165,5 +166,49 @@ fn each_dialect_has_a_page_in_the_book() {
         let name = format!("{}.md", dialect.id);
         failures.check(&name, expect::file(&folder.join(&name), page(dialect).as_bytes()));
     }
+    failures.finish();
+}
+
+/// Hundreds of the codes of messages, with the name of their page and what they are about.
+const MESSAGES: [(&str, &str, &str); 8] = [
+    ("NC01", "text", "the text of a program"),
+    ("NC02", "meaning", "what a block means"),
+    ("NC03", "assumptions", "assumptions and questions"),
+    ("NC04", "changes", "what reads differently"),
+    ("NC05", "target", "what the target lacks"),
+    ("NC06", "verification", "verification"),
+    ("NC07", "files", "your own files: dialects, profiles, `ncc.toml`"),
+    ("NC08", "checks", "checks"),
+];
+
+#[test]
+fn each_message_has_a_place_in_the_book() {
+    let pages = root().join("driver/pages");
+    let mut names: Vec<String> = fs::read_dir(&pages)
+        .expect("the pages of messages")
+        .map(|entry| entry.expect("a page").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let mut failures = Failures::default();
+    let mut placed = 0;
+    for (code, name, about) in MESSAGES {
+        let mut page = format!("# Messages {code}xx: {about}\n\nMade from the pages of `ncc explain`.\n");
+        for file in names.iter().filter(|file| file.starts_with(code)) {
+            placed += 1;
+            // One level deeper, as each is a part here.
+            let text = fs::read_to_string(pages.join(file)).expect("a page");
+            let mut fenced = false;
+            for line in text.trim_end().lines() {
+                fenced ^= line.starts_with("```");
+                let deeper = if line.starts_with('#') && !fenced { "#" } else { "" };
+                let above = if line.starts_with("# ") { "\n" } else { "" };
+                let _ = writeln!(page, "{above}{deeper}{line}");
+            }
+        }
+        let name = format!("{name}.md");
+        let file = root().join("docs/book/src/reference/messages").join(&name);
+        failures.check(&name, expect::file(&file, page.as_bytes()));
+    }
+    assert_eq!(placed, names.len(), "a message is on no page");
     failures.finish();
 }
