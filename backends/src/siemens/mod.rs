@@ -462,6 +462,15 @@ fn digits(n: Shaped) -> String {
     String::from_utf8_lossy(&text).into_owned()
 }
 
+/// A word of one letter.
+fn lettered(letter: u8, n: Shaped) -> String {
+    let mut text = Vec::with_capacity(16);
+    text.push(letter);
+    number::append(&mut text, n);
+    // Letters and digits are ASCII.
+    String::from_utf8(text).unwrap_or_default()
+}
+
 /// A call with its arguments; those that are left out at the end are not written.
 fn call_text(row: &CallRow, mut arguments: Vec<Option<String>>) -> String {
     while arguments.last().is_some_and(Option::is_none) {

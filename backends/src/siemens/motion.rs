@@ -7,7 +7,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Op, Point, Shape, Stmt, Turns};
 use ncc_ir::source::Span;
 
-use super::{Sink, Writer, digits};
+use super::{Sink, Writer, digits, lettered};
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::Code;
 use crate::common::fault::cannot;
@@ -70,7 +70,7 @@ impl Writer {
             Centre::Radius(radius) => vec![self.named(NameRole::Radius, radius, None, span, sink)?],
             Centre::Point { words, from } => {
                 let plane = arc.plane.known().or(self.words.active.plane);
-                let mut written = Vec::new();
+                let mut written = Vec::with_capacity(3);
                 for axis in [Axis::X, Axis::Y, Axis::Z] {
                     let outside = plane.is_some_and(|p| p.axes().2 == axis);
                     match &words[axis as usize] {
@@ -224,7 +224,7 @@ impl Writer {
         let value = self.words.centre_number(&letter, axis, value, from, span, sink)?;
         let name = letter.letter as char;
         Ok(match from {
-            CentreFrom::Start => format!("{name}{}", digits(value)),
+            CentreFrom::Start => lettered(letter.letter, value),
             CentreFrom::Zero => number::qualified(name, "AC", value),
         })
     }

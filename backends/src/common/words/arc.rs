@@ -5,7 +5,7 @@
 use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::expr::num::{Nanos, POW10, Unit};
 use ncc_ir::geometry;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Move};
 use ncc_ir::source::Span;
@@ -66,16 +66,29 @@ impl Words {
     /// How far an arc goes round, in degrees, of which the ends become one point when they are rounded.
     fn sweep_of_vanishing(&self, arc: &Arc) -> Option<f64> {
         let (first, second, _) = self.tracker.plane(arc.plane)?.axes();
-        let along = |axis: Axis| Some((self.axis_position(axis).ok()?, self.arrives(arc, axis).ok()?));
-        let [(a, b), (c, d)] = [along(first)?, along(second)?];
         let end = self.tracker.target(&arc.to);
         let exact = |axis: Axis| Some([self.tracker.position[axis as usize]?, end[axis as usize]?]);
         let ([x, to_x], [y, to_y]) = (exact(first)?, exact(second)?);
+        if self.arrives_apart(first, to_x) || self.arrives_apart(second, to_y) {
+            return None;
+        }
+        let along = |axis: Axis| Some((self.axis_position(axis).ok()?, self.arrives(arc, axis).ok()?));
+        let [(a, b), (c, d)] = [along(first)?, along(second)?];
         if (a, c) != (b, d) || (x, y) == (to_x, to_y) || !arc.turns.is_none() {
             return None;
         }
         let centre = self.tracker.centre(arc)?;
         Some(geometry::sweep_degrees([x, y], [to_x, to_y], centre, arc.turn, 0).abs())
+    }
+
+    /// Whether a place along an axis is surely another than the one that was written last, however it is rounded: further
+    /// from it than a unit of the last digit, of inches too.
+    fn arrives_apart(&self, axis: Axis, to: Nanos) -> bool {
+        let (Some(letter), Ok(from)) = (self.codes.axes[axis as usize], self.axis_position(axis)) else {
+            return false;
+        };
+        let [mm, inch] = letter.format.decimals.map(|decimals| POW10[9 - usize::from(decimals.min(9))]);
+        from.abs_diff(to) > mm.max(inch * 254 / 10).unsigned_abs()
     }
 
     /// An arc of less than a quarter of a turn whose ends become one point when they are rounded is a line: as an arc it
