@@ -23,7 +23,7 @@ use crate::support::write::{Rebuild, rebuild};
 use crate::target::Target;
 use ncc_exec::{DEGREES, LINEAR};
 use ncc_ir::behaviour::Behaviour;
-use ncc_ir::canon::{AXES, FeedMode, Units};
+use ncc_ir::canon::{AXES, FeedMode, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::geometry;
@@ -133,6 +133,12 @@ impl FeedTimeState {
     }
 }
 
+/// What was in force before a statement.
+struct Before {
+    modes: Modes,
+    feed: Option<Num>,
+}
+
 /// Runs it alone.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
@@ -159,10 +165,18 @@ pub(crate) fn convert_feed_time(
         if std::mem::replace(&mut after_flow, matches!(stmt.op, flow!())) {
             entries.into_iter().for_each(|known| known.feeds(&stmt, &mut walk.at));
         }
-        let before = walk.at.clone();
+        let before = Before { modes: walk.at.modes, feed: walk.at.feed };
         if let Op::UseToolCentrePoint(on) = stmt.op {
             state.tip = on;
         }
+        let timed = match &stmt.op {
+            Op::StraightFeed(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
+                Some(line(&m.to, &walk.at, target))
+            }
+            _ => None,
+        };
+        let in_time = before.modes.feed_mode == Some(FeedMode::InverseTime);
+        let arc_from = (in_time && matches!(stmt.op, Op::ArcFeed(_))).then(|| walk.at.clone());
         walk.step(&stmt);
         let again = match &stmt.op {
             Op::SetFeedMode(mode) => before.modes.feed_mode == Some(*mode),
@@ -174,28 +188,27 @@ pub(crate) fn convert_feed_time(
             walk.at.feed = walk.at.feed.or(before.feed);
         }
         match &stmt.op {
-            Op::StraightFeed(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
-                match line(&m.to, &before, target) {
-                    Ok(None) => state.back(&mut stmt, &before, target, made),
-                    Ok(Some(time)) => {
-                        if !std::mem::replace(&mut state.reported, true) {
-                            diags.push(Diagnostic::new(Fault::FeedByTime, stmt.span));
-                        }
-                        state.by_time(&mut stmt, &before, time, target, made);
+            Op::StraightFeed(_) if timed.is_some() => match timed.unwrap_or(Ok(None)) {
+                Ok(None) => state.back(&mut stmt, &before, target, made),
+                Ok(Some(time)) => {
+                    if !std::mem::replace(&mut state.reported, true) {
+                        diags.push(Diagnostic::new(Fault::FeedByTime, stmt.span));
                     }
-                    Err(what) => {
-                        let fault = Fault::TargetLacks { what: what.into() };
-                        diags.push(Diagnostic::new(fault, stmt.span));
-                    }
+                    state.by_time(&mut stmt, &before, time, target, made);
                 }
-            }
+                Err(what) => {
+                    let fault = Fault::TargetLacks { what: what.into() };
+                    diags.push(Diagnostic::new(fault, stmt.span));
+                }
+            },
             Op::Position(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
                 let what = "a feed of linear and rotary axes together that may be a rapid".into();
                 diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
             }
-            Op::ArcFeed(arc) if before.modes.feed_mode == Some(FeedMode::InverseTime) => {
+            Op::ArcFeed(arc) if in_time => {
                 if arcs_differ(target)
-                    && let Err(what) = arc_by_time(arc, &before, target, made)
+                    && let Some(from) = &arc_from
+                    && let Err(what) = arc_by_time(arc, from, target, made)
                 {
                     let fault = Fault::TargetLacks { what: what.into() };
                     diags.push(Diagnostic::new(fault, stmt.span));
@@ -226,7 +239,7 @@ pub(crate) fn convert_feed_time(
 
 impl FeedTimeState {
     /// A block by its time.
-    fn by_time(&mut self, stmt: &mut Stmt, before: &Tracker, time: Num, target: &Target, made: &mut Rebuild) {
+    fn by_time(&mut self, stmt: &mut Stmt, before: &Before, time: Num, target: &Target, made: &mut Rebuild) {
         let mut said = Vec::new();
         // F in the same block is that of the other way.
         let stated = made.out.pop_if(|last| stmt.joined && matches!(last.op, Op::SetFeedRate(_)));
@@ -246,7 +259,7 @@ impl FeedTimeState {
     }
 
     /// The feed counts again what it counts in the source.
-    fn back(&mut self, stmt: &mut Stmt, before: &Tracker, target: &Target, made: &mut Rebuild) {
+    fn back(&mut self, stmt: &mut Stmt, before: &Before, target: &Target, made: &mut Rebuild) {
         let Some(mode) = self.by_time.take() else { return };
         let mut said = Vec::new();
         if target.caps.modes.feed_by_time && !self.mode_said {
