@@ -8,6 +8,7 @@
 //!
 //! Not here: what an event is, and when two are the same (`ncc_exec::verify`).
 
+mod arcs;
 pub mod controls;
 mod differences;
 mod ended;
@@ -140,6 +141,7 @@ impl Verifier {
             others: Vec::new(),
             holes_ahead: None,
             holes_differ: false,
+            arcs_ahead: None,
             open: looked_at(job),
             optional_stop: stops_differ(job),
             matters: Vec::new(),
@@ -287,8 +289,8 @@ impl Verifier {
         }
         self.read_back(inherited)?;
         let alike = |run: &Run| absolute || run.source.counts_alike(&run.target, stmts);
-        let switches =
-            |run: &Run| stmts.iter().all(|s| s.skip.is_none() || run.source.skips(s) == run.target.skips(s));
+        let levels = levels(stmts);
+        let switches = |run: &Run| run.source.skips_as(&run.target, levels);
         let agree = |run: &Run| run.source.agrees_on_lines(&run.target) && alike(run) && switches(run);
         if !self.others.is_empty() || !self.runs.iter().all(agree) {
             // This piece is the first to rely on something that only one of them has.
@@ -358,11 +360,9 @@ impl Verifier {
 
     /// Whether the text just read says plain moves as they were said, and all controls are level.
     fn same_plain(&self, said: &[Stmt]) -> bool {
-        let read = &self.batch.stmts;
         self.others.is_empty()
             && self.runs.iter().all(|run| run.level)
-            && said.len() == read.len()
-            && said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b))
+            && verify::same_lines(said, &self.batch.stmts)
     }
 
     /// Ends a program that was streamed to its end.
@@ -498,6 +498,10 @@ mod tests {
         assert!(verifier.runs.iter().all(|run| run.level && run.source.agrees(&run.target)));
         // A tool change and three moves, then four moves, in each world.
         assert_eq!(verifier.covered().events, u64::from(WORLDS) * 8);
+        let remarks = SECOND.replace("\n", " (A REMARK)\n");
+        let verifier = second_piece(&remarks, &format!("(ANOTHER)\n{SECOND}")).expect("the same program");
+        assert_eq!(verifier.covered().events, u64::from(WORLDS) * 8);
+        assert!(verifier.runs.iter().all(|run| run.level && run.target_events.capacity() < 8));
     }
 
     #[test]
@@ -505,6 +509,11 @@ mod tests {
         for (from, to) in [("Y10.", "Y10.001"), ("F200.", "F201."), ("G00 Z5.", "Z5."), ("X10.\n", "")] {
             let written = SECOND.replacen(from, to, 1);
             assert!(matches!(second_piece(SECOND, &written), Err(Stop::Target(_))), "{from} → {to}");
+        }
+        // What is more or less at the end, a next piece may have.
+        for written in [format!("{SECOND}Z6.\n"), SECOND.replacen("G00 Z5.\n", "(A REMARK)\n", 1)] {
+            let verifier = second_piece(SECOND, &written).expect("no difference yet");
+            assert!(verifier.runs.iter().all(|run| !run.level), "{written}");
         }
     }
 

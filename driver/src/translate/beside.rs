@@ -29,8 +29,9 @@ const STACK: usize = 8 << 20;
 pub(super) enum Step {
     /// Statements of the source that the passes change.
     Source { stmts: Vec<Stmt>, assumed: Modes },
-    /// A piece of the output; `said` are the source's statements, where the text is to say them one by one.
-    Text { said: Option<Vec<Stmt>>, assumed: Modes, text: Vec<u8>, base: u32, inherited: Modes },
+    /// A piece of the output; `said` are the source's statements, where the text is to say them one by one, and there may be
+    /// `arcs` among them.
+    Text { said: Option<Vec<Stmt>>, arcs: bool, assumed: Modes, text: Vec<u8>, base: u32, inherited: Modes },
 }
 
 /// What the step of a text has worked on, without its contents: its memory serves a later piece.
@@ -90,8 +91,12 @@ fn work(verifier: &mut Verifier, steps: &Receiver<Step>, done: &Sender<Spare>) -
     for step in steps {
         match step {
             Step::Source { stmts, assumed } => verifier.source(&stmts, &assumed)?,
-            Step::Text { mut said, assumed, mut text, base, inherited } => {
+            Step::Text { mut said, arcs, assumed, mut text, base, inherited } => {
                 match &said {
+                    Some(stmts) if arcs => {
+                        verifier.source_said(stmts, &assumed)?;
+                        verifier.target_saying(stmts, &text, base, &inherited)?;
+                    }
                     Some(stmts) => verifier.piece(stmts, &assumed, &text, base, &inherited)?,
                     None => verifier.target(&text, base, &inherited)?,
                 }

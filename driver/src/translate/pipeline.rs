@@ -7,6 +7,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::io;
 
+use ncc_exec::are_arcs;
 use ncc_ir::canon::Modes;
 use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Gravity};
@@ -14,6 +15,7 @@ use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
 use ncc_ir::program::{Lines, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::Told;
+use ncc_passes::Touch;
 use ncc_passes::flow::restored_modes::left_out;
 use ncc_passes::flow::unused_labels;
 use ncc_passes::frames::machine_cuts;
@@ -26,6 +28,7 @@ use ncc_passes::watch::{ran, ran_whole};
 use super::parametric::{self, target};
 use super::snapshot::Snapshot;
 use super::translation::{FLATTEN, Translation};
+use super::writing::Said;
 use crate::stretches::{Stretch, Words, concerns, pack, reshape, stand, unpack};
 use crate::translate::rewrite::{self, Folder};
 
@@ -44,6 +47,10 @@ struct Piece {
     over: bool,
     /// The blocks as they were read, where a pass changes them.
     original: Option<Vec<Stmt>>,
+    /// What the passes do to them.
+    touch: Touch,
+    /// Whether the source's statements are executed, though no pass has changed any.
+    executed: bool,
     /// Set where they are nothing but straight moves.
     lines: Option<Lines>,
     /// What was taken for granted of the source, in the target machine's numbers.
@@ -54,7 +61,8 @@ struct Piece {
 impl Piece {
     fn new(stmts: Vec<Stmt>, over: bool) -> Piece {
         let (lines, there) = (None, Modes::default());
-        Piece { stmts, over, original: None, lines, there, found: Vec::new() }
+        let (touch, executed) = (Touch::Changes, false);
+        Piece { stmts, over, original: None, touch, executed, lines, there, found: Vec::new() }
     }
 }
 
@@ -237,9 +245,11 @@ impl Translation<'_> {
                 piece.lines = lines;
                 let plain = lines.is_some_and(|lines| self.side_effects.passes(lines));
                 let switches = !plain && self.side_effects.touches(stmts);
-                let touched =
-                    unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts, lines);
-                piece.original = touched.then(|| unfolded.unwrap_or_else(|| stmts.clone()));
+                let changes = unfolded.is_some() || renumbers || switches;
+                let touch =
+                    if changes { Touch::Changes } else { self.legaliser.touches(stmts, lines, &piece.there) };
+                piece.touch = touch;
+                piece.original = (touch == Touch::Changes).then(|| unfolded.unwrap_or_else(|| stmts.clone()));
             }
             Part::Kept(kept) => {
                 let unknown = leads_nowhere(&kept.source);
@@ -376,16 +386,23 @@ impl Translation<'_> {
     /// for granted holds for it as well.
     fn legalise(&mut self, part: &mut Part) -> Result<(), Refused> {
         match part {
-            Part::Piece(Piece { stmts, original, lines, there, found, .. }) => {
-                self.legaliser.run(stmts, there, *lines, found);
-                // Lines that all passes have left as they were are compared as they are written.
-                if original.as_ref() == Some(stmts) && stmts.iter().all(goes_straight) {
-                    *original = None;
-                    self.take_parameters(found);
+            Part::Piece(Piece { stmts, original, touch, executed, lines, there, found, .. }) => {
+                self.legaliser.run_touching(stmts, there, (*lines, *touch), found);
+                // Lines and arcs that all passes have left as they were are compared as they are written.
+                if original.as_ref() == Some(stmts) {
+                    if stmts.iter().all(goes_straight) {
+                        (*original, *touch) = (None, Touch::Passes);
+                        self.take_parameters(found);
+                    } else if are_arcs(stmts) {
+                        (*original, *touch) = (None, Touch::JudgesArcs);
+                    }
                 }
                 if let Some(original) = original {
                     self.take_parameters(found);
                     self.execute_source(original);
+                } else if *touch == Touch::JudgesArcs {
+                    self.take_parameters(found);
+                    *executed = self.execute_arcs(stmts);
                 }
             }
             Part::Kept(kept) => {
@@ -443,8 +460,13 @@ impl Translation<'_> {
     fn release(&mut self, part: &mut Part) -> io::Result<()> {
         let assumed = self.batch.assumed;
         match part {
-            Part::Piece(Piece { stmts, original, .. }) => {
-                self.release_text(&assumed, original.is_none().then_some(stmts))
+            Part::Piece(Piece { stmts, original, touch, executed, .. }) => {
+                let said = match (original, touch) {
+                    (Some(_), _) => Said::Otherwise,
+                    (None, Touch::JudgesArcs) => Said::Arcs(stmts, *executed),
+                    (None, _) => Said::Lines(stmts),
+                };
+                self.release_text(&assumed, said)
             }
             Part::Kept(kept) => self.release_kept(&kept.source, &kept.renamed),
         }

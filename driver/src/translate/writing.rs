@@ -16,6 +16,16 @@ use super::translation::Translation;
 use crate::verify_run::Verifier;
 use crate::verify_run::controls::fixed;
 
+/// What a text is to say.
+pub(super) enum Said<'s> {
+    /// These lines of the source, one by one.
+    Lines(&'s mut Vec<Stmt>),
+    /// These arcs and lines of the source, one by one; and whether the verification has executed them.
+    Arcs(&'s mut Vec<Stmt>, bool),
+    /// Something else than the source, which is executed.
+    Otherwise,
+}
+
 impl Translation<'_> {
     /// Makes statements of facts that always hold for the source's control, and not for the
     /// target's, as soon as the program relies on them. (A target with a safe start states them there.)
@@ -98,14 +108,13 @@ impl Translation<'_> {
         self.foot(&there, &mut found);
         self.writer.finish(&mut self.text, &mut found);
         self.take(found, Told::Writer);
-        self.release_text(&assumed, None)?;
+        self.release_text(&assumed, Said::Otherwise)?;
         self.check(Verifier::finish);
         self.trace_events()
     }
 
-    /// Verifies the text written so far and passes it on; `said` are the statements that it says, if
-    /// they are the source's own.
-    pub(super) fn release_text(&mut self, assumed: &Modes, said: Option<&mut Vec<Stmt>>) -> io::Result<()> {
+    /// Verifies the text written so far and passes it on.
+    pub(super) fn release_text(&mut self, assumed: &Modes, said: Said) -> io::Result<()> {
         let text = self.finished_text()?;
         let inherited = self.inherited(assumed);
         // Places in the output are told by a map alone, which refuses a base that does not fit.
@@ -114,17 +123,34 @@ impl Translation<'_> {
         self.written += text.len() as u64;
         if let Some(beside) = self.beside.as_ref().filter(|_| self.errors == 0) {
             let Spare { stmts, text: next } = beside.spare();
-            let said = said.map(|said| std::mem::replace(said, stmts.unwrap_or_default()));
+            let arcs = matches!(said, Said::Arcs(..));
+            let said = match said {
+                Said::Lines(said) | Said::Arcs(said, _) => {
+                    Some(std::mem::replace(said, stmts.unwrap_or_default()))
+                }
+                Said::Otherwise => None,
+            };
             self.text = next.unwrap_or_default();
-            let step = Step::Text { said, assumed: *assumed, text, base, inherited };
+            let step = Step::Text { said, arcs, assumed: *assumed, text, base, inherited };
             if !beside.go_on(step) {
                 self.verify_here();
             }
             return Ok(());
         }
+        if self.beside.is_some() && matches!(said, Said::Arcs(_, false)) {
+            // On one thread the source would have been executed before the writer refused anything.
+            self.verify_here();
+            self.stopped_beside = true;
+        }
         self.check(|v| match said {
-            Some(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
-            None => v.target(&text, base, &inherited),
+            Said::Lines(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
+            Said::Arcs(stmts, executed) => {
+                if !executed {
+                    v.source_said(stmts, assumed)?;
+                }
+                v.target_saying(stmts, &text, base, &inherited)
+            }
+            Said::Otherwise => v.target(&text, base, &inherited),
         });
         self.text = text;
         self.text.clear();
@@ -143,6 +169,17 @@ impl Translation<'_> {
             }
             None => self.check(|v| v.source(stmts, &assumed)),
         }
+    }
+
+    /// Executes arcs and lines that the passes have left as they are; `false` where the second thread does that with their
+    /// text.
+    pub(super) fn execute_arcs(&mut self, stmts: &[Stmt]) -> bool {
+        let here = self.beside.is_none();
+        if here {
+            let assumed = self.batch.assumed;
+            self.check(|v| v.source_said(stmts, &assumed));
+        }
+        here
     }
 
     /// Verifies the text of a program that was kept whole, and passes it on.

@@ -99,6 +99,13 @@ pub(super) struct HolesMade {
     pub(super) events: u64,
 }
 
+/// Arcs of one run that the source has made, and the target not yet.
+pub(super) struct ArcsMade {
+    /// The source's control before them.
+    pub(super) before: Exec,
+    pub(super) events: u64,
+}
+
 /// A verification in progress.
 pub struct Verifier {
     pub(super) reader: Reader,
@@ -114,6 +121,8 @@ pub struct Verifier {
     pub(super) holes_ahead: Option<HolesAhead>,
     /// Whether it did not, under the cycle in force.
     pub(super) holes_differ: bool,
+    /// What each run has made of arcs that the source has executed, where the target is likely to make the same.
+    pub(super) arcs_ahead: Option<Vec<ArcsMade>>,
     /// Open facts of the source's control, the target's, a bit each, that are looked at.
     pub(super) open: [u64; 2],
     /// Whether the switch for optional stops makes a difference on either control.

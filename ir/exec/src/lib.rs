@@ -35,6 +35,7 @@ pub use frames::chain::Chain;
 pub use frames::slots::{Frames, Present, Rotation, Scale};
 pub use frames::tilt::TiltedPlane;
 pub use motion_modes::named_tool;
+pub use moves::arcs::same::are_arcs;
 pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::{Compensation, NOWHERE, STILL};
 pub use moves::fine::Increments;
@@ -157,6 +158,8 @@ pub struct Exec {
     /// Whether straight moves that go nowhere make events.
     every_move: bool,
     counted: u64,
+    /// The rule for arcs of another control, where one execution is to stand for both.
+    beside: Option<Box<moves::arcs::same::Beside>>,
     /// Cuts with the spindle stopped.
     standing: moves::standing::Standing,
     /// The first arc under compensation: outer and inner ones, each with F at the tool centre and along the contour.
@@ -261,6 +264,7 @@ impl Exec {
             narrating: false,
             every_move: false,
             counted: 0,
+            beside: None,
             standing: moves::standing::Standing::default(),
             arc_feeds: [[None; 2]; 2],
         };
@@ -301,6 +305,11 @@ impl Exec {
     #[inline]
     pub fn skips(&self, stmt: &Stmt) -> bool {
         stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1)
+    }
+
+    /// Whether the switches of these levels (bit n is level n) stand here as on another control.
+    pub fn skips_as(&self, other: &Exec, levels: u16) -> bool {
+        (self.skip ^ other.skip) & levels == 0
     }
 
     fn fault<T>(&self, fault: Fault, span: Span) -> Result<T, Diagnostic> {

@@ -11,7 +11,8 @@ mod besides;
 mod plain;
 mod same;
 
-pub use plain::{counts_from_there, same_plain};
+pub(crate) use plain::is_silent;
+pub use plain::{counts_from_there, same_arcs, same_lines, same_plain};
 
 use besides::{Passed, from_start, switched_by_control, with_z_of, z_passed_over};
 

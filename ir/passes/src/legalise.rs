@@ -19,6 +19,7 @@ mod tool_data;
 
 use crate::arcs::arc_form::ArcFormState;
 use crate::arcs::expand_corners::ExpandCornersState;
+use crate::arcs::still_blocks::StillBlocksState;
 use crate::frames::expand_frames::ExpandFramesState;
 use crate::frames::frame_increments::FrameIncrementsState;
 use crate::frames::machine_moves::MachineMovesState;
@@ -41,7 +42,7 @@ use crate::tools::tool_axis::ToolAxisState;
 use crate::tools::tool_edge::ToolEdgeState;
 use crate::tools::z_after_change::ZAfterChangeState;
 
-use crate::arcs::{arc_form, convert_arcs};
+use crate::arcs::{arc_form, arc_radii, convert_arcs};
 use crate::flow::{expand_repeats, repeat_ends};
 use crate::frames::expand_frames;
 use crate::holes::return_plane;
@@ -57,6 +58,7 @@ use crate::table::PASSES;
 use crate::target::Target;
 use crate::tools::tool_axis;
 use crate::watch::{ran, ran_whole};
+use ncc_exec::are_arcs;
 use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Modes};
 use ncc_ir::caps::Caps;
@@ -81,6 +83,17 @@ const FOLLOWED: u32 = THREAD
     | TOOL_AXIS
     | CORNER
     | AT_ONCE;
+
+/// What the passes do to further statements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Touch {
+    /// Nothing concerns them.
+    Passes,
+    /// They have judged each arc by the target's rule and digits, and change nothing.
+    JudgesArcs,
+    /// They may change something.
+    Changes,
+}
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -197,6 +210,18 @@ impl Legaliser {
         lines: Option<Lines>,
         diags: &mut Vec<Diagnostic>,
     ) {
+        self.run_touching(stmts, assumed, (lines, Touch::Changes), diags);
+    }
+
+    /// The same, where it is known what the passes do.
+    pub fn run_touching(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        assumed: &Modes,
+        (lines, touch): (Option<Lines>, Touch),
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let judged = touch == Touch::JudgesArcs;
         self.shared.walk.assume(assumed);
         self.shared.states.state_mut::<ExpandFramesState>().assume(assumed);
         let lines = self.absolute(lines);
@@ -204,10 +229,15 @@ impl Legaliser {
         let nowhere = Walk::default();
         let mut piece = Piece { stmts, needs: 0, start: &nowhere, assumed, lines, diags, done: false };
         self.steps(Moment::Arrival, &mut piece);
-        piece.needs = self.needs(piece.stmts);
+        piece.needs = if judged { 0 } else { self.needs(piece.stmts) };
         self.follow_cycles(&piece);
         let start = (piece.needs != 0).then(|| self.shared.walk.clone());
-        self.follow_piece(&piece);
+        if judged && !self.shared.target.caps.arcs.forms {
+            let state = self.shared.states.state_mut::<ArcFormState>();
+            piece.stmts.iter().for_each(|stmt| state.step(stmt, &mut self.shared.walk));
+        } else {
+            self.follow_piece(&piece);
+        }
         if let Some(start) = start {
             let mut piece = Piece { start: &start, stmts: piece.stmts, diags: piece.diags, ..piece };
             self.run_passes(&mut piece, None);
@@ -296,16 +326,51 @@ impl Legaliser {
     }
 
     /// Whether further statements of the main procedure would be rewritten.
-    pub fn touches(&self, stmts: &[Stmt], lines: Option<Lines>) -> bool {
+    pub fn touches(&self, stmts: &[Stmt], lines: Option<Lines>, assumed: &Modes) -> Touch {
+        let needs = self.needs(stmts);
+        match needs & !ARC != 0 || self.concerns(stmts, lines) {
+            false if needs == 0 => Touch::Passes,
+            false if self.leaves_arcs(stmts, assumed) => Touch::JudgesArcs,
+            _ => Touch::Changes,
+        }
+    }
+
+    /// Whether a pass would look at statements for something else than what the target lacks.
+    fn concerns(&self, stmts: &[Stmt], lines: Option<Lines>) -> bool {
         let Shared { states, walk, .. } = &self.shared;
-        self.needs(stmts) != 0
-            || self.shared.times_differ
-                && lines.is_none()
-                && states.ask(|times: &FeedTimeState| times.concerns(stmts, walk))
+        self.shared.times_differ
+            && lines.is_none()
+            && states.ask(|times: &FeedTimeState| times.concerns(stmts, walk))
             || self.absolute(lines).is_none()
                 && states.ask(|own: &FrameIncrementsState| own.concerns(stmts, walk.at.modes.distance))
             || states.ask(|own: &LengthAxisState| own.concerns(stmts))
             || states.ask(|own: &ZAfterChangeState| own.concerns(stmts))
+    }
+
+    /// Whether the passes for arcs leave all of them as they are.
+    fn leaves_arcs(&self, stmts: &[Stmt], assumed: &Modes) -> bool {
+        let Shared { measures, source_arcs, target, walk, states, .. } = &self.shared;
+        // One of the passes looks at the lines among them then.
+        let others = *measures || states.ask(|own: &StillBlocksState| own.looked_over);
+        if others || !are_arcs(stmts) {
+            return false;
+        }
+        let mut walk = walk.clone();
+        walk.assume(assumed);
+        stmts.iter().all(|stmt| {
+            walk.enter(stmt.skip);
+            let left = match &stmt.op {
+                Op::ArcFeed(arc) => {
+                    !convert_arcs::may_be_too_fine(&stmt.op, target.decimals)
+                        && source_arcs.is_none_or(|own| arc_radii::keeps(arc, &walk, &own, target))
+                        && (target.caps.arcs.helix || !refuse::is_helix(arc, &walk.at))
+                        && (target.caps.arcs.turns || arc.turns.is_none())
+                }
+                _ => true,
+            };
+            walk.step(stmt);
+            left
+        })
     }
 
     /// What further statements need that the target lacks.

@@ -29,8 +29,8 @@ pub mod values;
 pub mod watch;
 
 pub use frames::machine_moves::retract;
-pub use legalise::Legaliser;
 pub use legalise::messages::{leave_out_output, leave_out_values, output_elsewhere};
+pub use legalise::{Legaliser, Touch};
 pub use pass::Pass;
 pub use table::{FOLDS, FOLDS_OF_EVENTS, PASSES};
 pub use target::{Compensating, Target};

@@ -1,5 +1,7 @@
 //! Execution of arcs.
 
+pub(crate) mod same;
+
 use crate::{Event, Exec, Kind, MOTION};
 use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -113,12 +115,20 @@ impl Exec {
                         (None, CentreFrom::Zero) => return self.fault(Fault::ArcWithoutCentre, span),
                     };
                 }
-                let rule = &self.world.arcs;
-                rule.check(geometry::radii(start, end, centre), self.modes.inch).map(|()| centre)
+                let (radii, inch) = (geometry::radii(start, end, centre), self.modes.inch);
+                if let Some(beside) = &mut self.beside {
+                    beside.judge_radii(radii, inch);
+                }
+                self.world.arcs.check(radii, inch).map(|()| centre)
             }
             Centre::Radius(radius) => {
-                let short = self.world.arcs.short(self.modes.inch);
-                geometry::centre_by_radius(start, end, self.value(radius, span)?, arc.turn, short)
+                let (radius, inch) = (self.value(radius, span)?, self.modes.inch);
+                let short = self.world.arcs.short(inch);
+                let centre = geometry::centre_by_radius(start, end, radius, arc.turn, short);
+                if let (Some(beside), Ok(centre)) = (&mut self.beside, centre) {
+                    beside.judge_centre([start, end], (radius, arc.turn), centre, inch);
+                }
+                centre
             }
         };
         let centre = self.shaped(centre, span)?;

@@ -1,6 +1,7 @@
 //! Lines executed for their effect on the state alone, where nothing is in force that would ask for more: most of most
 //! programs. What is not so plain is left to [`Exec::step`].
 
+use crate::moves::arcs::same::is_plain_arc;
 use crate::{Exec, Heading, MOTION, Z, by_control};
 use ncc_ir::canon::{Distance, FeedMode, Motion, Spindle, same_point};
 use ncc_ir::diag::Diagnostic;
@@ -13,12 +14,19 @@ impl Exec {
     /// As of [`Exec::step`].
     pub fn pass(&mut self, stmts: &[Stmt]) -> Result<u64, Diagnostic> {
         (self.quiet, self.counted) = (true, 0);
-        let mut none = Vec::new();
-        let lines = self.pass_lines(stmts);
-        let rest = lines.map(|lines| &stmts[lines..]);
-        let passed = rest.and_then(|rest| rest.iter().try_for_each(|stmt| self.step(stmt, &mut none)));
+        let passed = self.pass_each(stmts);
         self.quiet = false;
         passed.map(|()| self.counted)
+    }
+
+    fn pass_each(&mut self, stmts: &[Stmt]) -> Result<(), Diagnostic> {
+        let (mut none, mut rest) = (Vec::new(), stmts);
+        loop {
+            rest = &rest[self.pass_lines(rest)?..];
+            let Some((stmt, behind)) = rest.split_first() else { return Ok(()) };
+            self.step(stmt, &mut none)?;
+            rest = behind;
+        }
     }
 
     /// Whether a line by absolute words changes no more than where the axes stand.
@@ -31,7 +39,7 @@ impl Exec {
             && state.feed_mode != FeedMode::InverseTime
             && self.modes.distance == Distance::Absolute
             && self.along == Z
-            && self.carried.is_none()
+            && !self.carries_linear()
             && self.waiting.is_none()
             && self.in_block.is_none()
             && self.corner.is_none()
@@ -44,7 +52,8 @@ impl Exec {
             && self.detour.is_none()
     }
 
-    /// Executes lines and feeds from the first statement on; gives the number of statements that it has executed.
+    /// Executes lines, feeds and plain arcs from the first statement on; gives the number of statements that it has
+    /// executed.
     ///
     /// # Errors
     /// As of [`Exec::step`].
@@ -70,6 +79,15 @@ impl Exec {
                     self.shown.goes_on();
                     self.feed = self.value(feed, stmt.span)?;
                     self.feed_inch = Some(self.modes.inch);
+                    continue;
+                }
+                Op::ArcFeed(arc) if is_plain_arc(arc) => {
+                    self.shown.goes_on();
+                    self.arc(arc, stmt.span, &mut Vec::new())?;
+                    continue;
+                }
+                Op::Comment(_) | Op::Blank => {
+                    self.shown.goes_on();
                     continue;
                 }
                 _ => return Ok(at),

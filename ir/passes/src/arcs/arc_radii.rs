@@ -29,14 +29,39 @@ pub(crate) enum Judged {
     Refused(Fault),
 }
 
+/// What the target's rule says of an arc.
+enum Verdict {
+    Keeps,
+    /// It takes the arc by its centre, where that is known.
+    ByCentre,
+    Refuses(Fault),
+}
+
 /// Judges an arc by the target's rule, for the walk that stands before it. What the source's rule refuses is left to
 /// the source's execution.
 pub(crate) fn judge_radii(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
-    let Some(plane) = walk.at.plane(arc.plane) else { return Judged::Kept };
+    match verdict(arc, walk, source, target) {
+        (Verdict::Keeps, _) => Judged::Kept,
+        (Verdict::Refuses(fault), _) => Judged::Refused(fault),
+        (Verdict::ByCentre, start) => match centre_of(arc, start.as_ref().unwrap_or(walk), target) {
+            Ok(()) => Judged::ByCentre,
+            Err(_) => Judged::Kept,
+        },
+    }
+}
+
+/// Whether an arc surely stays as it is.
+pub(crate) fn keeps(arc: &Arc, walk: &Walk, source: &ArcRule, target: &Target) -> bool {
+    matches!(verdict(arc, walk, source, target), (Verdict::Keeps, _))
+}
+
+/// What the target's rule says, and from which start, where that is not the walk's.
+fn verdict(arc: &Arc, walk: &Walk, source: &ArcRule, target: &Target) -> (Verdict, Option<Walk>) {
+    let Some(plane) = walk.at.plane(arc.plane) else { return (Verdict::Keeps, None) };
     let (first, second, _) = plane.axes();
     let unknown = |axis: Axis| walk.at.position[axis as usize].is_none();
     if !unknown(first) && !unknown(second) {
-        return judge(arc, walk, [first, second], source, target);
+        return (verdict_from(arc, walk, [first, second], source, target), None);
     }
     // Where all of its words count from its start, that may be anywhere.
     let counts_on = |axis: Axis| {
@@ -45,41 +70,41 @@ pub(crate) fn judge_radii(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: 
     };
     let from_zero = matches!(arc.centre, Centre::Point { from: CentreFrom::Zero, .. });
     if from_zero || walk.at.modes.distance.is_none() || !counts_on(first) || !counts_on(second) {
-        return Judged::Kept;
+        return (Verdict::Keeps, None);
     }
     let mut own = walk.clone();
     for axis in [first, second] {
         own.at.position[axis as usize].get_or_insert(0);
     }
-    judge(arc, &own, [first, second], source, target)
+    (verdict_from(arc, &own, [first, second], source, target), Some(own))
 }
 
-fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: &Target) -> Judged {
+fn verdict_from(arc: &Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: &Target) -> Verdict {
     let inch = walk.at.modes.units == Some(Units::Inch);
     let end = walk.at.target(&arc.to);
     let of = |place: &[Option<Nanos>]| Some([place[axes[0] as usize]?, place[axes[1] as usize]?]);
-    let (Some(start), Some(end)) = (of(&walk.at.position), of(&end)) else { return Judged::Kept };
+    let (Some(start), Some(end)) = (of(&walk.at.position), of(&end)) else { return Verdict::Keeps };
     if let Centre::Radius(radius) = &arc.centre {
-        let Some(radius) = walk.at.nanos(radius) else { return Judged::Kept };
+        let Some(radius) = walk.at.nanos(radius) else { return Verdict::Keeps };
         let short = target.caps.arcs.rule.short(inch);
         let reaches = geometry::centre_by_radius(start, end, radius, arc.turn, short);
         return match reaches {
-            Err(ArcFault::RadiusTooSmall) if centre_of(arc, walk, target).is_ok() => Judged::ByCentre,
-            _ => Judged::Kept,
+            Err(ArcFault::RadiusTooSmall) => Verdict::ByCentre,
+            _ => Verdict::Keeps,
         };
     }
-    let Some(centre) = walk.at.centre(arc) else { return Judged::Kept };
+    let Some(centre) = walk.at.centre(arc) else { return Verdict::Keeps };
     let radii = geometry::radii(start, end, centre);
     if source.check(radii, inch).is_err() {
-        return Judged::Kept;
+        return Verdict::Keeps;
     }
     match target.caps.arcs.rule.check(radii, inch) {
         Err(ArcFault::EndOffCircle { radii, allowed }) => {
-            Judged::Refused(Fault::ArcRadiiDiffer { radii, allowed })
+            Verdict::Refuses(Fault::ArcRadiiDiffer { radii, allowed })
         }
         Err(ArcFault::NoRadius) => {
-            Judged::Refused(Fault::TargetLacks { what: "an arc of this radius".into() })
+            Verdict::Refuses(Fault::TargetLacks { what: "an arc of this radius".into() })
         }
-        _ => Judged::Kept,
+        _ => Verdict::Keeps,
     }
 }

@@ -89,7 +89,7 @@ fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<
 }
 
 /// Whether an arc has a word of the third axis that moves it.
-fn is_helix(arc: &Arc, here: &Tracker) -> bool {
+pub(super) fn is_helix(arc: &Arc, here: &Tracker) -> bool {
     let axis = match here.plane(arc.plane) {
         Some(plane) => plane.axes().2,
         None => return true,

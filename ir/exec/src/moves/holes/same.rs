@@ -15,6 +15,7 @@
 //! incremental words, turning axes, a cycle that stops the spindle) is left to execution.
 
 use super::{ActiveCycle, Way};
+use crate::verify::is_silent;
 use crate::{Event, Exec};
 use ncc_ir::canon::{AXES, Axis, Distance, Plane};
 use ncc_ir::diag::Diagnostic;
@@ -43,11 +44,6 @@ fn place_of(stmt: &Stmt) -> Option<&Point> {
         }
         _ => None,
     }
-}
-
-/// Whether a statement is for the reader alone.
-fn is_silent(stmt: &Stmt) -> bool {
-    matches!(stmt.op, Op::Comment(_) | Op::Blank)
 }
 
 /// Whether statements are nothing but holes at places of plain words.
