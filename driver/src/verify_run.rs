@@ -297,8 +297,10 @@ impl Verifier {
             self.run_source(stmts)?;
             return self.target_step();
         }
+        let valued = self.runs.first().and_then(|run| run.source.value_lines(stmts));
         for run in &mut self.runs {
-            let events = run.source.pass(stmts).map_err(Stop::Source)?;
+            let events = valued.as_ref().and_then(|valued| run.source.pass_valued(valued));
+            let events = events.map_or_else(|| run.source.pass(stmts), Ok).map_err(Stop::Source)?;
             run.target.follow(&run.source);
             run.target.has_moved(stmts);
             run.comparison.pass(events, run.source.machine());

@@ -40,6 +40,7 @@ pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::{Compensation, NOWHERE, STILL};
 pub use moves::fine::Increments;
 pub use moves::holes::same::are_holes;
+pub use moves::lines::valued::ValuedLines;
 pub use moves::pace::{DEGREES, LINEAR};
 pub use moves::rotary::end as rotary_end;
 pub use run::again;

@@ -1,6 +1,8 @@
 //! Lines executed for their effect on the state alone, where nothing is in force that would ask for more: most of most
 //! programs. What is not so plain is left to [`Exec::step`].
 
+pub(crate) mod valued;
+
 use crate::moves::arcs::same::is_plain_arc;
 use crate::{Exec, Heading, MOTION, Z, by_control};
 use ncc_ir::canon::{Distance, FeedMode, Motion, Spindle, same_point};

@@ -1,0 +1,281 @@
+//! Lines whose words have their values already: worked out once, for all controls that execute them.
+//!
+//! ```text
+//! X10. F200.    under 64 settings of the block-skip switches in two worlds: two values, not 256
+//! ```
+//!
+//! A value hangs on the word and on the unit in force alone (`Exec::plain_value`). Anything that is not so plain, and each
+//! fault, is left to [`Exec::pass`]: nothing is done then.
+
+use crate::{Exec, Heading, MOTION, Z};
+use ncc_ir::canon::{Distance, Motion, same_point};
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::{Op, Stmt};
+
+/// A line, a feed, or a remark.
+#[derive(Clone, Copy, Debug)]
+struct Valued {
+    /// Its level of block skip as a bit; 0 is none.
+    level: u16,
+    does: Does,
+    /// Values of X, Y and Z that are named; the first one is that of a feed.
+    values: [Nanos; 3],
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Does {
+    /// Goes along a line at feed, or rapidly: the axes that are named, a bit each.
+    Goes(u8, Motion),
+    /// The same by the motion in force.
+    GoesOn(u8),
+    Feeds,
+    Nothing,
+}
+
+/// Lines with the values of their words.
+#[derive(Clone, Debug)]
+pub struct ValuedLines {
+    lines: Vec<Valued>,
+    /// The unit in which they were worked out.
+    inch: bool,
+}
+
+impl Exec {
+    /// The values of lines for this control, and for all that have the same unit in force; `None` where statements are
+    /// anything but plain lines by words from zero, or this control would not take them so.
+    pub fn value_lines(&self, stmts: &[Stmt]) -> Option<ValuedLines> {
+        if !self.takes_lines() {
+            return None;
+        }
+        let lines = stmts.iter().map(|stmt| self.value_line(stmt)).collect::<Option<Vec<Valued>>>()?;
+        Some(ValuedLines { lines, inch: self.modes.inch })
+    }
+
+    fn value_line(&self, stmt: &Stmt) -> Option<Valued> {
+        let mut values = [0; 3];
+        let (to, motion) = match &stmt.op {
+            Op::StraightFeed(to) => (Some(to), Some(Motion::Feed)),
+            Op::StraightTraverse(to) => (Some(to), Some(Motion::Traverse)),
+            Op::Position(to) => (Some(to), None),
+            Op::SetFeedRate(feed) => {
+                values[0] = self.plain_value(feed)?;
+                (None, Some(Motion::Feed))
+            }
+            Op::Comment(_) | Op::Blank => (None, None),
+            _ => return None,
+        };
+        let mut named = 0;
+        if let Some(to) = to {
+            if Exec::turns(&to.to) {
+                return None;
+            }
+            for (axis, word) in to.to.axes[..3].iter().enumerate() {
+                let Some(word) = word else { continue };
+                if word.distance.or(Distance::Absolute) != Distance::Absolute {
+                    return None;
+                }
+                values[axis] = self.plain_value(&word.value)?;
+                named |= 1 << axis;
+            }
+        }
+        let does = match (to, motion) {
+            (Some(_), Some(motion)) => Does::Goes(named, motion),
+            (Some(_), None) => Does::GoesOn(named),
+            (None, Some(_)) => Does::Feeds,
+            (None, None) => Does::Nothing,
+        };
+        let level = match stmt.skip {
+            Some(level) => 1u16.checked_shl(level.into())?,
+            None => 0,
+        };
+        Some(Valued { level, does, values })
+    }
+
+    /// Executes lines for their effect on the state alone, as [`Exec::pass`] does; gives the number of their events.
+    /// `None`, and nothing done, where that is not plain to see.
+    pub fn pass_valued(&mut self, valued: &ValuedLines) -> Option<u64> {
+        if !self.takes_lines() || self.chain.is_some() || self.modes.inch != valued.inch {
+            return None;
+        }
+        let (mut at, mut heading) = (self.position, self.heading);
+        let (mut motion, mut feed, mut feed_said) = (self.modes.motion, self.feed, false);
+        let (mut events, mut named_all, mut executed) = (0, 0, 0);
+        // Behind the first move the machine stands where the program does.
+        let (mut stands, mut moved) = (self.machine() == self.last, false);
+        for Valued { level, does, values } in &valued.lines {
+            if self.skip & level != 0 {
+                continue;
+            }
+            executed += 1;
+            let named = match does {
+                Does::Goes(named, own) => {
+                    motion = *own;
+                    *named
+                }
+                Does::GoesOn(named) => *named,
+                Does::Feeds => {
+                    (feed, feed_said) = (values[0], true);
+                    continue;
+                }
+                Does::Nothing => continue,
+            };
+            match motion {
+                Motion::Feed if feed != 0 => {}
+                Motion::Traverse => {}
+                Motion::Feed | Motion::Arc(_) | Motion::Cycle => return None,
+            }
+            let mut next = at;
+            for (axis, value) in values.iter().enumerate() {
+                if named >> axis & 1 == 1 {
+                    next[axis] = *value;
+                }
+            }
+            let other = !same_point(&next, &at);
+            if other {
+                heading = Heading::From(at);
+                at = next;
+            }
+            events += u64::from(if stands { other } else { self.place(&at) != self.last });
+            (stands, moved) = (true, true);
+            named_all |= named;
+        }
+        // What a statement does to messages, it does no more behind the second one.
+        (0..executed.min(2)).for_each(|_| self.shown.goes_on());
+        if feed_said {
+            (self.feed, self.feed_inch) = (feed, Some(valued.inch));
+        }
+        if moved {
+            (self.position, self.heading, self.modes.motion) = (at, heading, motion);
+            self.said |= MOTION;
+            self.relies_on_slots(named_all.into());
+            self.at_place &= named_all >> Z & 1 == 0;
+            self.last = self.machine();
+        }
+        Some(events)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::World;
+    use ncc_ir::canon::{AXES, Fact, Modes, Units};
+    use ncc_ir::expr::Expr;
+    use ncc_ir::expr::num::{Num, Unit};
+    use ncc_ir::program::{Coord, Move, Point};
+    use ncc_ir::source::Span;
+
+    fn entry(mantissa: i64) -> Expr {
+        Expr::Num(Num { mantissa, scale: 3, point: true, unit: Unit::Entry })
+    }
+
+    fn to(words: [Option<i64>; 3]) -> Move {
+        let mut axes: [Option<Coord>; AXES] = Default::default();
+        for (axis, value) in axes.iter_mut().zip(words) {
+            *axis = value.map(|value| Coord { value: entry(value), distance: Fact::Entry });
+        }
+        Move { to: Point { axes }, said: true }
+    }
+
+    fn stmt(skip: Option<u8>, op: Op) -> Stmt {
+        Stmt { skip, ..Stmt::new(Span::default(), op) }
+    }
+
+    /// Lines of all kinds, some under levels of block skip, by numbers from a simple generator.
+    fn lines(mut seed: u64) -> Vec<Stmt> {
+        let mut next = move |below: u64| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 33) % below
+        };
+        let mut line = |_| {
+            let skip = [None, None, Some(1), Some(2), Some(10)][next(5) as usize];
+            let words = [0; 3].map(|_| (next(2) == 0).then(|| next(3) as i64 * 1_500));
+            let op = match next(7) {
+                0 | 1 => Op::StraightFeed(to(words)),
+                2 => Op::StraightTraverse(to(words)),
+                3 => Op::SetFeedRate(entry(next(4) as i64 * 50_000)),
+                4 => Op::Comment("a remark".into()),
+                _ => Op::Position(to(words)),
+            };
+            stmt(skip, op)
+        };
+        (0..12).map(&mut line).collect()
+    }
+
+    fn control(skip: u16, start: &[Op]) -> Exec {
+        let mut exec = Exec::new(&World::generate(2, &Modes::default()), skip);
+        let turns = [
+            Op::SetDistanceMode(Distance::Absolute),
+            Op::StartSpindleClockwise,
+            Op::SetFeedRate(entry(100_000)),
+            Op::StraightTraverse(to([Some(0); 3])),
+        ];
+        for op in turns.iter().chain(start) {
+            exec.step(&stmt(None, op.clone()), &mut Vec::new()).expect("a plain program");
+        }
+        exec
+    }
+
+    /// One control works the values out, others execute them: in the same state as where each executes the words, and
+    /// with as many events.
+    #[test]
+    fn valued_lines_do_what_their_words_do() {
+        let starts: [&[Op]; 5] = [
+            &[],
+            &[Op::UseLengthUnits(Units::Inch), Op::SetFeedRate(entry(9_000))],
+            &[Op::StraightFeed(to([Some(1_500), None, Some(3_000)]))],
+            &[Op::SetOriginOffsets(2)],
+            &[Op::SetFeedMode(ncc_ir::canon::FeedMode::PerRevolution)],
+        ];
+        let (mut executed, mut left) = (0, 0);
+        for (start, seed) in starts.iter().flat_map(|start| (0..200).map(move |seed| (*start, seed))) {
+            let lines = lines(seed);
+            let valued = control(0, start).value_lines(&lines).expect("plain lines");
+            for skip in [0, 1 << 1, 1 << 2 | 1 << 10, 1 << 1 | 1 << 2 | 1 << 10] {
+                let mut by_values = control(skip, start);
+                // The machine may stand elsewhere than where the program counts from.
+                by_values.last[0] += i64::from(seed % 5 == 0);
+                let mut by_words = by_values.clone();
+                let before = format!("{by_values:?}");
+                let Some(events) = by_values.pass_valued(&valued) else {
+                    assert_eq!(format!("{by_values:?}"), before);
+                    left += 1;
+                    continue;
+                };
+                let counted = by_words.pass(&lines).expect("no fault");
+                by_words.counted = by_values.counted;
+                assert_eq!(
+                    (events, format!("{by_values:?}")),
+                    (counted, format!("{by_words:?}")),
+                    "{lines:?}"
+                );
+                executed += 1;
+            }
+        }
+        assert!(executed > 1_000 && left > 100, "{executed} {left}");
+    }
+
+    #[test]
+    fn what_is_not_plain_is_left() {
+        let exec = control(0, &[]);
+        let plain = || stmt(None, Op::StraightFeed(to([Some(1_000), None, None])));
+        assert!(exec.value_lines(&[plain()]).is_some());
+        let Op::StraightFeed(mut turning) = plain().op else { panic!("a move") };
+        let mut incremental = turning.clone();
+        turning.to.axes[3] = turning.to.axes[0].clone();
+        let Some(word) = &mut incremental.to.axes[0] else { panic!("a word") };
+        word.distance = Fact::Known(Distance::Incremental);
+        for op in [Op::StraightFeed(turning), Op::StraightFeed(incremental), Op::ProgramStop] {
+            assert!(exec.value_lines(&[plain(), stmt(None, op)]).is_none());
+        }
+        let valued = exec.value_lines(&[plain()]).expect("a plain line");
+        for op in [
+            Op::UseLengthUnits(Units::Inch),
+            Op::SetDistanceMode(Distance::Incremental),
+            Op::StopSpindleTurning,
+            Op::SetFeedRate(entry(0)),
+        ] {
+            assert_eq!(control(0, &[op]).pass_valued(&valued), None);
+        }
+    }
+}
