@@ -6,8 +6,12 @@
 //!
 //! The source is executed before its text is written, and for its effect on the state alone. When the text is read, and
 //! says holes at the same places under a cycle that comes to the same, the target's control follows: `ncc_exec` says why
-//! that proves what two executions would (`moves::holes::same`). Anything else has the source executed once more, from
-//! where it stood, and compared event by event.
+//! that proves what two executions would (`moves::holes::same`). Anything else has the source executed event by event,
+//! and compared.
+//!
+//! A piece that ends in many holes is taken as two: the statements before them are executed and compared by themselves, so
+//! that the events of a piece with the beginning of a cycle are few too. The holes stand for both sides only if all
+//! controls agree behind those statements, and no run with another fact is left.
 //!
 //! Not here: plain moves ([`Verifier::piece`]), and programs that are kept whole.
 
@@ -16,6 +20,21 @@ use ncc_ir::program::{Op, Stmt};
 
 use super::facts::come_to;
 use super::verifier::{HolesAhead, HolesMade, Stop, Verifier};
+
+/// Holes at the end of a piece of which fewer are executed with it.
+const MANY: usize = 32;
+
+fn is_silent(stmt: &Stmt) -> bool {
+    matches!(stmt.op, Op::Comment(_) | Op::Blank)
+}
+
+/// Where the block begins behind which statements are nothing but holes, these and remarks; their end, if there is none.
+fn before_holes(stmts: &[Stmt]) -> usize {
+    let other = |stmt: &Stmt| !is_silent(stmt) && !are_holes(std::slice::from_ref(stmt));
+    let from = stmts.iter().rposition(other).map_or(0, |at| at + 1);
+    let block = stmts[from..].iter().position(|stmt| !stmt.joined);
+    block.map_or(stmts.len(), |at| from + at)
+}
 
 impl Verifier {
     /// Executes the source's holes for their effect alone, where the target is likely to make the same of them; `false`,
@@ -31,48 +50,77 @@ impl Verifier {
         if !self.runs.iter().all(|run| run.source.has_cycle_like(&run.target)) {
             return Ok(false);
         }
-        let mut runs = Vec::with_capacity(self.runs.len());
-        for run in &mut self.runs {
-            let (before, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
-            let events = run.source.pass_holes(stmts, &mut places).map_err(Stop::Source)?;
-            runs.push(HolesMade { before, places, events });
+        self.pass_ahead(stmts, false)?;
+        Ok(true)
+    }
+
+    /// Executes the source's statements up to the holes with which they end, and these for their effect alone.
+    pub(super) fn run_source_to_holes(&mut self, stmts: &[Stmt]) -> Result<(), Stop> {
+        let from = before_holes(stmts);
+        let held = self.holes_differ || self.renamed || self.watched;
+        if held || from == 0 || stmts.len() - from < MANY {
+            return self.run_source(stmts);
         }
-        self.holes_ahead = Some(HolesAhead { stmts: stmts.to_vec(), runs });
+        let (head, holes) = stmts.split_at(from);
+        self.run_source(head)?;
+        self.pass_ahead(holes, true)
+    }
+
+    fn pass_ahead(&mut self, stmts: &[Stmt], at_end: bool) -> Result<(), Stop> {
+        let mut runs = Vec::with_capacity(self.runs.len());
+        for run in &self.runs {
+            let (mut behind, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
+            let events = behind.pass_holes(stmts, &mut places).map_err(Stop::Source)?;
+            runs.push(HolesMade { behind, places, events });
+        }
+        self.holes_ahead = Some(HolesAhead { stmts: stmts.to_vec(), runs, at_end });
         if let Some(stmt) = stmts.last() {
             self.last = stmt.span;
         }
-        Ok(true)
+        Ok(())
+    }
+
+    /// Takes the holes out of the text just read with which it ends, where those of the source are at the end of a piece.
+    pub(super) fn take_holes_read(&mut self) -> Option<Vec<Stmt>> {
+        let ahead = self.holes_ahead.as_ref().filter(|ahead| ahead.at_end)?;
+        let holes = ahead.runs.first()?.places.len();
+        let read = &mut self.batch.stmts;
+        let spoken = read.iter().enumerate().rev().filter(|(_, stmt)| !is_silent(stmt));
+        let (from, first) = spoken.take(holes).last()?;
+        (!first.joined && are_holes(&read[from..])).then(|| read.split_off(from))
     }
 
     /// Lets holes pass that the text just read says as the source does; `false` where it does not.
     pub(super) fn pass_holes(&mut self) -> Result<bool, Stop> {
         let Some(ahead) = &self.holes_ahead else { return Ok(false) };
         let (read, open) = (&self.batch.stmts, self.open[1]);
+        let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
         let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
-            (open == 0 || open & come_to(&run.target, read) == 0)
-                && made.before.makes_holes_of(&run.target)
+            level
+                && (open == 0 || open & come_to(&run.target, read) == 0)
+                && run.source.makes_holes_of(&run.target)
                 && run.target.has_holes_at(read, &made.places)
         });
         if !same {
-            self.holes_differ = true;
+            self.holes_differ = level;
             return self.make_holes().map(|()| false);
         }
-        for (run, made) in self.runs.iter_mut().zip(&ahead.runs) {
+        let ahead = self.holes_ahead.take().into_iter().flat_map(|ahead| ahead.runs);
+        for (run, made) in self.runs.iter_mut().zip(ahead) {
+            run.source = made.behind;
             run.target.follow(&run.source);
             run.comparison.pass(made.events, run.source.machine());
         }
-        self.holes_ahead = None;
         self.batch.stmts.clear();
         Ok(true)
     }
 
-    /// Executes holes that the source has passed once more, from where it stood, so that their events are compared.
+    /// Executes holes that the source has passed for their effect alone, so that their events are compared.
     pub(super) fn make_holes(&mut self) -> Result<(), Stop> {
-        let Some(HolesAhead { stmts, runs }) = self.holes_ahead.take() else { return Ok(()) };
-        for (run, made) in self.runs.iter_mut().zip(runs) {
-            run.source = made.before;
+        match self.holes_ahead.take() {
+            Some(ahead) => self.run_source(&ahead.stmts),
+            None => Ok(()),
         }
-        self.run_source(&stmts)
     }
 }
 
@@ -160,6 +208,73 @@ mod tests {
             let written = HOLES.replacen(from, to, 1);
             let verdict = verified([CYCLES[0]; 2], [HOLES, &written], false);
             assert!(matches!(verdict, Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+
+    /// Events of both sides, where the source calls a cycle up and makes many holes in the same piece; and whether one
+    /// execution of the holes stood for both.
+    fn verified_at_end(heads: [&str; 2], holes: [&str; 2], by_itself: bool) -> Result<(u64, bool), Stop> {
+        let settings = Settings::new(builtin("siemens").expect("a built-in dialect"));
+        let job = Job::new(settings.clone(), settings, "holes.mpf");
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut verifier = Verifier::new(&job);
+        if by_itself {
+            verifier.watch();
+        }
+        let mut batch = Batch::default();
+        let [said, written] = [0, 1].map(|side| format!("{HEAD}{}\n{}", heads[side], holes[side]));
+        reader.read(said.as_bytes(), 0, &mut batch);
+        let stmts = std::mem::take(&mut batch.stmts);
+        verifier.source(&stmts, &batch.assumed)?;
+        verifier.target(written.as_bytes(), 0, &batch.assumed)?;
+        let once = verifier.runs.iter().all(|run| run.level && run.source_events.capacity() < 100);
+        let end = "MCALL\nG0 Z50\nM30\n";
+        reader.read(end.as_bytes(), 0, &mut batch);
+        verifier.source(&batch.stmts, &batch.assumed)?;
+        verifier.target(end.as_bytes(), 0, &batch.assumed)?;
+        verifier.finish()?;
+        Ok((verifier.covered().events, once))
+    }
+
+    fn many() -> String {
+        (0..200)
+            .map(|n| format!("X{n} Y{}\n{}", n % 7, if n % 50 == 9 { "; a remark\n" } else { "" }))
+            .collect()
+    }
+
+    #[test]
+    fn holes_behind_their_cycle_count_as_all_events_that_both_make() {
+        let holes = many();
+        for cycle in CYCLES {
+            let events =
+                |by_itself| verified_at_end([cycle; 2], [&holes; 2], by_itself).expect("the same program");
+            assert_eq!([events(false), events(true)], [(events(true).0, true), (events(false).0, false)]);
+        }
+    }
+
+    #[test]
+    fn another_hole_behind_its_cycle_is_seen() {
+        let holes = many();
+        for (from, to) in [
+            ("X150 Y3", "X150 Y3.001"),
+            ("X0 Y0\n", ""),
+            ("X199 Y3\n", ""),
+            ("X199 Y3", "X199 Y3\nX199 Y3"),
+            ("X10 Y3", "F151\nX10 Y3"),
+            ("X10 Y3", "G0 X10 Y3 Z50\nMCALL\nMCALL CYCLE81(2,0,2,-20)"),
+        ] {
+            let written = holes.replacen(from, to, 1);
+            assert!(written != holes, "{from}");
+            let verdict = verified_at_end([CYCLES[0]; 2], [&holes, &written], false);
+            assert!(matches!(verdict, Err(Stop::Target(_))), "{from} → {to}");
+        }
+        for (said, written) in CYCLES.iter().flat_map(|a| CYCLES.iter().map(move |b| (a, b))) {
+            let verdict = verified_at_end([said, written], [&holes; 2], false);
+            assert_eq!(verdict.is_ok(), said == written, "{said} and {written}");
+        }
+        for state in ["F151", "S501", "M4", "G55", "M8", "G91"] {
+            let written = format!("{}\n{state}", CYCLES[0]);
+            assert!(verified_at_end([CYCLES[0], &written], [&holes; 2], false).is_err(), "{state}");
         }
     }
 }

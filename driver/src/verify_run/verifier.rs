@@ -89,12 +89,14 @@ pub(super) struct HolesAhead {
     pub(super) stmts: Vec<Stmt>,
     /// What each run had of them.
     pub(super) runs: Vec<HolesMade>,
+    /// Whether they are the end of a piece whose beginning is executed by itself.
+    pub(super) at_end: bool,
 }
 
 /// Holes of one run.
 pub(super) struct HolesMade {
-    /// The source's control before them.
-    pub(super) before: Exec,
+    /// The source's control behind them; its run has it as it is before them.
+    pub(super) behind: Exec,
     pub(super) places: Vec<[Nanos; AXES]>,
     pub(super) events: u64,
 }
