@@ -1,4 +1,4 @@
-//! Long stretches of straight moves of a program that is kept whole: packed before its steps, with statements of them left
+//! Long stretches of straight moves of a program that is kept whole: packed as they are read, with statements of them left
 //! in front and behind that stand for them.
 //!
 //! ```text
@@ -13,14 +13,14 @@
 //! there: then those that stand for the stretch have shown how, each of them in the same way and with the same numbers, and
 //! the stretch's words are said so, too ([`reshape`]).
 //!
-//! Not here: how moves are packed ([`ncc_ir::program::packing`]), and which kinds of words there are (`kinds`).
+//! Not here: how moves are packed ([`ncc_ir::program::packing`]), where a stretch begins and ends (`packer`), and which kinds
+//! of words there are (`kinds`).
 
 mod kinds;
+mod packer;
 
-use std::ops::Range;
 use std::sync::Arc;
 
-use ncc_ir::canon::Axis;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::packing::packs;
@@ -28,19 +28,12 @@ use ncc_ir::program::shapes::WordShape;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 
-use self::kinds::{Kinds, computes};
+use self::kinds::computes;
+use self::packer::PROBES;
+pub(crate) use self::packer::{Packer, pack};
 
 /// Moves of a stretch of which fewer are not worth it.
 pub const SHORTEST: usize = 64;
-
-/// Moves in front that may be changed, as they are the first.
-const LEAD: usize = 4;
-
-/// Moves on each side that must not be.
-const PROBES: usize = 4;
-
-/// Moves behind, where the stretch is short.
-const SHORT_TAIL: usize = 512;
 
 /// A stretch that is packed, and what stands for it.
 #[derive(Debug)]
@@ -65,31 +58,23 @@ impl Words {
     }
 }
 
-/// Packs the stretches of a body, of so many moves or more.
-pub(crate) fn pack(body: &mut Vec<Stmt>, shortest: usize, words: Words) -> Vec<Stretch> {
-    let mut found = Vec::new();
-    let mut made = Vec::new();
-    let mut from = 0;
-    for Place { probed, packed } in places(body, shortest, words) {
-        let Some(lines) = PackedLines::new(&body[packed.clone()]) else { continue };
-        let lines = Arc::new(lines);
-        let behind = &body[packed.end..body.len().min(packed.end + PROBES)];
-        let before = body[probed..packed.start].to_vec();
-        found.push(Stretch { lines: Arc::clone(&lines), before, behind: behind.to_vec() });
-        made.extend(body[from..packed.start].iter_mut().map(take));
-        let first = &body[packed.start];
-        made.push(Stmt::new(first.span, Op::Lines(lines)));
-        from = packed.end;
-    }
-    if !found.is_empty() {
-        made.extend(body[from..].iter_mut().map(take));
-        *body = made;
-    }
-    found
+/// The stretches of a body, and what stands for each.
+pub(crate) fn stretches(body: &[Stmt]) -> Vec<Stretch> {
+    let places = body.iter().enumerate().filter_map(|(at, stmt)| match &stmt.op {
+        Op::Lines(lines) => Some((at, lines)),
+        _ => None,
+    });
+    let stretch = |(at, lines): (usize, &Arc<PackedLines>)| {
+        let before = body[at.saturating_sub(lines.probes())..at].to_vec();
+        let behind = body[at + 1..body.len().min(at + 1 + PROBES)].to_vec();
+        Stretch { lines: Arc::clone(lines), before, behind }
+    };
+    places.map(stretch).collect()
 }
 
-fn take(stmt: &mut Stmt) -> Stmt {
-    std::mem::replace(stmt, Stmt::new(Span::default(), Op::Blank))
+/// Whether moves of a body are packed of which words are computed.
+pub(crate) fn computes_packed(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| matches!(&stmt.op, Op::Lines(lines) if !lines.shapes().is_empty()))
 }
 
 /// Puts the moves of packed stretches in their places again.
@@ -197,89 +182,31 @@ impl Became<'_> {
     }
 }
 
-/// Whether a place is among those that stand for a stretch.
-pub(crate) fn concerns(stretches: &[Stretch], at: Span) -> bool {
-    let own = |stmt: &Stmt| stmt.span.start <= at.start && at.start < stmt.span.end;
-    stretches.iter().any(|stretch| stretch.before.iter().chain(&stretch.behind).any(own))
+/// The places of those that stand for stretches.
+#[derive(Debug)]
+pub(crate) struct Places {
+    /// Where they begin and end, by where they begin; each end is the furthest of those so far.
+    spans: Vec<(u32, u32)>,
 }
 
-/// A stretch of a body: where what stands for it begins, and what is packed.
-struct Place {
-    probed: usize,
-    packed: Range<usize>,
-}
+impl Places {
+    pub(crate) fn of(stretches: &[Stretch]) -> Places {
+        let all = stretches.iter().flat_map(|stretch| stretch.before.iter().chain(&stretch.behind));
+        let mut spans: Vec<(u32, u32)> = all.map(|stmt| (stmt.span.start, stmt.span.end)).collect();
+        spans.sort_unstable();
+        let mut furthest = 0;
+        for (_, end) in &mut spans {
+            furthest = furthest.max(*end);
+            *end = furthest;
+        }
+        Places { spans }
+    }
 
-fn places(body: &[Stmt], shortest: usize, words: Words) -> Vec<Place> {
-    let mut found = Vec::new();
-    let mut from = 0;
-    while from < body.len() {
-        let run = body[from..].iter().take_while(|stmt| words.packs(stmt)).count();
-        let end = from + run;
-        while let Some((place, next)) = next_place(body, from..end, shortest) {
-            found.extend(place);
-            from = next;
-        }
-        from = end + 1;
+    /// Whether a place is in one of them.
+    pub(crate) fn concern(&self, at: Span) -> bool {
+        let before = self.spans.partition_point(|(start, _)| *start <= at.start);
+        before.checked_sub(1).is_some_and(|last| at.start < self.spans[last].1)
     }
-    found
-}
-
-/// The first stretch of a run of moves, if there is one there, and where the next may begin.
-fn next_place(body: &[Stmt], run: Range<usize>, shortest: usize) -> Option<(Option<Place>, usize)> {
-    let probed = run.start + LEAD;
-    let mut start = probed + PROBES;
-    if start.saturating_add(shortest) > run.end {
-        return None;
-    }
-    let mut known = Kinds::default();
-    body[probed..start].iter().for_each(|stmt| {
-        known.has_more(stmt);
-    });
-    let mut end = start;
-    while end < run.end {
-        if known.has_more(&body[end]) {
-            if end - start >= shortest {
-                break;
-            }
-            start = end + 1;
-        }
-        end += 1;
-    }
-    while start < end && body[start].joined {
-        start += 1;
-    }
-    loop {
-        let tail = tail(body, start..end);
-        if tail < start.saturating_add(shortest) {
-            return Some((None, end));
-        }
-        if end - tail <= SHORT_TAIL.max((end - start) / 8) {
-            return Some((Some(Place { probed, packed: start..tail }), end));
-        }
-        // What is said seldom begins the next stretch.
-        end = tail;
-    }
-}
-
-/// Where the moves begin that say all again that a stretch says.
-fn tail(body: &[Stmt], stretch: Range<usize>) -> usize {
-    let mut last = [None; 4];
-    for (at, stmt) in body[stretch.clone()].iter().enumerate() {
-        let at = stretch.start + at;
-        match &stmt.op {
-            Op::StraightFeed(to) | Op::StraightTraverse(to) => {
-                let axes = to.to.axes[..Axis::A as usize].iter().enumerate();
-                axes.filter(|(_, word)| word.is_some()).for_each(|(axis, _)| last[axis] = Some(at));
-            }
-            _ => last[3] = Some(at),
-        }
-    }
-    let least = last.into_iter().flatten().min().unwrap_or(stretch.end);
-    let mut tail = least.min(stretch.end.saturating_sub(PROBES)).max(stretch.start);
-    while tail > stretch.start && body[tail].joined {
-        tail -= 1;
-    }
-    tail
 }
 
 #[cfg(test)]
@@ -317,7 +244,8 @@ mod tests {
         }
         let own = read(&text);
         let mut body = own.clone();
-        let stretches = pack(&mut body, SHORTEST, Words::All);
+        pack(&mut body, SHORTEST, Words::All);
+        let stretches = stretches(&body);
         assert!(stretches.len() >= 2 && body.len() < own.len() / 4, "{} {}", stretches.len(), body.len());
         assert!(stand(&stretches, &body).is_some());
         for (at, stmt) in body.iter().enumerate() {
@@ -339,14 +267,16 @@ mod tests {
     fn increments_are_not_packed() {
         let moves: String = (0..200).map(|n| format!("X{n}.5\n")).collect();
         let mut body = read(&format!("{HEAD}G91\n{moves}"));
-        assert!(pack(&mut body, SHORTEST, Words::All).is_empty());
+        pack(&mut body, SHORTEST, Words::All);
+        assert!(stretches(&body).is_empty());
         let mut body = read(&format!("{HEAD}{moves}"));
         let words = body.iter_mut().filter_map(|stmt| match &mut stmt.op {
             Op::StraightFeed(to) => Some(to.to.axes.iter_mut().flatten()),
             _ => None,
         });
         words.flatten().for_each(|word| word.distance = Fact::Entry);
-        let stretches = pack(&mut body, SHORTEST, Words::All);
+        pack(&mut body, SHORTEST, Words::All);
+        let stretches = stretches(&body);
         assert!(!stretches.is_empty() && stand(&stretches, &body).is_some());
         for stmt in &mut body {
             match &mut stmt.op {
@@ -364,7 +294,8 @@ mod tests {
     fn a_change_beside_a_stretch_is_seen() {
         let moves: String = (0..200).map(|n| format!("X{n}.5\n")).collect();
         let mut body = read(&format!("{HEAD}{moves}"));
-        let stretches = pack(&mut body, SHORTEST, Words::All);
+        pack(&mut body, SHORTEST, Words::All);
+        let stretches = stretches(&body);
         let at = body.iter().position(|stmt| matches!(stmt.op, Op::Lines(_))).expect("a stretch");
         for place in [at - 1, at + 1] {
             let mut other = body.clone();
@@ -401,7 +332,8 @@ mod tests {
     fn a_stretch_is_said_in_the_shapes_beside_it() {
         let mut body = read(&format!("{HEAD}{}", computed()));
         let mut own = body.clone();
-        let stretches = pack(&mut body, SHORTEST, Words::All);
+        pack(&mut body, SHORTEST, Words::All);
+        let stretches = stretches(&body);
         assert!(stretches.len() == 1 && body.len() < own.len() / 2, "{} {}", stretches.len(), body.len());
         body.iter_mut().chain(&mut own).for_each(renamed);
         let shapes = stand(&stretches, &body).expect("the same moves");
@@ -411,7 +343,8 @@ mod tests {
         // The source's are as they were.
         assert!(stretches[0].lines.unpack().any(|stmt| reads_local(&stmt)));
         let mut literals = read(&format!("{HEAD}{}", computed()));
-        assert!(pack(&mut literals, SHORTEST, Words::Literal).is_empty());
+        pack(&mut literals, SHORTEST, Words::Literal);
+        assert!(super::stretches(&literals).is_empty());
     }
 
     fn reads_local(stmt: &Stmt) -> bool {
@@ -424,7 +357,8 @@ mod tests {
     #[test]
     fn shapes_that_are_not_said_alike_are_seen() {
         let mut body = read(&format!("{HEAD}{}", computed()));
-        let stretches = pack(&mut body, SHORTEST, Words::All);
+        pack(&mut body, SHORTEST, Words::All);
+        let stretches = stretches(&body);
         let at = body.iter().position(|stmt| matches!(stmt.op, Op::Lines(_))).expect("a stretch");
         for place in [at - 1, at + 1] {
             let mut other = body.clone();
@@ -444,7 +378,10 @@ mod tests {
     fn packed_moves_are_worth_what_their_words_are() {
         let events = |before: &str, packs: bool| {
             let mut body = read(&format!("{HEAD}{before}{}", computed()));
-            assert_eq!(packs && !pack(&mut body, SHORTEST, Words::All).is_empty(), packs);
+            if packs {
+                pack(&mut body, SHORTEST, Words::All);
+            }
+            assert_eq!(!stretches(&body).is_empty(), packs);
             let procedures = vec![Procedure { body, ..Procedure::default() }];
             let program = Program { procedures, ..Program::default() };
             let world = World::generate(1, &program.assumed);

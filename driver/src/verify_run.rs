@@ -170,6 +170,7 @@ impl Verifier {
             outliving: Vec::new(),
             assumed: Modes::default(),
             shortest_stretch: job.shortest_stretch,
+            piece: job.piece,
             notes: Vec::new(),
         }
     }

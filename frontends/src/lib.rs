@@ -26,6 +26,7 @@ use corners::Corners;
 use ncc_dialects::{Dialect, Family, Settings};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
+use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 pub use outline::{Flow, Word};
 
@@ -177,6 +178,36 @@ impl Reader {
             OfFamily::Ir(reader) => reader.read(text, base, out),
         }
         self.state_corners(before, out);
+    }
+
+    /// How many of the main procedure's statements are as they stay, whatever is read further, where they are plain moves
+    /// and not of the last block: they may be packed ([`Op::Lines`](ncc_ir::program::Op::Lines)). None are where a
+    /// structure is open, which knows its beginning by its place, or where blocks are looked for by their numbers.
+    pub fn settled(&self, out: &Batch) -> usize {
+        let settled = match &self.family {
+            OfFamily::Word(reader) => reader.is_settled(),
+            OfFamily::Siemens(reader) => reader.is_settled(),
+            OfFamily::Canon(_) | OfFamily::Ir(_) => false,
+        };
+        if settled { out.stmts.len() } else { 0 }
+    }
+
+    /// Reads a text that is there, as [`Reader::read`] does, and shows what is read of it behind each piece of so many
+    /// bytes, with how many statements are [settled](Reader::settled).
+    pub fn read_showing(
+        &mut self,
+        text: &[u8],
+        base: u32,
+        out: &mut Batch,
+        shown: (usize, &mut dyn FnMut(&mut Vec<Stmt>, usize)),
+    ) {
+        match &mut self.family {
+            OfFamily::Word(reader) if self.corners.is_none() => reader.read_showing(text, base, out, shown),
+            OfFamily::Siemens(reader) if self.corners.is_none() => {
+                reader.read_showing(text, base, out, shown)
+            }
+            _ => self.read(text, base, out),
+        }
     }
 
     /// A line that is too long to be handed over: only its place is known.

@@ -86,11 +86,15 @@ fn a_program_with_packed_moves_is_translated_as_with_all_of_them() {
     let targets = ["fanuc", "haas", "siemens", "linuxcnc", "mach9", "grbl"];
     let (mut differing, mut longer) = (Vec::new(), 0);
     let computing = corpus::DIALECTS.into_iter().flat_map(corpus::computing);
-    for program in corpus::all().into_iter().chain(computing) {
+    let all = corpus::all().into_iter().chain(computing);
+    // In small pieces, moves are packed while more of the program is read.
+    let pieces = corpus::DIALECTS.into_iter().flat_map(corpus::computing).map(|own| (own, Some(200)));
+    for (program, piece) in all.map(|own| (own, None)).chain(pieces) {
         let text = stretched(&program.text);
         longer += usize::from(text.len() > program.text.len());
         for to in targets {
             let mut job = job(program.dialect, to, &program.file);
+            job.piece = piece.unwrap_or(job.piece);
             job.shortest_stretch = usize::MAX;
             let (all, written) = translate(&job, &text);
             job.shortest_stretch = 3;

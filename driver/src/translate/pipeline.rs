@@ -12,7 +12,7 @@ use ncc_ir::canon::Modes;
 use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::program::valid::{anything, computing, leads_nowhere, returns_alone};
-use ncc_ir::program::{Lines, Op, Program, Stmt};
+use ncc_ir::program::{Lines, Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::Told;
 use ncc_passes::Touch;
@@ -29,7 +29,9 @@ use super::parametric::{self, target};
 use super::snapshot::Snapshot;
 use super::translation::{FLATTEN, Translation};
 use super::writing::Said;
-use crate::stretches::{Stretch, Words, concerns, pack, reshape, stand, unpack};
+use crate::stretches::{
+    Packer, Places, Stretch, Words, computes_packed, pack, reshape, stand, stretches, unpack,
+};
 use crate::translate::rewrite::{self, Folder};
 
 /// What goes through the steps at once.
@@ -115,6 +117,10 @@ impl Translation<'_> {
             self.batch.whole = machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
         }
         if self.batch.whole || !self.job.passes.is_empty() {
+            if self.packs() {
+                let settled = self.reader.settled(&self.batch);
+                self.packer.pack(&mut self.batch.stmts, settled);
+            }
             return Ok(());
         }
         self.count();
@@ -124,7 +130,15 @@ impl Translation<'_> {
 
     /// The end of the source.
     pub(super) fn end(&mut self) -> io::Result<()> {
+        if self.batch.whole && self.packs() {
+            let settled = self.reader.settled(&self.batch);
+            let packer =
+                std::mem::replace(&mut self.packer, Packer::new(self.job.shortest_stretch, Words::All));
+            packer.finish(&mut self.batch.stmts, settled);
+        }
         self.reader.finish(&mut self.batch);
+        // Of subprograms all moves are there.
+        self.batch.procedures.iter_mut().for_each(|procedure| unpack(&mut procedure.body));
         self.take_diagnostics();
         if self.errors > 0 {
             return Ok(());
@@ -153,12 +167,7 @@ impl Translation<'_> {
     /// Sends a program that is kept whole, with its stretches of straight moves packed as far as the steps leave them as
     /// they are; where they do not, with all of its moves.
     fn send_kept(&mut self, mut source: Program) -> io::Result<()> {
-        let packs = self.job.passes.is_empty() && self.folder.is_none();
-        // Variables that are not set are given values from among the program's numbers.
-        let words = if packs && free_variables(&source).is_empty() { Words::All } else { Words::Literal };
-        let main = source.procedures.first_mut().filter(|_| packs);
-        let stretches =
-            main.map(|main| pack(&mut main.body, self.job.shortest_stretch, words)).unwrap_or_default();
+        let stretches = if self.packs() { self.pack(&mut source) } else { Vec::new() };
         if !stretches.is_empty() {
             let before = Snapshot::of(self);
             let mut part = Part::Kept(Box::new(Kept::new(source.clone())));
@@ -173,12 +182,30 @@ impl Translation<'_> {
         self.send(&mut Part::Kept(Box::new(Kept::new(source))))
     }
 
+    /// Whether long stretches of moves are packed.
+    fn packs(&self) -> bool {
+        self.job.passes.is_empty() && self.folder.is_none()
+    }
+
+    /// Packs what is not packed of the main procedure, and gives its stretches.
+    fn pack(&self, source: &mut Program) -> Vec<Stretch> {
+        // Variables that are not set are given values from among the program's numbers.
+        let open = !free_variables(source).is_empty();
+        let Some(Procedure { body, .. }) = source.procedures.first_mut() else { return Vec::new() };
+        if open && computes_packed(body) {
+            unpack(body);
+        }
+        pack(body, self.job.shortest_stretch, if open { Words::Literal } else { Words::All });
+        stretches(body)
+    }
+
     /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one. Says what
     /// stretches compute as it is said beside them.
     fn leaves(&self, stretches: &[Stretch], part: &mut Part, before: &Snapshot) -> bool {
         let Part::Kept(kept) = part else { return false };
         let told = self.diagnostics.iter().skip(before.diagnostics()).chain(&kept.found);
-        if told.into_iter().any(|found| concerns(stretches, found.span)) {
+        let places = Places::of(stretches);
+        if told.into_iter().any(|found| places.concern(found.span)) {
             return false;
         }
         let main = kept.program.procedures.first_mut();

@@ -12,7 +12,7 @@ use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Gravity};
-use ncc_ir::program::{Op, ProgramName, Stmt};
+use ncc_ir::program::{Op, ProgramName};
 use ncc_ir::track::Tracker;
 use ncc_machines::reading::{Told, rests_on};
 use ncc_passes::Legaliser;
@@ -24,6 +24,7 @@ use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Trace};
 use crate::questions::Question;
+use crate::stretches::{Packer, Words};
 use crate::translate::rewrite::Folder;
 use crate::verify_run::{Stop, Verifier};
 
@@ -41,6 +42,8 @@ pub(super) struct Translation<'j> {
     pub(super) job: &'j Job,
     pub(super) reader: Reader,
     pub(super) batch: Batch,
+    /// Packs what is read of a program that is kept whole.
+    pub(super) packer: Packer,
     pub(super) folder: Option<Folder>,
     /// Puts the target machine's numbers in.
     pub(super) renumbering: Renumbering,
@@ -122,6 +125,7 @@ impl<'j> Translation<'j> {
             job,
             reader: job.reader(true),
             batch: Batch::default(),
+            packer: Packer::new(job.shortest_stretch, Words::All),
             folder,
             renumbering: Renumbering::new(maps),
             side_effects: job.side_effects(),
@@ -254,10 +258,15 @@ impl<'j> Translation<'j> {
         let procedures = &self.batch.procedures;
         self.sets_path |= parametric::sets_path(&self.batch.stmts)
             || procedures.iter().any(|p| parametric::sets_path(&p.body));
-        let blocks = self.batch.stmts.iter().filter(|s| !s.joined).count();
-        self.blocks += blocks as u64;
-        let told = |s: &&Stmt| !matches!(s.op, Op::Blank | Op::Comment(_));
-        self.statements += self.batch.stmts.iter().filter(told).count() as u64;
+        for stmt in &self.batch.stmts {
+            let (statements, blocks) = match &stmt.op {
+                Op::Lines(lines) => lines.counts(),
+                Op::Blank | Op::Comment(_) => (0, usize::from(!stmt.joined)),
+                _ => (1, usize::from(!stmt.joined)),
+            };
+            self.statements += statements as u64;
+            self.blocks += blocks as u64;
+        }
     }
 
     pub(super) fn take_diagnostics(&mut self) {

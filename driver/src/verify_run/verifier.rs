@@ -166,6 +166,8 @@ pub struct Verifier {
     pub(super) assumed: Modes,
     /// Straight moves one behind the other of which fewer are not packed, in a program that is read back whole.
     pub(super) shortest_stretch: usize,
+    /// Bytes of a text that is read back whole, between which moves of it are packed.
+    pub(super) piece: usize,
     /// What was not executed, or with values that were made up.
     pub(super) notes: Vec<Diagnostic>,
 }

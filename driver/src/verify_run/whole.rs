@@ -27,7 +27,7 @@ use super::forks::{Forks, Shown};
 use super::levels::levels;
 use super::twice::outliving;
 use super::verifier::{Other, Run, Stop, Verifier};
-use crate::stretches::{Words, pack, unpacked};
+use crate::stretches::{Packer, Words, pack, unpack, unpacked};
 
 pub use self::values::Given;
 
@@ -258,8 +258,13 @@ impl Verifier {
     /// Reads the output's rest back.
     fn read_target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<Program, Stop> {
         self.reader.repeats(true);
-        self.reader.read(text, base, &mut self.batch);
+        let mut packer = Packer::new(self.shortest_stretch, Words::All);
+        let mut shown = |stmts: &mut _, settled| packer.pack(stmts, settled);
+        self.reader.read_showing(text, base, &mut self.batch, (self.piece, &mut shown));
+        let settled = self.reader.settled(&self.batch);
+        packer.finish(&mut self.batch.stmts, settled);
         self.reader.finish(&mut self.batch);
+        self.batch.procedures.iter_mut().for_each(|procedure| unpack(&mut procedure.body));
         self.read_back(inherited)?;
         let mut body = std::mem::take(&mut self.batch.stmts);
         pack(&mut body, self.shortest_stretch, Words::All);

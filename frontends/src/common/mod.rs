@@ -16,6 +16,7 @@ pub(crate) mod known;
 pub(crate) mod modal_state;
 pub(crate) mod number;
 pub(crate) mod only_value;
+pub(crate) mod pieces;
 pub(crate) mod quoted;
 pub(crate) mod saved;
 pub(crate) mod setting;

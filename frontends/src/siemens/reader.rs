@@ -23,6 +23,7 @@ use super::text::tree::{Block, Statement};
 use super::text::unit;
 use super::text::unit::{Header, Kind, Line};
 use crate::batch::{Batch, refused};
+use crate::common::pieces::{Shown, pieces};
 use crate::common::words::{Value, Word};
 use crate::common::{Source, fast_parse};
 
@@ -124,6 +125,16 @@ impl Reader {
 
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        self.read_showing(text, base, out, (usize::MAX, &mut |_, _| {}));
+    }
+
+    /// As of [`crate::Reader::settled`].
+    pub(crate) fn is_settled(&self) -> bool {
+        self.lower.flow.open.is_empty()
+    }
+
+    /// As of [`crate::Reader::read_showing`].
+    pub(crate) fn read_showing(&mut self, text: &[u8], base: u32, out: &mut Batch, shown: Shown) {
         if self.is_binary {
             return;
         }
@@ -137,6 +148,18 @@ impl Reader {
         if !out.whole {
             self.lower.note_stand(base > 0);
         }
+        let (piece, shown) = shown;
+        for piece in pieces(text, piece) {
+            self.lines(&text[piece.clone()], base + piece.start as u32, out);
+            if self.is_binary {
+                return;
+            }
+            let settled = if self.is_settled() { out.stmts.len() } else { 0 };
+            shown(&mut out.stmts, settled);
+        }
+    }
+
+    fn lines(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {

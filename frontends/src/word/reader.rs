@@ -15,6 +15,7 @@ use super::text::frame::Frame;
 use super::text::token::Signs;
 use crate::batch::{Batch, refused};
 use crate::common::Source;
+use crate::common::pieces::{Shown, pieces};
 
 /// Longest block of a dialect that sets no limit, in bytes.
 const LONGEST: usize = 60_000;
@@ -88,19 +89,30 @@ impl Reader {
 
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        self.read_showing(text, base, out, (usize::MAX, &mut |_, _| {}));
+    }
+
+    /// As of [`crate::Reader::settled`].
+    pub(crate) fn is_settled(&self) -> bool {
+        let repeats = !self.kept.never && self.lower.settings.dialect.repeat.letters().is_some();
+        !repeats && self.lower.computes.loops.is_empty() && self.lower.o.open.is_empty()
+    }
+
+    /// As of [`crate::Reader::read_showing`].
+    pub(crate) fn read_showing(&mut self, text: &[u8], base: u32, out: &mut Batch, shown: Shown) {
         if self.frame.is_binary {
             return;
         }
         if base == 0 && self.frame.has_leader() {
             let len = self.leader(text, out);
             if len > 0 {
-                return self.read(&text[len..], len as u32, out);
+                return self.read_showing(&text[len..], len as u32, out, shown);
             }
         }
         if let Some(at) = memchr::memchr(0, text) {
             if self.frame.has_leader() && text[at..].iter().all(|b| *b == 0 || b.is_ascii_whitespace()) {
                 // The feed at the end of a tape.
-                return self.read(&text[..at], base, out);
+                return self.read_showing(&text[..at], base, out, shown);
             }
             let at = base + at as u32;
             return self.not_text(Span::new(at, at + 1), out);
@@ -111,7 +123,18 @@ impl Reader {
         self.keep(text, base);
         self.lower.look_ahead(text, out);
         let from = self.lower.target(out).len();
-        self.lines(text, base, out);
+        if text.is_empty() {
+            self.frame.end = base;
+        }
+        let (piece, shown) = shown;
+        for piece in pieces(text, piece) {
+            self.lines(&text[piece.clone()], base + piece.start as u32, out);
+            if self.frame.is_binary {
+                break;
+            }
+            let settled = if self.is_settled() { out.stmts.len() } else { 0 };
+            shown(&mut out.stmts, settled);
+        }
         self.kept(from, out);
     }
 

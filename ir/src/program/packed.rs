@@ -28,6 +28,10 @@ pub struct PackedLines {
     pub(super) shapes: Arc<[WordShape]>,
     pub(super) last: Span,
     pub(super) in_force: InForce,
+    /// How many statements in front stand for them.
+    pub(super) probes: u32,
+    pub(super) statements: u32,
+    pub(super) blocks: u32,
 }
 
 /// What words mean that leave it to what is in force, where that is known.
@@ -78,6 +82,16 @@ impl PackedLines {
         let same = |(own, new): (&WordShape, &WordShape)| own.numbers() == new.numbers();
         assert!(shapes.len() == self.shapes.len() && self.shapes.iter().zip(&shapes).all(same));
         self.shapes = shapes.into();
+    }
+
+    /// How many statements in front of them have each kind of word that they have.
+    pub fn probes(&self) -> usize {
+        self.probes as usize
+    }
+
+    /// How many statements they are, and how many blocks begin with one of them.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.statements as usize, self.blocks as usize)
     }
 
     /// The place of the last statement.

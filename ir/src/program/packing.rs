@@ -106,69 +106,108 @@ fn put_number(bytes: &mut Vec<u8>, num: Num) {
     put(bytes, num.mantissa.unsigned_abs() << 6 | digits);
 }
 
-impl PackedLines {
-    /// Packs statements; `None` where one of them cannot be ([`packs`]).
-    pub fn new(stmts: &[Stmt]) -> Option<PackedLines> {
-        let mut bytes = Vec::new();
-        let (mut end, mut number, mut form) = (0u32, 0u32, (0, 0));
-        let (mut shapes, mut shaped) = (Vec::new(), [0; 3]);
-        for stmt in stmts {
-            if !packs(stmt) {
-                return None;
-            }
-            let (kind, words, said) = match &stmt.op {
-                Op::StraightFeed(to) => (FEED, Some(&to.to), to.said),
-                Op::StraightTraverse(to) => (TRAVERSE, Some(&to.to), to.said),
-                _ => (RATE, None, false),
-            };
-            let axes = words.map_or(&[][..], |to| &to.axes[..Axis::A as usize]);
-            let own = form_of(axes, form);
-            if own != form {
-                bytes.extend([FORM, own.0, own.1]);
-                form = own;
-            }
-            let mut own = shaped;
-            for (own, word) in own.iter_mut().zip(axes) {
-                let Some(word) = word else { continue };
-                *own = match &word.value {
-                    Expr::Num(_) => 0,
-                    value => shape_of(value, &mut shapes)?,
-                };
-            }
-            if own != shaped {
-                bytes.push(FORM | SAID);
-                bytes.extend(own);
-                shaped = own;
-            }
-            let named = (0u8..).zip(axes).filter(|(_, word)| word.is_some());
-            let bit = |has: bool, bit: u8| if has { bit } else { 0 };
-            bytes.push(
-                kind | bit(said, SAID)
-                    | bit(stmt.joined, JOINED)
-                    | bit(stmt.number.is_some(), NUMBERED)
-                    | named.fold(0, |bits, (axis, _)| bits | AXIS << axis),
-            );
-            put_signed(&mut bytes, i64::from(stmt.span.start) - i64::from(end));
-            put(&mut bytes, u64::from(stmt.span.end.saturating_sub(stmt.span.start)));
-            end = stmt.span.end;
-            if let Some(own) = stmt.number {
-                put_signed(&mut bytes, i64::from(own) - i64::from(number));
-                number = own;
-            }
-            for word in axes.iter().flatten() {
-                each_number(&word.value, &mut |num| put_number(&mut bytes, num));
-            }
-            if let Op::SetFeedRate(feed) = &stmt.op {
-                let num = feed.literal()?;
-                bytes.push(place(&UNITS, &num.unit));
-                put_number(&mut bytes, num);
-            }
-        }
-        let last = stmts.last().map_or(Span::default(), |stmt| stmt.span);
-        let in_force = InForce { unit: Unit::Entry, distance: Fact::Entry };
-        Some(PackedLines { bytes: bytes.into(), shapes: shapes.into(), last, in_force })
+/// Statements that are being packed, one after the other.
+#[derive(Debug, Default)]
+pub struct Packing {
+    bytes: Vec<u8>,
+    shapes: Vec<WordShape>,
+    end: u32,
+    number: u32,
+    form: (u8, u8),
+    shaped: [u8; 3],
+    last: Span,
+    statements: u32,
+    blocks: u32,
+}
+
+impl Packing {
+    /// How many bytes those so far take.
+    pub fn len(&self) -> usize {
+        self.bytes.len()
     }
 
+    /// Whether none is packed yet.
+    pub fn is_empty(&self) -> bool {
+        self.statements == 0
+    }
+
+    /// Adds a statement; `false`, and then nothing was done, where it cannot be packed ([`packs`]).
+    pub fn push(&mut self, stmt: &Stmt) -> bool {
+        let before = self.bytes.len();
+        let pushed = packs(stmt) && self.try_push(stmt).is_some();
+        if !pushed {
+            self.bytes.truncate(before);
+        }
+        pushed
+    }
+
+    fn try_push(&mut self, stmt: &Stmt) -> Option<()> {
+        let (kind, words, said) = match &stmt.op {
+            Op::StraightFeed(to) => (FEED, Some(&to.to), to.said),
+            Op::StraightTraverse(to) => (TRAVERSE, Some(&to.to), to.said),
+            _ => (RATE, None, false),
+        };
+        let axes = words.map_or(&[][..], |to| &to.axes[..Axis::A as usize]);
+        let mut shaped = self.shaped;
+        for (shaped, word) in shaped.iter_mut().zip(axes) {
+            let Some(word) = word else { continue };
+            *shaped = match &word.value {
+                Expr::Num(_) => 0,
+                value => shape_of(value, &mut self.shapes)?,
+            };
+        }
+        let form = form_of(axes, self.form);
+        let bytes = &mut self.bytes;
+        if form != self.form {
+            bytes.extend([FORM, form.0, form.1]);
+            self.form = form;
+        }
+        if shaped != self.shaped {
+            bytes.push(FORM | SAID);
+            bytes.extend(shaped);
+            self.shaped = shaped;
+        }
+        let named = (0u8..).zip(axes).filter(|(_, word)| word.is_some());
+        let bit = |has: bool, bit: u8| if has { bit } else { 0 };
+        bytes.push(
+            kind | bit(said, SAID)
+                | bit(stmt.joined, JOINED)
+                | bit(stmt.number.is_some(), NUMBERED)
+                | named.fold(0, |bits, (axis, _)| bits | AXIS << axis),
+        );
+        put_signed(bytes, i64::from(stmt.span.start) - i64::from(self.end));
+        put(bytes, u64::from(stmt.span.end.saturating_sub(stmt.span.start)));
+        self.end = stmt.span.end;
+        if let Some(own) = stmt.number {
+            put_signed(bytes, i64::from(own) - i64::from(self.number));
+            self.number = own;
+        }
+        for word in axes.iter().flatten() {
+            match &word.value {
+                Expr::Num(num) => put_number(bytes, *num),
+                value => each_number(value, &mut |num| put_number(bytes, num)),
+            }
+        }
+        if let Op::SetFeedRate(Expr::Num(num)) = &stmt.op {
+            bytes.push(place(&UNITS, &num.unit));
+            put_number(bytes, *num);
+        }
+        self.last = stmt.span;
+        self.statements += 1;
+        self.blocks += u32::from(!stmt.joined);
+        Some(())
+    }
+
+    /// The packed moves, for which so many statements in front stand.
+    pub fn finish(self, probes: u32) -> PackedLines {
+        let in_force = InForce { unit: Unit::Entry, distance: Fact::Entry };
+        let Packing { bytes, shapes, last, statements, blocks, .. } = self;
+        let (bytes, shapes) = (bytes.into(), shapes.into());
+        PackedLines { bytes, shapes, last, in_force, probes, statements, blocks }
+    }
+}
+
+impl PackedLines {
     /// Puts into another move what was put into these.
     pub fn settle_as_these(&self, stmt: &mut Stmt) {
         let settle = |value: &mut Expr| {
@@ -400,7 +439,11 @@ mod tests {
         #[test]
         fn what_is_unpacked_is_what_was_packed(stmts in prop::collection::vec(stmt(), 0..40)) {
             let stmts: Vec<Stmt> = stmts.into_iter().filter(packs).collect();
-            let packed = PackedLines::new(&stmts).expect("each of them can be packed");
+            let mut packing = Packing::default();
+            prop_assert!(stmts.iter().all(|stmt| packing.push(stmt)));
+            let packed = packing.finish(0);
+            let blocks = stmts.iter().filter(|stmt| !stmt.joined).count();
+            prop_assert_eq!(packed.counts(), (stmts.len(), blocks));
             prop_assert_eq!(&packed.unpack().collect::<Vec<_>>(), &stmts);
             // What is in force comes to them as it does to their statements.
             let mut settled = packed.clone();

@@ -62,7 +62,7 @@ mod tests {
     use super::super::super::verifier::Stop;
     use super::*;
     use crate::job::Job;
-    use crate::stretches::{SHORTEST, Words, pack};
+    use crate::stretches::{SHORTEST, Words, pack, stretches};
 
     /// A loop keeps the program whole; behind it are plain moves.
     fn program(moves: &str) -> String {
@@ -79,7 +79,8 @@ mod tests {
         reader.read(program(said).as_bytes(), 0, &mut batch);
         reader.finish(&mut batch);
         let mut body = std::mem::take(&mut batch.stmts);
-        assert!(!pack(&mut body, SHORTEST, Words::All).is_empty());
+        pack(&mut body, SHORTEST, Words::All);
+        assert!(!stretches(&body).is_empty());
         let source =
             Program { assumed: batch.assumed, procedures: vec![batch.main(body)], ..Program::default() };
         let mut verifier = Verifier::new(&job);
