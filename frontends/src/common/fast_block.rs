@@ -186,6 +186,11 @@ impl Line {
         (self.feed, self.skip, self.comment) = (None, None, None);
     }
 
+    /// Its block number.
+    pub(crate) fn number(&self) -> Option<u32> {
+        self.number
+    }
+
     /// Whether nothing but a skip mark has been met.
     fn begins(&self) -> bool {
         self.seen == 0 && self.code.is_none() && self.feed.is_none() && self.number.is_none()

@@ -68,8 +68,7 @@ impl Lower {
             || state.follows_polar
             || state.thread.is_some()
             || self.level_open()
-            || self.ended
-            || self.computes.jumps)
+            || self.ended)
     }
 
     /// What a feed word needs, while it would change no more than the feed.
@@ -100,7 +99,15 @@ impl Lower {
             Some(procedure) => &mut procedure.body,
             None => &mut out.stmts,
         };
+        let before = stmts.len();
         let end = line(fast, text, at, base, longest, stmts)?;
+        if self.computes.jumps
+            && let Some(number) = stmts.get(before).and_then(|stmt| stmt.number)
+            && !self.computes.passes(number)
+        {
+            stmts.truncate(before);
+            return None;
+        }
         if self.watch && !out.pointed {
             out.pointed = stmts.last().is_some_and(has_point);
         }

@@ -105,6 +105,29 @@ fn move_line() -> impl Strategy<Value = String> {
         .prop_map(|(l, w, b, t)| format!("{l}{}{t}", w.join(b)))
 }
 
+/// What makes a text one that is kept whole.
+fn computing_line() -> impl Strategy<Value = String> {
+    let lines = [
+        "GOTO5",
+        "IF[#1EQ1]GOTO10",
+        "GOTO#1",
+        "N10 G1 X1. F100.",
+        "N5 X2.",
+        "N7 Y1.",
+        "#1=2.",
+        "G1 X[#1+5.] F10.",
+        "X[-0.5+#1] Y2.",
+        "N10 Z[#2-3]",
+        "X[#1+.5]",
+        "Y[5]",
+        "WHILE[#1LT3]DO1",
+        "END1",
+        "G80",
+        "G1 X1. F5.",
+    ];
+    prop::sample::select(lines.to_vec()).prop_map(String::from)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -167,6 +190,31 @@ proptest! {
             prop_assert_eq!((&short.bare, short.pointed, short.whole), (&long.bare, long.pointed, long.whole));
             prop_assert_eq!(&first.lower.state, &second.lower.state);
             prop_assert_eq!(first.lower.rotary_named, second.lower.rotary_named);
+        }
+    }
+
+    /// The same of a text that jumps and computes.
+    #[test]
+    fn the_short_way_and_the_long_way_agree_where_a_text_jumps(
+        lines in prop::collection::vec(prop_oneof![1 => line(), 2 => computing_line(), 6 => move_line()], 1..25),
+        assume: bool,
+    ) {
+        for id in ["fanuc", "haas"] {
+            let text = format!("{}{}\nX1. Y2.\nN5 Z-3.\nM30\n", head(id), lines.join("\n"));
+            let read = |off: bool| {
+                let (mut reader, mut out) = (Reader::new(settings(id), assume), Batch::default());
+                reader.lower.usual.off = off;
+                reader.read(text.as_bytes(), 0, &mut out);
+                reader.finish(&mut out);
+                (reader, out)
+            };
+            let ((first, short), (second, long)) = (read(false), read(true));
+            prop_assert_eq!(&short.stmts, &long.stmts);
+            prop_assert_eq!(&short.procedures, &long.procedures);
+            prop_assert_eq!(&short.diagnostics, &long.diagnostics);
+            prop_assert_eq!((&short.assumed, short.whole), (&long.assumed, long.whole));
+            prop_assert_eq!(&first.lower.state, &second.lower.state);
+            prop_assert_eq!(&first.lower.computes.passed, &second.lower.computes.passed);
         }
     }
 

@@ -56,6 +56,9 @@ impl Lower {
         }
         let usual = &mut self.usual;
         let end = read(&usual.letters, text, at, base, &mut usual.line).filter(|end| end - at <= longest)?;
+        if usual.line.number().is_some() && self.flow.numbered {
+            return None;
+        }
         let skip = usual.line.skip;
         // Of blocks that one switch skips together, the ones before count.
         let within = self.stretch.as_ref().filter(|stretch| skip == Some(stretch.level));

@@ -72,7 +72,8 @@ impl Lower {
             unit: unit_of(state.modes.units.fact()),
             distance: state.modes.distance.fact(),
             feed,
-            number: b'N',
+            // One of a block may be a jump's.
+            number: if self.has_numbered_targets() { 0 } else { b'N' },
             bare: true,
             repeated_motion: self.usual.straight[usize::from(feed)].filter(|_| said),
             feed_word: self.settled_feed(),
@@ -91,8 +92,6 @@ impl Lower {
             || self.ended
             || !self.repeated_blocks.is_empty()
             || self.rounding.is_some()
-            // Its number may be one that a jump names.
-            || self.has_targets()
             || self.stale)
     }
 

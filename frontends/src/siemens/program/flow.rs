@@ -73,6 +73,8 @@ impl Lower {
         let before = self.flow.targets.len();
         named(text, &mut self.flow.targets);
         if self.flow.targets.len() != before {
+            let is_number = |name: &Text| name.strip_prefix('N').is_some_and(|n| n.parse::<u32>().is_ok());
+            self.flow.numbered = self.flow.targets.iter().any(is_number);
             out.whole = true;
             self.refresh();
         }
@@ -83,7 +85,12 @@ impl Lower {
         !self.flow.targets.is_empty() || !self.flow.open.is_empty()
     }
 
-    /// Whether a block number may be gone to.
+    /// Whether a block number is gone to.
+    pub(in crate::siemens) fn has_numbered_targets(&self) -> bool {
+        self.flow.numbered
+    }
+
+    /// Whether a block may be gone to.
     pub(in crate::siemens) fn has_targets(&self) -> bool {
         !self.flow.targets.is_empty()
     }

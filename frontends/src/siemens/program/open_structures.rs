@@ -17,6 +17,8 @@ use crate::siemens::siemens_state::{Motion, SiemensState};
 pub(in crate::siemens) struct Flow {
     /// Labels and block numbers that jumps name.
     pub(in crate::siemens) targets: HashSet<Text>,
+    /// Whether there are block numbers among them.
+    pub(in crate::siemens) numbered: bool,
     pub(in crate::siemens) labels: Vec<Label>,
     pub(in crate::siemens) jumps: Vec<Pending>,
     pub(in crate::siemens) open: Vec<OpenStructure>,

@@ -66,6 +66,10 @@ impl Lower {
         let end = read(&usual.letters, text, at, base, &mut usual.line).filter(|end| end - at <= longest)?;
         let src = Source { text, base };
         let (motion, known) = self.known(src)?;
+        if self.computes.jumps && self.usual.line.number().is_some_and(|number| !self.computes.passes(number))
+        {
+            return None;
+        }
         push(&self.usual.line, known, out.body(&mut self.sub));
         if self.watch && !out.pointed {
             out.pointed = self.usual.line.has_point();

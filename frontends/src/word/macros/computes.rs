@@ -121,6 +121,15 @@ pub(in crate::word) fn parameters(count: usize) -> Vec<Var> {
 }
 
 impl Computes {
+    /// A block with a number is read, and may be one that jumps name: whether none of them does.
+    pub(in crate::word) fn passes(&mut self, number: u32) -> bool {
+        let passes = self.named.as_ref().is_some_and(|named| !named.contains(&number));
+        if passes {
+            self.passed.insert(number);
+        }
+        passes
+    }
+
     /// A program is called with so many arguments.
     pub(in crate::word) fn calls(&mut self, name: &str, arguments: usize) {
         match self.called.get_mut(name) {

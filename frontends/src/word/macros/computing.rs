@@ -115,8 +115,7 @@ impl Lower {
     pub(in crate::word) fn jumped_to(&mut self, block: &Block, out: &mut Batch) {
         let Some(number) = self.now.number.filter(|_| self.computes.jumps) else { return };
         // Control comes to it from the block before alone.
-        if self.computes.named.as_ref().is_some_and(|named| !named.contains(&number)) {
-            self.computes.passed.insert(number);
+        if self.computes.passes(number) {
             return;
         }
         self.merge_paths(self.computes.reach.unsaid_at_jumps.unsaid(number), block.span, out);

@@ -20,9 +20,18 @@ pub(super) fn has_jumps(text: &[u8]) -> bool {
 /// beside some code. `None` if one is computed.
 pub(super) fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32>) -> Option<BTreeSet<u32>> {
     let letters: BTreeSet<u8> = dialect.code.iter().flat_map(|row| row.blocks.bytes()).collect();
+    // Most lines have none of the letters that may name a block.
+    let mut names = [false; 256];
+    for letter in letters.iter().copied().chain([b'O']) {
+        names[usize::from(letter.to_ascii_uppercase())] = true;
+        names[usize::from(letter.to_ascii_lowercase())] = true;
+    }
     let number = dialect.block.number.map_or(0, |c| c as u8);
     let blanks = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_whitespace()).count();
     for line in text.split(|b| *b == b'\n') {
+        if !line.iter().any(|b| names[usize::from(*b)]) {
+            continue;
+        }
         let calls = line.iter().any(|b| b.eq_ignore_ascii_case(&b'M'));
         for at in 0..line.len() {
             let rest = &line[at..];
