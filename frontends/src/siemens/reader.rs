@@ -17,6 +17,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::program::calls::procedure_name;
 use super::siemens_state::ModalCall;
+use super::text::fast_computed;
 use super::text::letters::letter_for_zero;
 use super::text::parse::parse;
 use super::text::tree::{Block, Statement};
@@ -94,6 +95,14 @@ impl Reader {
         self.slow = true;
     }
 
+    fn takes_short_ways(&self) -> bool {
+        #[cfg(test)]
+        let short = !self.slow;
+        #[cfg(not(test))]
+        let short = true;
+        short
+    }
+
     /// As of [`crate::Reader::watch`].
     pub(crate) fn watch(&mut self) {
         self.lower.watch = true;
@@ -163,11 +172,7 @@ impl Reader {
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
-            #[cfg(test)]
-            let short = !self.slow;
-            #[cfg(not(test))]
-            let short = true;
-            let open = short && !self.passing && !self.lower.ended;
+            let open = self.takes_short_ways() && !self.passing && !self.lower.ended;
             if open && let Some(end) = self.lower.short_way(text, at, base, self.longest, out) {
                 self.blocks = true;
                 self.after_header = false;
@@ -287,7 +292,8 @@ impl Reader {
             return self.too_long(span, out);
         }
         self.end = span.end;
-        let block = match parse(line, base) {
+        let recognised = if self.takes_short_ways() { fast_computed::read(line, base) } else { None };
+        let block = match recognised.map_or_else(|| parse(line, base), Ok) {
             Ok(block) => block,
             Err((fault, at)) => return self.no_block(fault, at, span, src, out),
         };

@@ -11,6 +11,7 @@ use super::lower::Lower;
 use super::o_code::o_state::StandaloneOsub;
 use super::text::block;
 use super::text::block::Block;
+use super::text::fast_computed;
 use super::text::frame::Frame;
 use super::text::token::Signs;
 use crate::batch::{Batch, refused};
@@ -156,6 +157,15 @@ impl Reader {
                 at = end + 1;
                 continue;
             }
+            if open
+                && self.takes_sums()
+                && let Some(end) = fast_computed::read(text, at, base, &mut self.block)
+                && end - at <= self.uncounted
+            {
+                self.recognised_block(src, out);
+                at = end + 1;
+                continue;
+            }
             let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |len| at + len);
             self.line(at, end, src, out);
             if self.frame.is_binary {
@@ -164,6 +174,15 @@ impl Reader {
             at = end + 1;
         }
         self.frame.end = base + text.len() as u32;
+    }
+
+    /// Whether moves by sums go the short way.
+    fn takes_sums(&self) -> bool {
+        #[cfg(test)]
+        if self.lower.usual.off {
+            return false;
+        }
+        self.signs.computes && !self.signs.o_words
     }
 
     /// A line that is too long to be handed over: only its place is known.
@@ -203,10 +222,15 @@ impl Reader {
         let words = std::mem::take(&mut self.block.words);
         self.block.clear();
         self.block.words = words;
+        debug_assert!(start < end);
+        self.recognised_block(src, out);
+    }
+
+    /// A block of which the words are there.
+    fn recognised_block(&mut self, src: Source, out: &mut Batch) {
         if let (Some(first), Some(last)) = (self.block.words.first(), self.block.words.last()) {
             self.block.span = Span::new(first.span.start, last.span.end);
         }
-        debug_assert!(start < end);
         self.meaning(src, out);
     }
 

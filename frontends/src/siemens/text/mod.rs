@@ -8,6 +8,7 @@
 //! Not here: the meaning of words.
 
 pub(super) mod build;
+pub(super) mod fast_computed;
 pub(crate) mod jumps;
 pub(super) mod letters;
 pub(super) mod parse;

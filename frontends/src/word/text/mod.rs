@@ -9,6 +9,7 @@
 
 pub(super) mod block;
 pub(super) mod device_text;
+pub(in crate::word) mod fast_computed;
 pub(super) mod frame;
 pub(crate) mod jumps;
 pub(crate) mod pieces;
