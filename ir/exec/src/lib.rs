@@ -417,6 +417,20 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
+        if self.plain_line(to, feed, span, out)? {
+            return Ok(());
+        }
+        self.other_straight(to, feed, span, out)
+    }
+
+    /// A straight move that is no plain line.
+    fn other_straight(
+        &mut self,
+        to: &Point,
+        feed: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
         if self.detour.is_some() {
             return self.go_by_detour(to, feed, span, out);
         }

@@ -242,9 +242,27 @@ impl Comparison {
     }
 
     /// The pairs found since this was last asked, in order; none unless they are kept. What both sides
-    /// made by one execution ([`Comparison::pass`]) is not among them.
+    /// made by one execution ([`Comparison::pass`]) is among them only where it was put there
+    /// ([`Comparison::keep_pair`]).
     pub fn take_pairs(&mut self) -> Vec<Pair> {
         self.pairs.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Whether the pairs are kept.
+    pub fn keeps_pairs(&self) -> bool {
+        self.pairs.is_some()
+    }
+
+    /// A pair of events that both sides made by one execution, for somebody who keeps pairs.
+    pub fn keep_pair(&mut self, pair: Pair) {
+        if let Some(pairs) = &mut self.pairs {
+            pairs.push(pair);
+        }
+    }
+
+    /// Whether nothing that one control did by itself is passed over in what comes next.
+    pub fn is_settled(&self) -> bool {
+        !self.after_optional && self.passed.is_nothing()
     }
 
     /// From now on it is noted how far places are apart that are found equal, and they are found equal

@@ -4,10 +4,12 @@
 pub(crate) mod valued;
 
 use crate::moves::arcs::same::is_plain_arc;
-use crate::{Exec, Heading, MOTION, Z, by_control};
-use ncc_ir::canon::{Distance, FeedMode, Motion, Spindle, same_point};
+use crate::{Event, Exec, Heading, Kind, MOTION, Z, by_control};
+use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, Spindle, same_point};
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::{Op, Point, Stmt};
+use ncc_ir::source::Span;
 
 impl Exec {
     /// Executes statements for their effect on the state alone; gives the number of their events.
@@ -31,14 +33,42 @@ impl Exec {
         }
     }
 
+    /// Executes statements, and gives the number of their events, for somebody who does not look at these: `events` is
+    /// memory for them.
+    ///
+    /// # Errors
+    /// As of [`Exec::step`].
+    pub fn count(&mut self, stmts: &[Stmt], events: &mut Vec<Event>) -> Result<u64, Diagnostic> {
+        let (mut rest, mut many) = (stmts, 0);
+        while !rest.is_empty() {
+            (self.quiet, self.counted) = (true, 0);
+            let lines = self.pass_lines(rest);
+            self.quiet = false;
+            many += self.counted;
+            rest = &rest[lines?..];
+            let Some((stmt, behind)) = rest.split_first() else { break };
+            events.clear();
+            self.step(stmt, events)?;
+            many += events.len() as u64;
+            rest = behind;
+        }
+        Ok(many)
+    }
+
     /// Whether a line by absolute words changes no more than where the axes stand.
     pub(crate) fn takes_lines(&self) -> bool {
         let state = &self.state;
         !(self.ended || self.narrating || self.every_move || self.speed_watched)
-            && !(state.tip || state.tilted || self.contour.watched)
-            && state.by_control & (by_control::Z | by_control::Z_AT_START | by_control::Z_COUNTED) == 0
             && state.spindle != Spindle::Stopped
             && state.feed_mode != FeedMode::InverseTime
+            && self.goes_plainly()
+    }
+
+    /// The same, whatever a line makes besides an event of it.
+    fn goes_plainly(&self) -> bool {
+        let state = &self.state;
+        !(state.tip || state.tilted || self.contour.watched)
+            && state.by_control & (by_control::Z | by_control::Z_AT_START | by_control::Z_COUNTED) == 0
             && self.modes.distance == Distance::Absolute
             && self.along == Z
             && !self.carries_linear()
@@ -97,17 +127,8 @@ impl Exec {
             if Exec::turns(to) || feed && self.feed == 0 {
                 return Ok(at);
             }
-            let (mut next, mut named) = (self.position, 0);
-            for (axis, word) in to.axes[..3].iter().enumerate() {
-                let Some(word) = word else { continue };
-                // What has no value is told by the step that executes it.
-                let Some(value) = self.plain_value(&word.value) else { return Ok(at) };
-                if word.distance.or(Distance::Absolute) != Distance::Absolute {
-                    return Ok(at);
-                }
-                next[axis] = value;
-                named |= 1 << axis;
-            }
+            let mut next = self.position;
+            let Some(named) = self.absolute_place(to, &mut next) else { return Ok(at) };
             self.shown.goes_on();
             self.relies_on_slots(named);
             self.at_place &= named >> Z & 1 == 0;
@@ -128,17 +149,73 @@ impl Exec {
         }
         Ok(stmts.len())
     }
+
+    /// Puts the axes that a line of absolute words names where it goes; gives these, a bit each. `None` is another line, or
+    /// a word without a value.
+    #[inline(always)]
+    fn absolute_place(&self, to: &Point, next: &mut [Nanos; AXES]) -> Option<u32> {
+        let mut named = 0;
+        for (axis, (word, place)) in to.axes[..3].iter().zip(next).enumerate() {
+            let Some(word) = word else { continue };
+            // What has no value is told by the step that executes it.
+            *place = self.plain_value(&word.value)?;
+            if word.distance.or(Distance::Absolute) != Distance::Absolute {
+                return None;
+            }
+            named |= 1 << axis;
+        }
+        Some(named)
+    }
+
+    /// Goes to a place of the program; gives where that is in machine coordinates.
+    #[inline(always)]
+    fn go_plainly(&mut self, next: &[Nanos; AXES], named: u32, feed: bool) -> [Nanos; AXES] {
+        self.relies_on_slots(named);
+        self.at_place &= named >> Z & 1 == 0;
+        if !same_point(next, &self.position) {
+            self.heading = Heading::From(self.position);
+        }
+        self.position = *next;
+        self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
+        self.said |= MOTION;
+        self.place(next)
+    }
+
+    /// Executes a line where nothing is in force that would ask for more than its event; whether it did. Without an error
+    /// and without effect where it did not.
+    #[inline]
+    pub(crate) fn plain_line(
+        &mut self,
+        to: &Point,
+        feed: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<bool, Diagnostic> {
+        if Exec::turns(to) || feed && self.feed == 0 || !self.goes_plainly() {
+            return Ok(false);
+        }
+        let mut next = self.position;
+        let Some(named) = self.absolute_place(to, &mut next) else { return Ok(false) };
+        let end = self.go_plainly(&next, named, feed);
+        if same_point(&end, &self.last) && !(self.every_move || self.narrating) {
+            return Ok(true);
+        }
+        let kind = if feed { Kind::Feed } else { Kind::Traverse };
+        self.pace = if feed { self.pace_of_line(&end) } else { None };
+        self.last = end;
+        self.emit(kind, span, out)?;
+        Ok(true)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::world::World;
-    use ncc_ir::canon::{AXES, Fact, Modes, Plane};
+    use ncc_ir::canon::{Fact, Modes, Plane};
     use ncc_ir::expr::Expr;
     use ncc_ir::expr::num::{Num, Unit};
-    use ncc_ir::program::{Coord, Move, Point, Slot};
-    use ncc_ir::source::Span;
+    use ncc_ir::program::{Coord, Move, Slot};
 
     fn stmt(op: Op) -> Stmt {
         Stmt::new(Span::default(), op)
@@ -153,6 +230,40 @@ mod tests {
         }
         let line = Move { to: Point { axes }, said: true };
         stmt(if feed { Op::StraightFeed(line) } else { Op::StraightTraverse(line) })
+    }
+
+    /// Executes a statement by way of everything that may be in force.
+    fn step_the_long_way(exec: &mut Exec, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let straight = match &stmt.op {
+            Op::StraightFeed(to) => Some((to, true)),
+            Op::StraightTraverse(to) => Some((to, false)),
+            Op::Position(to) => Some((to, exec.modes.motion == Motion::Feed)),
+            _ => None,
+        };
+        match straight.filter(|_| !exec.skips(stmt)) {
+            Some((to, feed)) => {
+                exec.shown.goes_on();
+                exec.other_straight(&to.to, feed, stmt.span, out)
+            }
+            None => exec.step(stmt, out),
+        }
+    }
+
+    /// Where moves that go nowhere are told too, both ways make the same events.
+    fn told_alike(before: &Exec, lines: &[Stmt], what: &str) {
+        for (narrates, every_move) in [(true, false), (false, true), (true, true)] {
+            let [mut one, mut other] = [before, before].map(Exec::clone);
+            for exec in [&mut one, &mut other] {
+                (exec.narrating, exec.every_move) = (narrates, every_move);
+            }
+            let (mut events, mut long) = (Vec::new(), Vec::new());
+            let done = lines.iter().try_for_each(|stmt| one.step(stmt, &mut events));
+            let stepped = lines.iter().try_for_each(|stmt| step_the_long_way(&mut other, stmt, &mut long));
+            assert_eq!((done.is_err(), &events), (stepped.is_err(), &long), "{what}");
+            if done.is_ok() {
+                assert_eq!(format!("{one:?}"), format!("{other:?}"), "{what}");
+            }
+        }
     }
 
     /// What is passed leaves the state that steps leave, event by event, in whatever order lines come.
@@ -208,12 +319,22 @@ mod tests {
                 let _ = one.step(stmt, &mut events);
             }
             assert_eq!(one.chain.is_some(), matches!(frame.op, Op::SetSlot(_)), "{what}");
-            let mut other = one.clone();
+            let before = one.clone();
+            let (mut other, mut third) = (one.clone(), one.clone());
             let passed = one.pass(lines);
             events.clear();
-            let stepped = lines.iter().try_for_each(|stmt| other.step(stmt, &mut events));
+            let stepped = lines.iter().try_for_each(|stmt| step_the_long_way(&mut other, stmt, &mut events));
+            let (mut fourth, mut own) = (before.clone(), Vec::new());
+            let done = lines.iter().try_for_each(|stmt| fourth.step(stmt, &mut own));
+            assert_eq!((done.is_err(), &own), (stepped.is_err(), &events), "{what}");
+            told_alike(&before, lines, &what);
             assert_eq!(passed.is_err(), stepped.is_err(), "{what}");
+            let counted = third.count(lines, &mut Vec::new());
+            assert_eq!(counted.is_err(), stepped.is_err(), "{what}");
             if passed.is_ok() {
+                assert_eq!(counted.ok(), Some(events.len() as u64), "{what}");
+                third.counted = one.counted;
+                assert_eq!(format!("{one:?}"), format!("{third:?}"), "{what}");
                 assert_eq!(passed.ok(), Some(events.len() as u64), "{what}");
                 other.counted = one.counted;
                 assert_eq!(format!("{one:?}"), format!("{other:?}"), "{what}");

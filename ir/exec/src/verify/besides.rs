@@ -31,6 +31,11 @@ pub(super) struct Passed {
 }
 
 impl Passed {
+    /// Whether nothing is passed over.
+    pub(super) fn is_nothing(&self) -> bool {
+        self.spindle.is_none() && self.z.is_none() && !self.dry
+    }
+
     /// Two events were found equal; `around` is what an optional stop lets pass besides.
     pub(super) fn after(&mut self, a: &Event, b: &Event, around: u8) {
         let by_target = b.state.by_control | around;
