@@ -21,7 +21,7 @@ use crate::render::json::Entry;
 use crate::render::words::Context;
 use crate::render::{About, questions, summary};
 use crate::source::called_files;
-use crate::source::chunks::{Chunk, Chunks};
+use crate::source::chunks::{Chunk, Chunks, PIECE};
 use crate::source::not_milling::Refusal;
 
 #[derive(Serialize)]
@@ -239,7 +239,7 @@ pub fn refused(
         sha256: String,
     }
     source.rewind().map_err(|problem| io::Error::other(problem.message))?;
-    let mut chunks = Chunks::new(&mut source.file);
+    let mut chunks = Chunks::hashed(&mut source.file, PIECE);
     while !matches!(chunks.take()?, Chunk::End) {}
     let (hash, bytes) = chunks.finish();
     let mut out = io::BufWriter::new(out);

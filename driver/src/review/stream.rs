@@ -34,7 +34,7 @@ use crate::job::Job;
 use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
 use crate::source::Readable;
-use crate::source::chunks::{Chunk, Chunks};
+use crate::source::chunks::{Chunk, Chunks, PIECE};
 use crate::source::reader::reader_for;
 use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
@@ -94,8 +94,18 @@ pub struct Course {
     pub assumed: Modes,
     /// What its text has of what a comparison must know of the whole.
     pub has: Has,
-    /// SHA-256 of the source's bytes; only of a source that was read to its end.
-    pub sha256: [u8; 32],
+    /// Whether it is kept whole from some block on.
+    pub whole: bool,
+    /// Length and SHA-256 of the source's bytes; only where [`look`] has read them to their end.
+    pub bytes: Option<(u64, [u8; 32])>,
+}
+
+/// Statements of a program that streams, in their order, not executed.
+pub struct Reading {
+    /// The statements of a piece.
+    pub stmts: Vec<Stmt>,
+    /// What the program has taken for granted so far.
+    pub assumed: Modes,
 }
 
 /// What is taken for granted where a program asks for a value of the machine's own.
@@ -187,37 +197,46 @@ pub fn stream_as(
     controls: Vec<Exec>,
     take: &mut dyn FnMut(Made) -> ControlFlow<()>,
 ) -> io::Result<Course> {
-    let mut run = Run {
-        job,
-        reader: reader_for(job, matches!(unsaid, Unsaid::Taken), file)?,
-        unsaid,
-        batch: Batch::default(),
-        controls: controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect(),
-        stood: false,
-        course: Course::default(),
-        errors: 0,
-        take,
-        broken_off: false,
-    };
-    let mut chunks = Chunks::new(file);
-    loop {
-        match chunks.take()? {
-            Chunk::Lines(base, range) => run.piece(chunks.text(range), base),
-            Chunk::TooLong(start, end) => run.reader.too_long(Span::new(start, end), &mut run.batch),
-            Chunk::End => break,
-        }
-        if run.errors >= ENOUGH_ERRORS || run.broken_off {
-            break;
-        }
-    }
-    run.course.sha256 = chunks.finish().0;
+    let mut run = Run::new(job, file, unsaid, take)?;
+    run.controls = controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect();
+    run.through(&mut Chunks::new(file))?;
+    run.last_statements();
+    Ok(run.end())
+}
+
+/// Reads a program without executing anything: what is known of the whole of it, with its length and its hash.
+///
+/// # Errors
+/// Reading the source.
+pub fn look(job: &Job, file: &mut dyn Readable) -> io::Result<Course> {
+    let mut nothing = |_: Made| ControlFlow::Continue(());
+    let mut run = Run::new(job, file, Unsaid::Taken, &mut nothing)?;
+    let mut chunks = Chunks::hashed(file, PIECE);
+    let over = run.through(&mut chunks)?;
+    run.last_statements();
+    let (sha256, bytes) = chunks.finish();
+    run.course.bytes = over.then_some((bytes, sha256));
+    Ok(run.end())
+}
+
+/// Reads a program and hands its statements out, for somebody who executes them: as long as it streams, and has no errors.
+///
+/// # Errors
+/// Reading the source.
+pub fn read(
+    job: &Job,
+    file: &mut dyn Readable,
+    unsaid: Unsaid,
+    hand_out: &mut dyn FnMut(Reading) -> ControlFlow<()>,
+) -> io::Result<Course> {
+    let mut nothing = |_: Made| ControlFlow::Continue(());
+    let mut run = Run::new(job, file, unsaid, &mut nothing)?;
+    run.reads = Some(hand_out);
+    run.through(&mut Chunks::new(file))?;
     run.reader.finish(&mut run.batch);
     run.take_diagnostics();
-    if run.batch.whole && run.errors == 0 {
-        run.whole();
-    } else {
-        let stmts = std::mem::take(&mut run.batch.stmts);
-        run.statements(&stmts);
+    if !run.batch.whole {
+        run.next_statements();
     }
     Ok(run.end())
 }
@@ -233,18 +252,83 @@ struct Run<'r> {
     course: Course,
     errors: usize,
     take: &'r mut dyn FnMut(Made) -> ControlFlow<()>,
+    /// Takes statements that are read and not executed here.
+    reads: Option<&'r mut dyn FnMut(Reading) -> ControlFlow<()>>,
     broken_off: bool,
 }
 
-impl Run<'_> {
+impl<'r> Run<'r> {
+    /// One without controls, before its first piece.
+    fn new(
+        job: &'r Job,
+        file: &mut dyn Readable,
+        unsaid: Unsaid,
+        take: &'r mut dyn FnMut(Made) -> ControlFlow<()>,
+    ) -> io::Result<Run<'r>> {
+        Ok(Run {
+            job,
+            reader: reader_for(job, matches!(unsaid, Unsaid::Taken), file)?,
+            unsaid,
+            batch: Batch::default(),
+            controls: Vec::new(),
+            stood: false,
+            course: Course::default(),
+            errors: 0,
+            take,
+            reads: None,
+            broken_off: false,
+        })
+    }
+
+    /// Reads piece by piece; says whether that went to the end.
+    fn through(&mut self, chunks: &mut Chunks) -> io::Result<bool> {
+        loop {
+            match chunks.take()? {
+                Chunk::Lines(base, range) => self.piece(chunks.text(range), base),
+                Chunk::TooLong(start, end) => self.reader.too_long(Span::new(start, end), &mut self.batch),
+                Chunk::End => return Ok(true),
+            }
+            let kept = self.reads.is_some() && self.batch.whole;
+            if self.errors >= ENOUGH_ERRORS || self.broken_off || kept {
+                return Ok(false);
+            }
+        }
+    }
+
     fn piece(&mut self, text: &[u8], base: u32) {
         self.reader.read(text, base, &mut self.batch);
         self.take_diagnostics();
         if !self.batch.whole {
-            let mut stmts = std::mem::take(&mut self.batch.stmts);
+            self.next_statements();
+        }
+    }
+
+    /// Executes what was read, or hands it out.
+    fn next_statements(&mut self) {
+        let mut stmts = std::mem::take(&mut self.batch.stmts);
+        match &mut self.reads {
+            None => {
+                self.statements(&stmts);
+                stmts.clear();
+                self.batch.stmts = stmts;
+            }
+            Some(_) if self.errors > 0 || stmts.is_empty() => {}
+            Some(hand_out) => {
+                self.course.skip_levels |= levels(&stmts);
+                self.broken_off = hand_out(Reading { stmts, assumed: self.batch.assumed }).is_break();
+            }
+        }
+    }
+
+    /// Executes what the end of the text has left: the rest of a program that is kept whole.
+    fn last_statements(&mut self) {
+        self.reader.finish(&mut self.batch);
+        self.take_diagnostics();
+        if self.batch.whole && self.errors == 0 {
+            self.whole();
+        } else {
+            let stmts = std::mem::take(&mut self.batch.stmts);
             self.statements(&stmts);
-            stmts.clear();
-            self.batch.stmts = stmts;
         }
     }
 
@@ -376,6 +460,7 @@ impl Run<'_> {
         }
         self.course.refused = self.errors > 0;
         self.course.assumed = self.batch.assumed;
+        self.course.whole = self.batch.whole;
         if self.errors == 0 && !self.broken_off {
             for control in &mut self.controls {
                 control.events.clear();

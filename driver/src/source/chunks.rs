@@ -13,7 +13,7 @@ pub const PIECE: usize = 16 * 1024;
 /// Longest source: spans are 32 bits.
 const LONGEST: u64 = u32::MAX as u64;
 
-/// Reads a source piece by piece, and hashes it.
+/// Reads a source piece by piece, and hashes it where that is asked for.
 pub struct Chunks<'r> {
     from: &'r mut dyn Read,
     buffer: Vec<u8>,
@@ -59,26 +59,26 @@ pub(crate) fn ends_by_return(source: &mut dyn Readable) -> io::Result<bool> {
 
 impl<'r> Chunks<'r> {
     pub(crate) fn new(from: &'r mut dyn Read) -> Chunks<'r> {
-        Chunks {
-            from,
-            buffer: vec![0; PIECE],
-            filled: 0,
-            used: 0,
-            base: 0,
-            over: false,
-            hash: Some(Sha256::new()),
-            lines: 0,
-        }
-    }
-
-    /// One that is only looked through.
-    pub(crate) fn without_hash(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
-        Chunks { hash: None, ..Chunks::of_bytes(from, piece) }
+        Chunks::of_bytes(from, PIECE)
     }
 
     /// One with pieces of so many bytes.
     pub(crate) fn of_bytes(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
-        Chunks { buffer: vec![0; piece], ..Chunks::new(from) }
+        Chunks {
+            from,
+            buffer: vec![0; piece],
+            filled: 0,
+            used: 0,
+            base: 0,
+            over: false,
+            hash: None,
+            lines: 0,
+        }
+    }
+
+    /// The same, which hashes what it reads.
+    pub(crate) fn hashed(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
+        Chunks { hash: Some(Sha256::new()), ..Chunks::of_bytes(from, piece) }
     }
 
     /// Text of a [`Chunk::Lines`].

@@ -24,7 +24,7 @@ pub(crate) fn reader_for(job: &Job, assume: bool, source: &mut dyn Readable) -> 
         reader.repeats(has(source, job.piece, dialect, may_repeat_blocks)?);
     }
     if dialect.program.macro_b && has(source, job.piece, dialect, may_jump)? {
-        let mut chunks = Chunks::without_hash(source, job.piece);
+        let mut chunks = Chunks::of_bytes(source, job.piece);
         loop {
             match chunks.take()? {
                 Chunk::Lines(_, range) => reader.foresee_jumps(chunks.text(range)),
@@ -44,7 +44,7 @@ fn has(
     dialect: &Dialect,
     are: fn(&Dialect, &[u8]) -> bool,
 ) -> io::Result<bool> {
-    let mut chunks = Chunks::without_hash(source, piece);
+    let mut chunks = Chunks::of_bytes(source, piece);
     let found = loop {
         match chunks.take()? {
             Chunk::Lines(_, range) if are(dialect, chunks.text(range.clone())) => break true,

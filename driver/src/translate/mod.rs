@@ -97,7 +97,7 @@ fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, threads: bool) ->
     // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
     let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
     let reader = reader_for(job, true, source)?;
-    let mut chunks = Chunks::of_bytes(source, job.piece);
+    let mut chunks = Chunks::hashed(source, job.piece);
     let mut translation = Translation::new(job);
     translation.reader = reader;
     translation.batch.whole |= returns;

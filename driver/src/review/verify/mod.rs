@@ -9,5 +9,6 @@
 
 pub mod document;
 pub mod hashes;
+mod in_step;
 pub mod pair;
 pub mod text;

@@ -5,7 +5,8 @@
 //! it leaves unsaid is known only where its dialect or its machine's profile settles it, or where a
 //! translation would leave it unsaid too (`shared`); about everything else the worlds disagree. Each
 //! side runs on a thread of its own and hands its events over in pieces, so that memory does not grow
-//! with the programs. Not here: words (`text`), what is written down (`document`).
+//! with the programs; two that stream are executed in step (`in_step`), as long as they make the same.
+//! Not here: words (`text`), what is written down (`document`).
 
 use std::io;
 use std::ops::ControlFlow;
@@ -19,9 +20,10 @@ use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::expr::num::Nanos;
 
+use super::in_step;
 use crate::job::Job;
 use crate::machines::pair::Machines;
-use crate::review::stream::{Course, Made, Stage, Unsaid, clearances, stream, stream_as};
+use crate::review::stream::{Course, Stage, Unsaid, clearances, look, stream, stream_as};
 use crate::side::Side;
 use crate::side_by_side::{self, Pieces, Take};
 use crate::verify_run::controls::{alarms_of, fixed, resolution, writes};
@@ -91,9 +93,8 @@ pub fn job_of(sides: &[Side; 2]) -> Job {
 /// Reading the programs.
 pub fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Found> {
     let job = job_of(sides);
-    let mut nothing = |_: Made| ControlFlow::Continue(());
-    let mut read = |side: &mut Side| stream(&side.job, &mut side.source.file, Vec::new(), &mut nothing);
-    let courses = [read(&mut sides[0])?, read(&mut sides[1])?];
+    let looked = |side: &mut Side| look(&side.job, &mut side.source.file);
+    let courses = [looked(&mut sides[0])?, looked(&mut sides[1])?];
     let in_inches = [&courses[0], &courses[1]]
         .map(|course| course.has.inches || course.assumed.units == Some(Units::Inch));
     let one_control = same_control(sides);
@@ -158,10 +159,11 @@ pub fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Found> {
         optional_stops: stops_differ(&job),
         seen: Seen::by(&job.from.dialect.caps).both(Seen::by(&job.to.dialect.caps)),
     };
+    let streams = found.courses.iter().all(|course| !course.whole);
     let mut beyond = false;
     for skip in settings {
         found.settings += 1;
-        let done = once(sides, &plan, skip)?;
+        let done = executed(sides, &plan, skip, streams)?;
         found.events += done.events;
         found.coarse |= done.coarse;
         if let Some((deviation, over)) = done.deviation {
@@ -291,7 +293,7 @@ fn starts(sides: &mut [Side; 2], worlds: &[[World; 2]]) -> io::Result<Vec<[Nanos
 }
 
 /// How both sides are executed, whatever the switches.
-struct Plan {
+pub(super) struct Plan {
     worlds: Vec<[World; 2]>,
     starts: Vec<[Nanos; AXES]>,
     /// The tool that is in the spindle of both, as far as the source's T code is stated.
@@ -306,7 +308,7 @@ struct Plan {
     /// One of the texts has no blocks; both are for controls of different kinds.
     lines: bool,
     between_controls: bool,
-    unsaid: Unsaid,
+    pub(super) unsaid: Unsaid,
     in_inches: bool,
     tolerance: Nanos,
     resolution: Resolution,
@@ -320,7 +322,7 @@ struct Plan {
 }
 
 impl Plan {
-    fn controls(&self, side: usize, skip: u16) -> Vec<Exec> {
+    pub(super) fn controls(&self, side: usize, skip: u16) -> Vec<Exec> {
         let control = |(worlds, start): (&[World; 2], &[Nanos; AXES])| {
             let mut exec = Exec::new(&worlds[side], skip);
             if side == 1 {
@@ -347,7 +349,7 @@ impl Plan {
         self.worlds.iter().zip(&self.starts).map(control).collect()
     }
 
-    fn comparisons(&self) -> Vec<Comparison> {
+    pub(super) fn comparisons(&self) -> Vec<Comparison> {
         let comparison = |start: &[Nanos; AXES]| {
             let mut comparison = Comparison::new(self.resolution, *start);
             comparison.rename_tools(self.tools.tools.clone(), &self.tools.tool_names);
@@ -385,6 +387,31 @@ struct Done {
     refused: [Vec<Diagnostic>; 2],
 }
 
+impl Done {
+    /// Of comparisons that have come to the end.
+    fn of(comparisons: &[Comparison]) -> Done {
+        let deviations = comparisons.iter().filter_map(Comparison::deviation);
+        Done {
+            events: comparisons.iter().map(|comparison| comparison.events).sum(),
+            deviation: deviations.reduce(|a, b| {
+                let farthest = if b.0.by > a.0.by { b.0 } else { a.0 };
+                (farthest, a.1 || b.1)
+            }),
+            coarse: comparisons.iter().any(Comparison::coarse),
+            difference: None,
+            refused: Default::default(),
+        }
+    }
+}
+
+/// Executes and compares under one setting: in step where both programs stream and make the same.
+fn executed(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2], streams: bool) -> io::Result<Done> {
+    if streams && let Some(comparisons) = in_step::once(sides, plan, skip)? {
+        return Ok(Done::of(&comparisons));
+    }
+    once(sides, plan, skip)
+}
+
 fn once(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2]) -> io::Result<Done> {
     let [a, b] = sides;
     let first = |take: Take<Piece>| hand_over(a, Unsaid::Taken, plan.controls(0, skip[0]), take);
@@ -404,17 +431,7 @@ fn once(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2]) -> io::Result<Done> 
     } else if !over && refused.iter().all(Vec::is_empty) {
         return Err(broke_off());
     }
-    let deviations = comparisons.iter().filter_map(Comparison::deviation);
-    Ok(Done {
-        events: comparisons.iter().map(|comparison| comparison.events).sum(),
-        deviation: deviations.reduce(|a, b| {
-            let farthest = if b.0.by > a.0.by { b.0 } else { a.0 };
-            (farthest, a.1 || b.1)
-        }),
-        coarse: comparisons.iter().any(Comparison::coarse),
-        difference,
-        refused,
-    })
+    Ok(Done { difference, refused, ..Done::of(&comparisons) })
 }
 
 /// Executes a side and hands its events over.

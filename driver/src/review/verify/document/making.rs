@@ -180,9 +180,10 @@ fn called_file(file: &CalledFile) -> Hashed {
 }
 
 fn program(side: usize, found: &Found, sides: &mut [Side; 2], call: &Call) -> io::Result<Program> {
-    let (bytes, sha256) = match &sides[side].source.called {
-        Some(called) => (called.bytes, hex(&called.sha256)),
-        None => length_and_hash(&mut *sides[side].source.file)?,
+    let (bytes, sha256) = match (&sides[side].source.called, found.courses[side].bytes) {
+        (Some(called), _) => (called.bytes, hex(&called.sha256)),
+        (None, Some((bytes, sha256))) => (bytes, hex(&sha256)),
+        (None, None) => length_and_hash(&mut *sides[side].source.file)?,
     };
     let called = sides[side].source.called.iter().flat_map(|called| &called.files).map(called_file).collect();
     let (course, program) = (&found.courses[side], &sides[side]);
