@@ -7,6 +7,8 @@
 
 use ncc_dialects::{Family, Settings};
 
+use crate::common::plain_words::plain_words;
+pub use crate::common::plain_words::{MOST as MOST_PLAIN, PlainWord};
 pub use crate::outline::{LineIs, Piece, PieceKind};
 use crate::{siemens, word};
 
@@ -24,6 +26,41 @@ impl Lines {
     /// For a text from its first line on.
     pub fn new(settings: Settings) -> Lines {
         Lines { settings, opened: false, closed: false }
+    }
+
+    /// Whether another text is in the state of this one: then both take the same next line apart in the same way.
+    pub fn stands_as(&self, other: &Lines) -> bool {
+        (self.opened, self.closed) == (other.opened, other.closed)
+    }
+
+    /// Another text, of which the same lines were taken apart, has come as far as this one.
+    pub fn follow(&mut self, other: &Lines) {
+        (self.opened, self.closed) = (other.opened, other.closed);
+    }
+
+    /// The words of the next line (without its end), where it is a block of nothing but capitals with numbers, one blank
+    /// between each two. Then it need not be taken apart: its pieces are a letter, a minus where there is one, and a number
+    /// for each word.
+    pub fn plain<'w>(
+        &mut self,
+        line: &[u8],
+        words: &'w mut [PlainWord; MOST_PLAIN],
+    ) -> Option<&'w [PlainWord]> {
+        let program = &self.settings.dialect.program;
+        let of_program = program.number.map_or(0, |letter| letter as u8);
+        let begins = |mark: &str| !mark.is_empty() && line.starts_with(mark.as_bytes());
+        if self.closed || begins(&program.ignored) || begins(&program.frame) {
+            return None;
+        }
+        let words = match self.settings.dialect.family {
+            Family::Word | Family::Sinumerik => plain_words(line, words)?,
+            Family::Canon | Family::Ir => return None,
+        };
+        if words.iter().any(|word| word.letter == of_program) {
+            return None;
+        }
+        self.opened |= self.settings.dialect.family == Family::Word;
+        Some(words)
     }
 
     /// Takes the next line (without its end) apart; `pieces` is emptied first. Families whose lines are

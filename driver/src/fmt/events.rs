@@ -1,20 +1,27 @@
 //! Whether two texts of one dialect do the same: both are executed in the worlds of a verification, with
 //! all block-skip switches off and with all of them on, and what they do is held against each other.
 //!
-//! Both must do exactly the same, to the last digit: only places in the text may differ. What is compared
-//! is a digest of all events, so that memory does not grow with the program. Not here: whether the texts
-//! have the same words (`same`), which goes further than two settings of the switches do.
+//! Both must do exactly the same, to the last digit: only places in the text may differ. Two texts that are read as the
+//! same statements do the same, because execution knows nothing else of them: these are executed once, and their events
+//! counted. Of others a digest of all events is compared, so that memory does not grow with the program. Not here: whether
+//! the texts have the same words (`same`), which goes further than two settings of the switches do.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::ops::ControlFlow;
 
 use ncc_exec::{Event, Exec, Kind};
+use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::Stmt;
 
 use crate::job::Job;
-use crate::review::stream::{Made, clearances, stream, worlds};
+use crate::review::stream::{Course, Made, Reading, Unsaid, clearances, read, stream, worlds};
+use crate::side_by_side::{self, Pieces, Take};
 use crate::source::Readable;
+
+/// Pieces that the reader of a text may be ahead.
+const AHEAD: usize = 4;
 
 /// What a comparison found out.
 #[derive(Debug)]
@@ -33,10 +40,13 @@ pub enum Compared {
 /// Reading.
 pub fn compare(
     job: &Job,
-    before: &mut dyn Readable,
-    after: &mut dyn Readable,
+    before: &mut (dyn Readable + Send),
+    after: &mut (dyn Readable + Send),
     assumed: &mut Vec<Diagnostic>,
 ) -> io::Result<Compared> {
+    if let Some(events) = once(job, before, after, assumed)? {
+        return Ok(Compared::Same(events));
+    }
     let (done, levels) = digest(job, before, 0, assumed)?;
     let mut events = match &done {
         Done::Executed(_, events) => *events,
@@ -57,6 +67,101 @@ pub fn compare(
         }
     }
     Ok(Compared::Same(events))
+}
+
+/// How many events both texts make, where they are read as the same statements; what they are found to assume goes to
+/// `assumed`. `None` where they are not, or cannot be executed, or are not executed in one way from first to last.
+fn once(
+    job: &Job,
+    before: &mut (dyn Readable + Send),
+    after: &mut (dyn Readable + Send),
+    assumed: &mut Vec<Diagnostic>,
+) -> io::Result<Option<u64>> {
+    let Some((mut events, course)) = same_statements(job, before, after, 0)? else { return Ok(None) };
+    if course.skip_levels != 0 {
+        match same_statements(job, before, after, course.skip_levels)? {
+            Some((more, _)) => events += more,
+            None => return Ok(None),
+        }
+    }
+    assumed.extend(course.diagnostics);
+    Ok(Some(events))
+}
+
+/// Reads both texts beside one another, and executes the statements of the first under these block-skip switches.
+fn same_statements(
+    job: &Job,
+    before: &mut (dyn Readable + Send),
+    after: &mut (dyn Readable + Send),
+    skip: u16,
+) -> io::Result<Option<(u64, Course)>> {
+    let first = |take: Take<Reading>| read(job, before, Unsaid::Taken, take);
+    let second = |take: Take<Reading>| read(job, after, Unsaid::Taken, take);
+    let (counted, courses) = side_by_side::run(first, second, AHEAD, |pieces| count_same(job, skip, pieces));
+    let (Some(events), [Some(first), Some(second)]) = (counted, courses) else { return Ok(None) };
+    let (first, second) = (first?, second?);
+    let read = |course: &Course| !course.refused && !course.whole;
+    let alike = read(&first) && read(&second) && first.assumed == second.assumed;
+    Ok(alike.then_some((events, first)))
+}
+
+/// Counts the events of statements that come from both sides; `None` where these are others, or cannot be executed.
+fn count_same(job: &Job, skip: u16, mut from: [Pieces<Reading>; 2]) -> Option<u64> {
+    let mut controls: Vec<Exec> =
+        worlds(job, clearances(job)).iter().map(|world| Exec::new(world, skip)).collect();
+    let (mut events, mut many, mut stood) = (Vec::new(), 0, false);
+    let mut waiting: [Vec<Stmt>; 2] = Default::default();
+    let mut at = [0; 2];
+    loop {
+        for (side, from) in from.iter_mut().enumerate() {
+            if at[side] < waiting[side].len() {
+                continue;
+            }
+            (waiting[side], at[side]) = (Vec::new(), 0);
+            let Some(Reading { stmts, assumed }) = from() else { continue };
+            waiting[side] = stmts;
+            if side == 0 {
+                begin(job, &mut controls, &assumed, std::mem::replace(&mut stood, true));
+            }
+        }
+        let [first, second] = [0, 1].map(|side| waiting[side].get(at[side]..).unwrap_or_default());
+        let both = first.len().min(second.len());
+        if both == 0 {
+            let over = first.is_empty() && second.is_empty();
+            return if over { end(&mut controls, many) } else { None };
+        }
+        let (first, second) = (&first[..both], &second[..both]);
+        let same = |(a, b): (&Stmt, &Stmt)| a.op == b.op && a.skip == b.skip && a.joined == b.joined;
+        if !first.iter().zip(second).all(same) {
+            return None;
+        }
+        for control in &mut controls {
+            many += control.count(first, &mut events).ok()?;
+        }
+        at = at.map(|at| at + both);
+    }
+}
+
+/// What holds where further statements are executed, as [`stream`] has it.
+fn begin(job: &Job, controls: &mut [Exec], assumed: &Modes, stood: bool) {
+    for control in controls {
+        control.assume(assumed);
+        if !stood {
+            control.stand_at(&job.start);
+            job.tool_at_start().into_iter().for_each(|tool| control.hold_tool(tool));
+        }
+    }
+}
+
+/// The events of the whole text, with those of its end.
+fn end(controls: &mut [Exec], mut many: u64) -> Option<u64> {
+    let mut events = Vec::new();
+    for control in controls {
+        control.no_open_corner().ok()?;
+        control.end_of_text(&mut events);
+    }
+    many += events.len() as u64;
+    Some(many)
 }
 
 #[derive(Debug)]
@@ -147,4 +252,86 @@ fn take(event: &Event, into: &mut DefaultHasher) {
         state.path,
     )
         .hash(into);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use ncc_dialects::{Settings, builtin};
+
+    use super::*;
+
+    const PROGRAM: &str = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n\
+        G1 Z-1. F100.\nX10.\nX10.\nG2 X20. Y0. I5. J0.\nG1 X21.\n/2 Y5.\n/X3.\nG91 X1.\nG90 G81 Z-3. R2. F80.\nX1. Y2.\nG80\n\
+        (END)\nG0 Z50. M9\nM5\nM30\n%\n";
+
+    fn job() -> Job {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        Job::new(settings.clone(), settings, "text")
+    }
+
+    fn executed_once(texts: [&str; 2]) -> Option<u64> {
+        let [mut before, mut after] = texts.map(|text| Cursor::new(text.as_bytes().to_vec()));
+        once(&job(), &mut before, &mut after, &mut Vec::new()).expect("memory")
+    }
+
+    /// What both are found to do by their digests.
+    fn executed_twice(texts: [&str; 2]) -> Option<u64> {
+        let mut events = 0;
+        for skip in [0, 0b110] {
+            let [a, b] = texts.map(|text| {
+                let mut text = Cursor::new(text.as_bytes().to_vec());
+                digest(&job(), &mut text, skip, &mut Vec::new()).expect("memory").0
+            });
+            let Done::Executed(_, many) = a else { return None };
+            if a != b {
+                return None;
+            }
+            events += many;
+        }
+        Some(events)
+    }
+
+    #[test]
+    fn statements_that_are_the_same_are_executed_once() {
+        let laid_out = PROGRAM.replace("X10.\n", "X 10.\n").replace("G1 ", "G01");
+        let texts = [PROGRAM, &laid_out];
+        let events = executed_once(texts);
+        assert!(events.is_some());
+        assert_eq!(events, executed_twice(texts));
+    }
+
+    /// Whatever word is another one, the texts are not taken for the same.
+    #[test]
+    fn other_statements_are_not_taken_for_the_same() {
+        let words: Vec<(usize, &str)> = PROGRAM.match_indices(['X', 'Y', 'Z', 'F', 'I', 'S']).collect();
+        for (at, _) in words {
+            let (before, rest) = PROGRAM.split_at(at + 1);
+            let other = format!(
+                "{before}{}7{}",
+                if rest.starts_with('-') { "-" } else { "" },
+                rest.trim_start_matches('-')
+            );
+            assert_eq!(executed_once([PROGRAM, &other]), None, "{other}");
+        }
+        for (from, to) in
+            [("/2", "/3"), ("/2 ", ""), ("M3\n", "M4\n"), ("M9\n", "M9\nX1.\n"), ("X3.\n", "X3.\nG4 P1\n")]
+        {
+            let other = PROGRAM.replacen(from, to, 1);
+            assert_ne!(other, PROGRAM);
+            assert_eq!(executed_once([PROGRAM, &other]), None, "{from} as {to}");
+        }
+    }
+
+    /// A program that is kept whole, or cannot be executed, is left to the digests.
+    #[test]
+    fn what_is_not_executed_in_one_way_is_left_to_digests() {
+        let called = PROGRAM.replace("M5\n", "M98 P2\nM5\n").replace("M30\n%", "M30\nO2\nM99\n%");
+        assert_eq!(executed_once([&called, &called]), None);
+        let refused = PROGRAM.replace("F100.", "");
+        assert_eq!(executed_once([&refused, &refused]), None);
+        let unread = PROGRAM.replace("X10.\n", "X10. =\n");
+        assert_eq!(executed_once([&unread, &unread]), None);
+    }
 }

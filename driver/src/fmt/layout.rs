@@ -6,7 +6,7 @@
 //! (`same`).
 
 use ncc_dialects::{Dialect, Family};
-use ncc_frontends::pieces::{Piece, PieceKind as Kind};
+use ncc_frontends::pieces::{Piece, PieceKind as Kind, PlainWord};
 
 /// Letters whose whole numbers name a program or a block. Zeros in front belong to such a name.
 const NAMES: &[u8] = b"NOPQL";
@@ -34,6 +34,17 @@ pub fn line(dialect: &Dialect, line: &[u8], pieces: &[Piece], to: &mut Vec<u8>) 
         }
     }
     debug_assert!(to.len() >= start);
+}
+
+/// Whether a line of such words looks as [`line`] would write it: most lines do.
+pub fn is_laid_out(dialect: &Dialect, line: &[u8], words: &[PlainWord]) -> bool {
+    let stays = |word: &PlainWord| {
+        let text = line.get(word.start..word.end).unwrap_or_default();
+        let zeros = matches!(text, [b'0', b'0'..=b'9', ..]);
+        let is_code = !word.negative && matches!(word.letter, b'G' | b'M');
+        !zeros && (!is_code || code(dialect, word.letter, text).is_none_or(|code| code == text))
+    };
+    dialect.block.blanks && words.iter().all(stays)
 }
 
 /// Whether a blank stands before a piece.

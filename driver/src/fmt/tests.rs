@@ -1,7 +1,7 @@
 //! How lines look, as data: what goes in, and what comes out.
 
 use ncc_dialects::Settings;
-use ncc_frontends::pieces::{LineIs, Lines, Piece};
+use ncc_frontends::pieces::{LineIs, Lines, MOST_PLAIN, Piece, PlainWord};
 
 use super::layout;
 use super::same::{Taken, same};
@@ -130,4 +130,40 @@ fn what_is_changed_is_found() {
         assert!(!says_the_same(id, a, b), "{id}: {a} | {b}");
         assert!(says_the_same(id, a, a) && says_the_same(id, b, b), "{id}: {a} | {b}");
     }
+}
+
+/// What the short way takes for laid out is what the long way leaves as it is, in every dialect.
+#[test]
+fn lines_that_stay_are_laid_out() {
+    let (mut stay, mut change) = (0, 0);
+    for dialect in ncc_dialects::builtins() {
+        let id = dialect.id.as_str();
+        for letter in b'A'..=b'Z' {
+            for value in ["1", "01", "-1", "-01", "0.5", "00.5", "-0.25", "54.1", "10.", "0", "00", "6", "06"]
+            {
+                let letter = letter as char;
+                for line in [
+                    format!("{letter}{value}"),
+                    format!("N10 {letter}{value} Y5"),
+                    format!("X1.5 {letter}{value} G1 F100"),
+                    format!("{letter}{value} {letter}{value}"),
+                ] {
+                    let mut words = [PlainWord::default(); MOST_PLAIN];
+                    let mut lines = Lines::new(settings(id));
+                    let Some(words) = lines.plain(line.as_bytes(), &mut words) else { continue };
+                    if !layout::is_laid_out(dialect, line.as_bytes(), words) {
+                        change += 1;
+                        continue;
+                    }
+                    stay += 1;
+                    assert_eq!(laid_out(id, &line), line, "{id}");
+                    assert!(says_the_same(id, &line, &line), "{id}: {line}");
+                    let mut long = Lines::new(settings(id));
+                    assert_eq!(long.line(line.as_bytes(), &mut Vec::new()), LineIs::Blocks, "{id}: {line}");
+                    assert!(long.stands_as(&lines), "{id}: {line}");
+                }
+            }
+        }
+    }
+    assert!(stay > 1000 && change > 1000, "{stay} {change}");
 }

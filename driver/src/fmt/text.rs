@@ -5,7 +5,7 @@
 use std::io::{self, BufRead, BufReader, BufWriter, Read, SeekFrom, Write};
 
 use ncc_dialects::{Family, Settings};
-use ncc_frontends::pieces::{LineIs, Lines};
+use ncc_frontends::pieces::{LineIs, Lines, MOST_PLAIN, Piece, PlainWord};
 
 use super::same::{Taken, same};
 use super::{calls, layout};
@@ -53,9 +53,8 @@ pub fn text(
     let mut from = BufReader::with_capacity(1 << 16, from);
     let mut to = BufWriter::with_capacity(1 << 16, to);
     let mut found = LaidOut::default();
-    let (mut lines, mut again) = (Lines::new(settings.clone()), Lines::new(settings.clone()));
+    let mut lines = Both::new(settings);
     let (mut read, mut written) = (Vec::new(), Vec::new());
-    let (mut pieces, mut pieces_again) = (Vec::new(), Vec::new());
     loop {
         read.clear();
         written.clear();
@@ -79,31 +78,13 @@ pub fn text(
             }
             Some(_) | None => b"",
         };
-        let mut is = lines.line(line, &mut pieces);
-        let family = settings.dialect.family;
-        let is_calls = matches!(family, Family::Canon | Family::Ir);
-        if is_calls && calls::line(line, family == Family::Ir, &mut written) {
-            is = LineIs::Blocks;
-        }
-        match is {
-            LineIs::Blocks if is_calls => {}
-            LineIs::Blocks => layout::line(settings.dialect, line, &pieces, &mut written),
-            LineIs::Frame | LineIs::Outside => written.extend_from_slice(line),
-            LineIs::Unread => {
-                written.extend_from_slice(line);
-                found.unread.1 += 1;
-                if found.unread.0.len() < NAMED {
-                    found.unread.0.push(found.lines);
-                }
+        let (is, says_same) = lines.lay_out(line, &mut written);
+        if is == LineIs::Unread {
+            found.unread.1 += 1;
+            if found.unread.0.len() < NAMED {
+                found.unread.0.push(found.lines);
             }
         }
-        let says_same = if is_calls {
-            calls::same(line, &written)
-        } else {
-            let is_again = again.line(&written, &mut pieces_again);
-            let a = Taken { is, line, pieces: &pieces };
-            same(a, Taken { is: is_again, line: &written, pieces: &pieces_again })
-        };
         if !says_same {
             found.refused = Some(Refused::NotSame(found.lines));
             return Ok(found);
@@ -119,4 +100,57 @@ pub fn text(
     }
     to.flush()?;
     Ok(found)
+}
+
+/// The text as it is read, and as it is read again once it is laid out.
+struct Both<'s> {
+    settings: &'s Settings,
+    lines: Lines,
+    again: Lines,
+    pieces: [Vec<Piece>; 2],
+    words: [PlainWord; MOST_PLAIN],
+}
+
+impl Both<'_> {
+    fn new(settings: &Settings) -> Both<'_> {
+        let lines = Lines::new(settings.clone());
+        let (pieces, words) = ([Vec::new(), Vec::new()], [PlainWord::default(); MOST_PLAIN]);
+        Both { settings, again: lines.clone(), lines, pieces, words }
+    }
+
+    /// Writes the next line anew; gives what it is, and whether the result says the same.
+    fn lay_out(&mut self, line: &[u8], written: &mut Vec<u8>) -> (LineIs, bool) {
+        let alike = self.lines.stands_as(&self.again);
+        if alike
+            && let Some(words) = self.lines.plain(line, &mut self.words)
+            && layout::is_laid_out(self.settings.dialect, line, words)
+        {
+            self.again.follow(&self.lines);
+            written.extend_from_slice(line);
+            return (LineIs::Blocks, true);
+        }
+        let [pieces, pieces_again] = &mut self.pieces;
+        let mut is = self.lines.line(line, pieces);
+        let family = self.settings.dialect.family;
+        let is_calls = matches!(family, Family::Canon | Family::Ir);
+        if is_calls && calls::line(line, family == Family::Ir, written) {
+            is = LineIs::Blocks;
+        }
+        match is {
+            LineIs::Blocks if is_calls => {}
+            LineIs::Blocks => layout::line(self.settings.dialect, line, pieces, written),
+            LineIs::Frame | LineIs::Outside | LineIs::Unread => written.extend_from_slice(line),
+        }
+        if is_calls {
+            return (is, calls::same(line, written));
+        }
+        if alike && written == line {
+            // The same bytes are taken apart in the same way.
+            self.again.follow(&self.lines);
+            return (is, true);
+        }
+        let is_again = self.again.line(written, pieces_again);
+        let a = Taken { is, line, pieces };
+        (is, same(a, Taken { is: is_again, line: written, pieces: pieces_again }))
+    }
 }

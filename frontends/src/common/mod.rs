@@ -5,6 +5,7 @@
 //! N10 G1 X10.5 F200      fast_parse::read    four words with their digits and spans
 //! X10.5 Y3.              fast_lower::line     the statement of a plain move, without words
 //! G2 X5. Y5. I5. (A)     fast_block::read    the words of a move of another kind
+//! X10.5 Y3.              plain_words         letters and numbers, whatever they mean
 //! ```
 //!
 //! Not here: what a word means, and what one reader alone needs.
@@ -17,6 +18,7 @@ pub(crate) mod modal_state;
 pub(crate) mod number;
 pub(crate) mod only_value;
 pub(crate) mod pieces;
+pub(crate) mod plain_words;
 pub(crate) mod quoted;
 pub(crate) mod saved;
 pub(crate) mod setting;

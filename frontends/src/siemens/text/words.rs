@@ -3,6 +3,7 @@
 
 use super::token::{Token, Tokens};
 use super::unit::{self, Line};
+use crate::common::plain_words::{MOST, PlainWord, plain_words};
 use crate::common::words::tenths;
 use crate::outline::Word;
 
@@ -11,6 +12,12 @@ pub(crate) fn words(line: &[u8], found: &mut dyn FnMut(Word)) {
     let line = line.trim_ascii_end();
     if !matches!(unit::line(line, 0), Ok(Line::Block)) {
         return;
+    }
+    let mut plain = [PlainWord::default(); MOST];
+    if let Some(words) = plain_words(line, &mut plain) {
+        // The number of a block is no word.
+        let words = words.iter().filter(|word| word.letter != b'N' || word.negative);
+        return words.for_each(|word| found(word.to_word(line)));
     }
     let mut letter: Option<u8> = None;
     for token in Tokens::new(line, 0) {

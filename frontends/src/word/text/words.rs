@@ -4,6 +4,7 @@
 use ncc_dialects::Dialect;
 
 use super::token::{Signs, Token, Tokens};
+use crate::common::plain_words::{MOST, PlainWord, plain_words};
 use crate::common::words::tenths;
 use crate::outline::Word;
 
@@ -14,6 +15,13 @@ pub(crate) fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word))
     let ignored = dialect.program.ignored.as_bytes();
     if !ignored.is_empty() && line.starts_with(ignored) || !frame.is_empty() && line.starts_with(frame) {
         return;
+    }
+    let mut plain = [PlainWord::default(); MOST];
+    let program = dialect.program.number.map_or(0, |letter| letter as u8);
+    if let Some(words) = plain_words(line, &mut plain)
+        && words.iter().all(|word| word.letter != program)
+    {
+        return words.iter().for_each(|word| found(word.to_word(line)));
     }
     let signs = Signs::new(dialect);
     let mut comments = Vec::new();
