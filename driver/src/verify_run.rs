@@ -299,8 +299,12 @@ impl Verifier {
         }
         let valued = self.runs.first().and_then(|run| run.source.value_lines(stmts));
         for run in &mut self.runs {
-            let events = valued.as_ref().and_then(|valued| run.source.pass_valued(valued));
-            let events = events.map_or_else(|| run.source.pass(stmts), Ok).map_err(Stop::Source)?;
+            let events = match &valued {
+                _ if run.comparison.keeps_pairs() => run.pass_in_pairs(stmts, &self.batch.stmts),
+                Some(valued) => run.source.pass_valued(valued).map_or_else(|| run.source.pass(stmts), Ok),
+                None => run.source.pass(stmts),
+            };
+            let events = events.map_err(Stop::Source)?;
             run.target.follow(&run.source);
             run.target.has_moved(stmts);
             run.comparison.pass(events, run.source.machine());
@@ -344,8 +348,10 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
-            let alike = run.source.agrees_on_lines(&run.target) || run.source.makes_holes_of(&run.target);
-            run.level = nothing_left && !self.renamed && !self.watched && alike;
+            // Holes that pass leave no pairs of events.
+            let alike = run.source.agrees_on_lines(&run.target)
+                || !self.watched && run.source.makes_holes_of(&run.target);
+            run.level = nothing_left && !self.renamed && alike;
         }
         self.drop_same();
         self.batch.stmts.clear();

@@ -143,9 +143,9 @@ fn source_of(
     let mut other = None;
     for path in &candidates {
         let mut source = files::open(path)?;
-        let text = ncc_driver::provenance::text::Text::new(&mut source.file)
+        let (_, sha256) = ncc_driver::provenance::text::Text::hashed(&mut source.file)
             .map_err(|e| Problem::file("read", &path.display().to_string(), &e))?;
-        if hex(&text.sha256) == side.sha256 {
+        if hex(&sha256) == side.sha256 {
             return with_called(source, document, map, known);
         }
         other.get_or_insert(path);

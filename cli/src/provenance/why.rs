@@ -100,8 +100,8 @@ fn ask(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Answer, Pr
     let mut output = files::open(path)?;
     let wrong = |e: io::Error| Problem::file("read", &path.display().to_string(), &e);
     let (lines, sha256) = {
-        let text = Text::new(&mut output.file).map_err(wrong)?;
-        (text.lines(), text.sha256)
+        let (text, sha256) = Text::hashed(&mut output.file).map_err(wrong)?;
+        (text.lines(), sha256)
     };
     if *line > lines {
         let counted = match lines {

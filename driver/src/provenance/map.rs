@@ -80,9 +80,11 @@ pub fn write(
         number: 0,
         start: 0,
         line: Vec::new(),
-        last: None,
+        last: Vec::new(),
         last_rows: Vec::new(),
         found: Vec::new(),
+        spans: Vec::new(),
+        text: Vec::new(),
     };
     outcome.output.write_to(&mut lines)?;
     lines.end()?;
@@ -140,9 +142,12 @@ struct Lines<'a, 'f, W: Write> {
     start: u64,
     line: Vec<u8>,
     /// The places of the line before, and their rows.
-    last: Option<Vec<Span>>,
+    last: Vec<Span>,
     last_rows: Vec<usize>,
     found: Vec<usize>,
+    /// Memory for places, and for the entry at hand.
+    spans: Vec<Span>,
+    text: Vec<u8>,
 }
 
 impl<W: Write> Write for Lines<'_, '_, W> {
@@ -183,57 +188,47 @@ impl<W: Write> Lines<'_, '_, W> {
             (false, true) => "frame",
             (false, false) => "source",
         };
-        let comma = if self.number > 1 { "," } else { "" };
-        let (number, start) = (self.number, self.start);
-        write!(self.out, "{comma}\n{{\"line\":{number},\"start\":{start},\"from\":\"{from}\"")?;
-        self.places()?;
+        let mut text = std::mem::take(&mut self.text);
+        text.clear();
+        text.extend_from_slice((if self.number > 1 { ",\n{\"line\":" } else { "\n{\"line\":" }).as_bytes());
+        digits(&mut text, self.number as u64);
+        field(&mut text, "start", self.start);
+        text.extend_from_slice(b",\"from\":\"");
+        text.extend_from_slice(from.as_bytes());
+        text.push(b'"');
+        self.places(&mut text)?;
         if !self.row.also.is_empty() {
-            write!(self.out, ",\"also\":[")?;
-            let places = by_line(&self.row.also, &self.source);
-            self.list(&places)?;
+            text.extend_from_slice(b",\"also\":[");
+            by_line(&self.row.also, &self.source, &mut self.spans);
+            self.list(&mut text)?;
         }
-        if !self.row.stretches.is_empty() {
-            write!(self.out, ",\"events\":[")?;
-            for (at, stretch) in self.row.stretches.iter().enumerate() {
-                let comma = if at > 0 { "," } else { "" };
-                let (first, last) = (stretch.first, stretch.last);
-                write!(self.out, "{comma}{{\"first\":{first},\"last\":{last},\"kinds\":[")?;
-                let kinds = KINDS.iter().enumerate().filter(|(bit, _)| stretch.kinds >> bit & 1 == 1);
-                for (at, (_, kind)) in kinds.enumerate() {
-                    write!(self.out, "{}\"{kind}\"", if at > 0 { "," } else { "" })?;
-                }
-                write!(self.out, "]}}")?;
-            }
-            write!(self.out, "]")?;
-        }
-        if self.row.more > 0 {
-            write!(self.out, ",\"more_events\":{}", self.row.more)?;
-        }
+        events(&mut text, &self.row);
         self.to.line(&self.line, &mut self.found);
-        numbers(self.out, "rows", &self.found)?;
-        numbers(self.out, "source_rows", &self.last_rows)?;
+        numbers(&mut text, "rows", &self.found);
+        numbers(&mut text, "source_rows", &self.last_rows);
+        text.push(b'}');
         self.start += self.line.len() as u64;
         self.line.clear();
-        write!(self.out, "}}")
+        let written = self.out.write_all(&text);
+        self.text = text;
+        written
     }
 
     /// The places of the line in the source; finds the rows of what stands there.
-    fn places(&mut self) -> io::Result<()> {
-        let fresh = self.last.as_ref() != Some(&self.row.spans);
-        if fresh {
-            self.last_rows.clear();
-        }
+    fn places(&mut self, text: &mut Vec<u8>) -> io::Result<()> {
         if self.row.spans.is_empty() {
-            self.last = None;
+            self.last_rows.clear();
+            self.last.clear();
             return Ok(());
         }
-        write!(self.out, ",\"source\":[")?;
-        let places = by_line(&self.row.spans, &self.source);
-        if fresh {
-            for span in &places {
+        text.extend_from_slice(b",\"source\":[");
+        by_line(&self.row.spans, &self.source, &mut self.spans);
+        if self.last != self.row.spans {
+            self.last_rows.clear();
+            for span in &self.spans {
                 let end = span.end.min(span.start.saturating_add(LONGEST));
-                let text = self.source.stretch(span.start, end)?;
-                for line in text.split(|b| *b == b'\n') {
+                let said = self.source.stretch(span.start, end)?;
+                for line in said.split(|b| *b == b'\n') {
                     self.from.line(line, &mut self.found);
                     for row in &self.found {
                         if !self.last_rows.contains(row) {
@@ -242,46 +237,119 @@ impl<W: Write> Lines<'_, '_, W> {
                     }
                 }
             }
-            self.last = Some(self.row.spans.clone());
+            self.last.clone_from(&self.row.spans);
         }
-        self.list(&places)
+        self.list(text)
     }
 
-    /// Places, and the end of their list.
-    fn list(&mut self, places: &[Span]) -> io::Result<()> {
-        for (at, span) in places.iter().enumerate() {
+    /// The places at hand, and the end of their list.
+    fn list(&mut self, text: &mut Vec<u8>) -> io::Result<()> {
+        for (at, span) in self.spans.iter().enumerate() {
             let (line, column) = (self.source.line_of(span.start), self.source.column_of(span.start)?);
-            let comma = if at > 0 { "," } else { "" };
-            let (start, end) = (span.start, span.end);
-            write!(
-                self.out,
-                "{comma}{{\"start\":{start},\"end\":{end},\"line\":{line},\"column\":{column}}}"
-            )?;
+            text.extend_from_slice((if at > 0 { ",{\"start\":" } else { "{\"start\":" }).as_bytes());
+            digits(text, u64::from(span.start));
+            field(text, "end", u64::from(span.end));
+            field(text, "line", line as u64);
+            field(text, "column", column as u64);
+            text.push(b'}');
         }
-        write!(self.out, "]")
+        text.push(b']');
+        Ok(())
+    }
+}
+
+/// The events of a line.
+fn events(text: &mut Vec<u8>, row: &Row) {
+    for (at, stretch) in row.stretches.iter().enumerate() {
+        text.extend_from_slice((if at > 0 { ",{\"first\":" } else { ",\"events\":[{\"first\":" }).as_bytes());
+        digits(text, stretch.first);
+        field(text, "last", stretch.last);
+        text.extend_from_slice(b",\"kinds\":[");
+        let kinds = KINDS.iter().enumerate().filter(|(bit, _)| stretch.kinds >> bit & 1 == 1);
+        for (at, (_, kind)) in kinds.enumerate() {
+            text.extend_from_slice((if at > 0 { ",\"" } else { "\"" }).as_bytes());
+            text.extend_from_slice(kind.as_bytes());
+            text.push(b'"');
+        }
+        text.extend_from_slice(b"]}");
+    }
+    if !row.stretches.is_empty() {
+        text.push(b']');
+    }
+    if row.more > 0 {
+        field(text, "more_events", row.more);
     }
 }
 
 /// Stretches of one line of the source as one, in their order.
-fn by_line(spans: &[Span], source: &Text) -> Vec<Span> {
-    let mut places: Vec<Span> = Vec::with_capacity(spans.len());
+fn by_line(spans: &[Span], source: &Text, places: &mut Vec<Span>) {
+    places.clear();
     for span in spans {
+        if places.is_empty() {
+            places.push(*span);
+            continue;
+        }
         let line = source.line_of(span.start);
         match places.iter_mut().find(|place| source.line_of(place.start) == line) {
             Some(place) => *place = place.to(*span),
             None => places.push(*span),
         }
     }
-    places
 }
 
-fn numbers(out: &mut impl Write, name: &str, numbers: &[usize]) -> io::Result<()> {
-    if numbers.is_empty() {
-        return Ok(());
+/// A further field of an object.
+fn field(text: &mut Vec<u8>, name: &str, value: u64) {
+    text.extend_from_slice(b",\"");
+    text.extend_from_slice(name.as_bytes());
+    text.extend_from_slice(b"\":");
+    digits(text, value);
+}
+
+/// A number in decimal digits.
+fn digits(text: &mut Vec<u8>, value: u64) {
+    // Places in a text are within 32 bits, and far cheaper to divide.
+    let Ok(mut value) = u32::try_from(value) else {
+        return text.extend_from_slice(value.to_string().as_bytes());
+    };
+    let mut all = [0; 10];
+    let mut from = all.len();
+    loop {
+        from -= 1;
+        all[from] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            return text.extend_from_slice(&all[from..]);
+        }
     }
-    write!(out, ",\"{name}\":[")?;
+}
+
+fn numbers(text: &mut Vec<u8>, name: &str, numbers: &[usize]) {
     for (at, number) in numbers.iter().enumerate() {
-        write!(out, "{}{number}", if at > 0 { "," } else { "" })?;
+        match at {
+            0 => {
+                text.extend_from_slice(b",\"");
+                text.extend_from_slice(name.as_bytes());
+                text.extend_from_slice(b"\":[");
+            }
+            _ => text.push(b','),
+        }
+        digits(text, *number as u64);
     }
-    write!(out, "]")
+    if !numbers.is_empty() {
+        text.push(b']');
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn numbers_are_written_as_they_are_shown() {
+        for value in [0, 9, 10, 99, 100, 1_234_567_890, u64::from(u32::MAX), 1 << 32, u64::MAX] {
+            let mut text = Vec::new();
+            digits(&mut text, value);
+            assert_eq!(text, value.to_string().as_bytes());
+        }
+    }
 }

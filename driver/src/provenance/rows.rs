@@ -34,6 +34,8 @@ pub struct Met {
     /// Number of the first row.
     rows: Vec<RowOf>,
     numbers: HashMap<(Table, &'static str), usize>,
+    /// Those of the rows of letters once more, by the letter: most words are met again and again.
+    letters: [Option<usize>; LETTERS.len()],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -48,7 +50,7 @@ enum Table {
 
 impl Met {
     pub(crate) fn new(dialect: &'static Dialect) -> Met {
-        Met { dialect, rows: Vec::new(), numbers: HashMap::new() }
+        Met { dialect, rows: Vec::new(), numbers: HashMap::new(), letters: [None; LETTERS.len()] }
     }
 
     /// The rows met so far.
@@ -108,9 +110,13 @@ impl Met {
     }
 
     fn letter(&mut self, d: &'static Dialect, letter: u8, found: &mut Vec<usize>) {
+        let place = usize::from(letter.wrapping_sub(b'A'));
+        if let Some(number) = self.letters.get(place).copied().flatten() {
+            return once(number, found);
+        }
         let Some(row) = d.address_row(letter) else { return };
-        let Some(name) = LETTERS.get(usize::from(letter.wrapping_sub(b'A'))) else { return };
-        self.add(Table::Address, name, found, || RowOf {
+        let Some(name) = LETTERS.get(place) else { return };
+        let number = self.add(Table::Address, name, found, || RowOf {
             id: format!("address/{}", row.letter),
             dialect: &d.id,
             meaning: match &row.refuse {
@@ -120,6 +126,9 @@ impl Met {
             source: &row.source,
             sure: row.sure,
         });
+        if let Some(known) = self.letters.get_mut(place) {
+            *known = Some(number);
+        }
     }
 
     fn name(&mut self, d: &'static Dialect, name: &str, found: &mut Vec<usize>) {
@@ -144,15 +153,26 @@ impl Met {
         }
     }
 
-    fn add(&mut self, table: Table, word: &'static str, found: &mut Vec<usize>, row: impl FnOnce() -> RowOf) {
+    fn add(
+        &mut self,
+        table: Table,
+        word: &'static str,
+        found: &mut Vec<usize>,
+        row: impl FnOnce() -> RowOf,
+    ) -> usize {
         let rows = &mut self.rows;
         let number = *self.numbers.entry((table, word)).or_insert_with(|| {
             rows.push(row());
             rows.len() - 1
         });
-        if !found.contains(&number) {
-            found.push(number);
-        }
+        once(number, found);
+        number
+    }
+}
+
+fn once(number: usize, found: &mut Vec<usize>) {
+    if !found.contains(&number) {
+        found.push(number);
     }
 }
 

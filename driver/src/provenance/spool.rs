@@ -1,6 +1,6 @@
 //! Rows of the record, kept in an anonymous file: a few numbers for each line of the output.
 
-use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 
 use ncc_ir::source::Span;
 
@@ -32,11 +32,13 @@ pub struct Stretch {
 #[derive(Debug)]
 pub struct Written {
     file: BufWriter<Spool>,
+    /// Memory for the row at hand.
+    row: Vec<u8>,
 }
 
 impl Written {
     pub(crate) fn new() -> Written {
-        Written { file: BufWriter::new(Spool::default()) }
+        Written { file: BufWriter::new(Spool::default()), row: Vec::new() }
     }
 
     /// Adds a row.
@@ -44,21 +46,23 @@ impl Written {
     /// # Errors
     /// The anonymous file cannot be written.
     pub fn push(&mut self, row: &Row) -> io::Result<()> {
-        let out = &mut self.file;
+        let out = &mut self.row;
+        out.clear();
         for spans in [&row.spans, &row.also] {
-            number(out, spans.len() as u64)?;
+            number(out, spans.len() as u64);
             for span in spans {
-                number(out, u64::from(span.start))?;
-                number(out, u64::from(span.end))?;
+                number(out, u64::from(span.start));
+                number(out, u64::from(span.end));
             }
         }
-        number(out, row.stretches.len() as u64)?;
+        number(out, row.stretches.len() as u64);
         for stretch in &row.stretches {
-            number(out, stretch.first)?;
-            number(out, stretch.last)?;
-            number(out, u64::from(stretch.kinds))?;
+            number(out, stretch.first);
+            number(out, stretch.last);
+            number(out, u64::from(stretch.kinds));
         }
-        number(out, row.more)
+        number(out, row.more);
+        self.file.write_all(out)
     }
 
     /// Reads them from the first one.
@@ -102,27 +106,30 @@ impl Rows {
 }
 
 /// Seven bits a byte, the lowest first; the highest bit says that more follow.
-fn number(out: &mut impl Write, mut value: u64) -> io::Result<()> {
-    let mut bytes = [0u8; 10];
-    let mut len = 0;
-    loop {
-        let low = (value & 0x7f) as u8;
+fn number(out: &mut Vec<u8>, mut value: u64) {
+    while value > 0x7f {
+        out.push((value & 0x7f) as u8 | 0x80);
         value >>= 7;
-        bytes[len] = if value > 0 { low | 0x80 } else { low };
-        len += 1;
-        if value == 0 {
-            return out.write_all(&bytes[..len]);
-        }
     }
+    out.push(value as u8);
 }
 
-fn read(from: &mut impl Read) -> io::Result<u64> {
+fn read(from: &mut BufReader<Spool>) -> io::Result<u64> {
     let mut value = 0u64;
     for shift in (0..64).step_by(7) {
-        let mut byte = [0];
-        from.read_exact(&mut byte)?;
-        value |= u64::from(byte[0] & 0x7f) << shift;
-        if byte[0] & 0x80 == 0 {
+        let byte = match from.buffer().first() {
+            Some(&byte) => {
+                from.consume(1);
+                byte
+            }
+            None => {
+                let mut byte = [0];
+                from.read_exact(&mut byte)?;
+                byte[0]
+            }
+        };
+        value |= u64::from(byte & 0x7f) << shift;
+        if byte & 0x80 == 0 {
             return Ok(value);
         }
     }

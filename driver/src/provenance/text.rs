@@ -2,6 +2,7 @@
 //!
 //! Only the places where its lines begin are kept, and one page of it.
 
+use std::cell::Cell;
 use std::io::{self, Read, SeekFrom};
 
 use sha2::{Digest, Sha256};
@@ -16,9 +17,9 @@ pub struct Text<'f> {
     file: &'f mut dyn Readable,
     /// Where lines begin.
     starts: Vec<u32>,
+    /// The line that was asked for last: the next one is likely to be near.
+    near: Cell<usize>,
     bytes: u32,
-    /// Its hash.
-    pub sha256: [u8; 32],
     page: Vec<u8>,
     page_at: u32,
 }
@@ -29,8 +30,21 @@ impl<'f> Text<'f> {
     /// # Errors
     /// It cannot be read, or is longer than 4 GiB.
     pub fn new(file: &'f mut dyn Readable) -> io::Result<Text<'f>> {
-        file.seek(SeekFrom::Start(0))?;
+        Text::through(file, &mut |_| {})
+    }
+
+    /// Reads through a file; gives the hash of its bytes besides.
+    ///
+    /// # Errors
+    /// As of [`Text::new`].
+    pub fn hashed(file: &'f mut dyn Readable) -> io::Result<(Text<'f>, [u8; 32])> {
         let mut hash = Sha256::new();
+        let text = Text::through(file, &mut |piece| hash.update(piece))?;
+        Ok((text, hash.finalize().into()))
+    }
+
+    fn through(file: &'f mut dyn Readable, take: &mut dyn FnMut(&[u8])) -> io::Result<Text<'f>> {
+        file.seek(SeekFrom::Start(0))?;
         let mut starts = vec![0];
         let mut piece = vec![0; PAGE];
         let mut at = 0u64;
@@ -41,7 +55,7 @@ impl<'f> Text<'f> {
                 Err(e) if e.kind() == io::ErrorKind::Interrupted => continue,
                 Err(e) => return Err(e),
             };
-            hash.update(&piece[..n]);
+            take(&piece[..n]);
             if at + n as u64 > u64::from(u32::MAX) {
                 return Err(io::Error::new(io::ErrorKind::FileTooLarge, "longer than 4 GiB"));
             }
@@ -53,7 +67,7 @@ impl<'f> Text<'f> {
         if starts.last() == Some(&bytes) {
             starts.pop();
         }
-        Ok(Text { file, starts, bytes, sha256: hash.finalize().into(), page: Vec::new(), page_at: 0 })
+        Ok(Text { file, starts, near: Cell::new(0), bytes, page: Vec::new(), page_at: 0 })
     }
 
     /// How many lines it has.
@@ -63,7 +77,17 @@ impl<'f> Text<'f> {
 
     /// Number of the line in which a place lies, from 1.
     pub fn line_of(&self, place: u32) -> usize {
-        self.starts.partition_point(|start| *start <= place).max(1)
+        let near = self.near.get();
+        let holds = |line: usize| {
+            let begun = line > 0 && self.starts.get(line - 1).is_some_and(|start| *start <= place);
+            begun && self.starts.get(line).is_none_or(|next| place < *next)
+        };
+        let line = match [near, near + 1].into_iter().find(|line| holds(*line)) {
+            Some(line) => line,
+            None => self.starts.partition_point(|start| *start <= place).max(1),
+        };
+        self.near.set(line);
+        line
     }
 
     /// Bytes of a line without its end: the first, and one past the last.
@@ -136,5 +160,28 @@ pub fn readable(bytes: &[u8], most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((at, _)) => format!("{}…", &text[..at]),
         None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Cursor;
+
+    /// Whichever line was asked for before, a place is in the line in which a search finds it.
+    #[test]
+    fn a_place_is_found_from_wherever_the_last_one_was() {
+        let mut file = Cursor::new(b"G0\n\nX1\n\n\nM30".to_vec());
+        let text = Text::new(&mut file).expect("memory");
+        let starts = text.starts.clone();
+        for first in 0..20 {
+            for place in 0..20 {
+                text.line_of(first);
+                let searched = starts.partition_point(|start| *start <= place).max(1);
+                assert_eq!(text.line_of(place), searched, "{place} after {first}");
+            }
+        }
+        let mut empty = Cursor::new(Vec::new());
+        assert_eq!(Text::new(&mut empty).expect("memory").line_of(0), 1);
     }
 }

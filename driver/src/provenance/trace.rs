@@ -96,6 +96,8 @@ fn place_of(kind: &Kind) -> Option<u8> {
 pub struct Trace {
     /// Lines that wait, the first of them at `first`.
     waiting: VecDeque<Waiting>,
+    /// The one of them in which an event was noted last.
+    near: usize,
     /// Places of lines that are not there yet: a text may be handed over with its last line open.
     origins: VecDeque<Origin>,
     /// Events of the line that is still open: their number, kind and place in the source.
@@ -109,6 +111,8 @@ pub struct Trace {
     /// The end of the text is an event of no line.
     pub text_end: Option<u64>,
     spool: Written,
+    /// Rows that were written: their memory serves the next ones.
+    spare: Vec<Row>,
 }
 
 #[derive(Debug)]
@@ -121,6 +125,7 @@ impl Trace {
     pub(crate) fn new() -> Trace {
         Trace {
             waiting: VecDeque::new(),
+            near: 0,
             origins: VecDeque::new(),
             ahead: Vec::new(),
             open: 0,
@@ -128,6 +133,7 @@ impl Trace {
             events: 0,
             text_end: None,
             spool: Written::new(),
+            spare: Vec::new(),
         }
     }
 
@@ -151,7 +157,8 @@ impl Trace {
 
     /// A line is there, with the events that came before its end.
     fn line(&mut self, start: u64) {
-        let mut row = Row { spans: self.next_origin(), ..Row::default() };
+        let mut row = self.spare.pop().unwrap_or_default();
+        row.spans = self.next_origin();
         for (event, kind, place) in self.ahead.drain(..) {
             row.add(event, kind, place);
         }
@@ -182,10 +189,24 @@ impl Trace {
                 self.ahead.push((event, 1 << kind, pair.source));
                 continue;
             }
-            let after = self.waiting.partition_point(|line| line.start <= at);
-            let Some(line) = after.checked_sub(1).and_then(|at| self.waiting.get_mut(at)) else { continue };
+            let Some(line) = self.line_at(at).and_then(|line| self.waiting.get_mut(line)) else { continue };
             line.row.add(event, 1 << kind, pair.source);
         }
+    }
+
+    /// Which of the lines that wait holds a place.
+    fn line_at(&mut self, place: u64) -> Option<usize> {
+        let starts = |line: usize| self.waiting.get(line).map(|line| line.start);
+        // Most pairs come in the order of the lines.
+        let holds = |line: &usize| {
+            starts(*line).is_some_and(|start| start <= place)
+                && starts(line + 1).is_none_or(|next| place < next)
+        };
+        let found = [self.near, self.near + 1].into_iter().find(holds);
+        let searched = || self.waiting.partition_point(|line| line.start <= place).checked_sub(1);
+        let line = found.or_else(searched)?;
+        self.near = line;
+        Some(line)
     }
 
     /// No further events are made before this place of the body.
@@ -195,8 +216,11 @@ impl Trace {
     pub fn over(&mut self, place: u64) -> io::Result<()> {
         // A line is over where the next one begins.
         while self.waiting.get(1).map_or(self.open, |next| next.start) <= place {
-            let Some(line) = self.waiting.pop_front() else { break };
-            self.spool.push(&line.row)?;
+            let Some(Waiting { mut row, .. }) = self.waiting.pop_front() else { break };
+            self.near = self.near.saturating_sub(1);
+            self.spool.push(&row)?;
+            row.clear();
+            self.spare.push(row);
         }
         Ok(())
     }
@@ -223,6 +247,13 @@ impl Trace {
 }
 
 impl Row {
+    fn clear(&mut self) {
+        self.spans.clear();
+        self.also.clear();
+        self.stretches.clear();
+        self.more = 0;
+    }
+
     fn add(&mut self, event: u64, kind: u32, place: Span) {
         let own = |span: &Span| span.start < place.end && place.start < span.end;
         if place.start < place.end

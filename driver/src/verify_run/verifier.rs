@@ -6,7 +6,7 @@
 //!
 //! Not here: how they go on (`verify_run`), and facts that another run has otherwise (`facts`).
 
-use ncc_exec::verify::Comparison;
+use ncc_exec::verify::{Comparison, Pair};
 use ncc_exec::{Event, Exec};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::behaviour::Behaviour;
@@ -70,6 +70,22 @@ pub struct Run {
     pub(super) other: Option<Other>,
     /// How many events of the usual run's source, and target, it has taken of those that are not compared yet.
     pub(super) taken: [usize; 2],
+}
+
+impl Run {
+    /// Executes lines of the source that the output says as well, and keeps a pair for each of their events; gives how
+    /// many there are.
+    pub(super) fn pass_in_pairs(&mut self, said: &[Stmt], read: &[Stmt]) -> Result<u64, Diagnostic> {
+        let mut many = 0;
+        for (stmt, there) in said.iter().zip(read) {
+            self.source.step(stmt, &mut self.source_events)?;
+            for Event { kind, span, .. } in self.source_events.drain(..) {
+                self.comparison.keep_pair(Pair { kind, source: span, target: there.span });
+                many += 1;
+            }
+        }
+        Ok(many)
+    }
 }
 
 /// A variable that the source reads before it sets it, and that outlives its run.
@@ -140,7 +156,8 @@ pub struct Verifier {
     pub(super) levels: u16,
     /// Whether the target's machine has numbers of its own: then controls are never in one state.
     pub(super) renamed: bool,
-    /// Whether the pairs of events are kept: then no move passes for both sides by being executed once.
+    /// Whether the pairs of events are kept: then no hole passes for both sides by being executed once, and no move of a
+    /// program that is kept whole.
     pub(super) watched: bool,
     /// The target knows one level only: the source's are on or off together.
     pub(super) one_level: bool,
@@ -175,4 +192,52 @@ pub struct Verifier {
 /// The output cannot be read back.
 pub(super) fn unreadable(d: &Diagnostic, at: Span) -> Stop {
     Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
+}
+
+#[cfg(test)]
+mod tests {
+    use ncc_dialects::{Settings, builtin};
+
+    use super::*;
+    use crate::job::Job;
+
+    const PIECES: [[&str; 2]; 3] = [
+        [
+            "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n",
+            "G21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n",
+        ],
+        ["X10.\nX10.\n/Y10. Z-1.5\nX0. F200.\nG00 Z5.\n", "X10.\nX 10.\n/ Y10. Z-1.5\nX0. F200.\nG00 Z5.\n"],
+        ["X3.\nG01 Y7.\n", "X3. \nG01  Y7.\n"],
+    ];
+
+    /// The pairs of all pieces; `compared` has all of them compared event by event.
+    fn pairs(compared: bool) -> Vec<Pair> {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        let job = Job::new(settings.clone(), settings, "piece.nc");
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut verifier = Verifier::new(&job);
+        verifier.watch();
+        verifier.renamed = compared;
+        let (mut batch, mut found) = (Batch::default(), Vec::new());
+        let mut bases = [0; 2];
+        for piece in PIECES {
+            reader.read(piece[0].as_bytes(), bases[0], &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            let verified =
+                verifier.piece(&stmts, &batch.assumed, piece[1].as_bytes(), bases[1], &batch.assumed);
+            verified.expect("the same program");
+            assert!(verifier.runs.iter().all(|run| run.level != compared));
+            found.extend(verifier.take_pairs().0);
+            bases = [0, 1].map(|side| bases[side] + piece[side].len() as u32);
+        }
+        found
+    }
+
+    /// A map is made of the same pairs, whether lines are executed once or compared.
+    #[test]
+    fn lines_that_are_executed_once_leave_their_pairs() {
+        let found = pairs(false);
+        assert_eq!(found, pairs(true));
+        assert!(found.len() > 8, "{found:?}");
+    }
 }
