@@ -164,9 +164,10 @@ impl Clock {
     pub fn push(&mut self, act: Act) {
         let Clock { machine, limits, corners, junctions, ahead, planner, row, .. } = self;
         if matches!(planner, Planner::Ideal) {
-            let duration = ideal::duration(&act, machine);
+            let way = path(&act.event, &act.from);
+            let duration = ideal::duration(&act, &way, machine);
             let profile = match act.event.kind.moves() {
-                Some(_) => Profile::constant(path(&act.event, &act.from).length, duration),
+                Some(_) => Profile::constant(way.length, duration),
                 None => Profile::default(),
             };
             row.push(act);

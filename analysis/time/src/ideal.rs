@@ -9,24 +9,23 @@ use ncc_ir::canon::{AXES, Axis};
 
 use crate::act::Act;
 use crate::machine::{Machine, ToolChangeOn};
-use crate::path::{path, units};
+use crate::path::{Path, units};
 
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
 
-/// Seconds that a function takes. What the machine does not know takes no time.
-pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
+/// Seconds that a function takes, whose way this is. What the machine does not know takes no time.
+pub(crate) fn duration(act: &Act, path: &Path, machine: &Machine) -> f64 {
     let known = |time: Option<f64>| time.unwrap_or(0.0);
     match &act.event.kind {
         Kind::Traverse => {
-            let path = path(&act.event, &act.from);
             // The rate along the line says nothing of rotary axes.
             let linear = path.change[..3].iter().any(|change| *change != 0.0);
             rapid(if linear { path.length } else { 0.0 }, &path.change, machine)
         }
         Kind::Feed | Kind::Probe { .. } | Kind::Synchronised { .. } | Kind::Arc { .. } => {
             let rate = units(act.event.rate);
-            match path(&act.event, &act.from).length {
+            match path.length {
                 0.0 => 0.0,
                 length => length / machine.max_feed.map_or(rate, |most| rate.min(most)) * MINUTE,
             }

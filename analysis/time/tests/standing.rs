@@ -4,7 +4,7 @@ mod shop;
 
 use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::{Axis, Spindle};
-use ncc_time::{Fact, Machine, Model, ToolChangeOn};
+use ncc_time::{Clock, Fact, Longest, Machine, Model, ToolChangeOn};
 use shop::{Way, machine, nanos, run, same, seconds};
 
 const TRAPEZOIDAL: Model = Model::Trapezoidal;
@@ -151,4 +151,29 @@ fn what_is_taken_for_granted_is_told_and_used() {
     // What a machine states is not touched.
     let (full, told) = plain().assumed(Model::JerkLimited);
     assert_eq!((full, told), (plain(), Vec::new()));
+}
+
+/// The longest time is, to the last bit, the upper one of a clock with acceleration.
+#[test]
+fn the_longest_time_is_that_of_a_clock_with_acceleration() {
+    let mut way = Way::new();
+    way.state.speed = nanos(1000.0);
+    way.spindle(Spindle::Clockwise).feed(6e3, &[50.0]);
+    for at in 1..50 {
+        let at = f64::from(at);
+        way.feed(600.0 * at, &[at, at * at, 3.0 - at]).say(Kind::Dwell(nanos(at / 7.0)));
+        way.spindle(if at % 2.0 == 0.0 { Spindle::Stopped } else { Spindle::Counterclockwise });
+        way.say(Kind::Coolant).feed(100.0, &[at, at * at, 3.0 - at]).say(Kind::ToolChange);
+    }
+    let stops = Machine { spindle_start: Some(2.0), tool_change: Some(5.0), ..plain() };
+    let turns = Machine { spindle_acceleration: Some(100.0), ..plain() };
+    for m in [plain(), stops, turns, Machine::default()] {
+        let (mut clock, mut longest) = (Clock::new(TRAPEZOIDAL, m.clone()), Longest::new(m));
+        for act in &way.acts {
+            clock.push(act.clone());
+            longest.push(act);
+        }
+        assert!(longest.seconds() > 0.0);
+        assert_eq!(clock.bounds().1.to_bits(), longest.seconds().to_bits());
+    }
 }

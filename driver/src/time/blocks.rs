@@ -20,13 +20,13 @@ pub struct Blocks {
 
 /// A line.
 #[derive(Clone, Debug)]
-pub struct Line {
+struct Line {
     /// Its bytes in the source, line end included.
     span: Range<u32>,
     /// Its number, counted from 1.
-    pub number: u32,
-    /// Its text without blanks around it.
-    pub text: Rc<str>,
+    number: u32,
+    /// Its text, once somebody has asked for it.
+    text: Option<Rc<str>>,
 }
 
 impl Blocks {
@@ -52,8 +52,23 @@ impl Blocks {
         self.number += memchr::memchr_iter(b'\n', text).count() as u32;
     }
 
-    /// The line of a place in the piece; `None` if it is not in it.
-    pub fn find(&mut self, text: &[u8], place: u32) -> Option<&Line> {
+    /// Number of the line of a place in the piece, counted from 1; `None` if it is not in it.
+    pub fn number_of(&mut self, text: &[u8], place: u32) -> Option<u32> {
+        self.find(text, place).map(|line| line.number)
+    }
+
+    /// Text of that line without blanks around it.
+    pub fn text_of(&mut self, text: &[u8], place: u32) -> Option<Rc<str>> {
+        let base = self.base;
+        let line = self.find(text, place)?;
+        if line.text.is_none() {
+            let bytes = (line.span.start - base) as usize..(line.span.end - base) as usize;
+            line.text = Some(decode(text.get(bytes).unwrap_or_default()).trim().into());
+        }
+        line.text.clone()
+    }
+
+    fn find(&mut self, text: &[u8], place: u32) -> Option<&mut Line> {
         let fresh = !matches!(&self.last, Some(line) if line.span.contains(&place));
         if fresh {
             let at = place.checked_sub(self.base).map(|at| at as usize).filter(|at| *at < text.len())?;
@@ -62,10 +77,10 @@ impl Blocks {
             self.last = Some(Line {
                 span: self.base + start as u32..self.base + end as u32,
                 number: self.number(text, start),
-                text: decode(&text[start..end]).trim().into(),
+                text: None,
             });
         }
-        self.last.as_ref()
+        self.last.as_mut()
     }
 
     /// Number of the line that begins at a byte of the piece.
@@ -97,7 +112,8 @@ mod tests {
     use super::*;
 
     fn said(blocks: &mut Blocks, text: &[u8], place: u32) -> Option<(u32, String)> {
-        blocks.find(text, place).map(|line| (line.number, line.text.to_string()))
+        let number = blocks.number_of(text, place)?;
+        Some((number, blocks.text_of(text, place)?.to_string()))
     }
 
     #[test]

@@ -23,7 +23,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_plot::Turned;
-use ncc_time::{Act, Clock, Machine, Model, Place, Timed};
+use ncc_time::{Act, Clock, Longest, Machine, Model, Place, Timed};
 
 use super::blocks::Blocks;
 use super::reach::{Reach, reach, turned};
@@ -259,11 +259,13 @@ struct Drive<'d> {
     /// Where the axes stood before the next function, machine coordinates.
     last: [Nanos; AXES],
     clock: Clock,
-    /// A model with acceleration beside one that has none, for the upper bound.
-    beside: Option<Clock>,
+    /// The longest time with acceleration beside a model that has none.
+    beside: Option<Longest>,
     events: Vec<Event>,
     /// Of functions whose time is not certain yet, in order.
     said: VecDeque<Said>,
+    /// The text of blocks that nobody asks for.
+    nothing: Rc<str>,
     /// Blocks whose events may wait for the next ones: a contour's end is not known before.
     held: VecDeque<(Span, Place, Said)>,
     course: Course,
@@ -298,10 +300,10 @@ impl<'d> Drive<'d> {
             moved: false,
             depends: None,
             clock: Clock::new(model, plan.machine.clone()),
-            beside: (wants_bounds && model == Model::Ideal)
-                .then(|| Clock::new(Model::Trapezoidal, plan.machine.clone())),
+            beside: (wants_bounds && model == Model::Ideal).then(|| Longest::new(plan.machine.clone())),
             events: Vec::new(),
             said: VecDeque::new(),
+            nothing: Rc::from(""),
             held: VecDeque::new(),
             course: Course {
                 diagnostics: Vec::new(),
@@ -467,9 +469,8 @@ impl<'d> Drive<'d> {
             let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
             let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
             self.said.push_back(Said { reach, turned, ..said });
-            if let Some(clock) = &mut self.beside {
-                clock.push(act.clone());
-                clock.forget();
+            if let Some(longest) = &mut self.beside {
+                longest.push(&act);
             }
             self.clock.push(act);
         }
@@ -478,13 +479,10 @@ impl<'d> Drive<'d> {
 
     /// Where a statement stands.
     fn place(&mut self, span: Span, text: &[u8]) -> (Place, Said) {
-        let line = self.blocks.find(text, span.start);
-        let place = Place { line: line.map_or(0, |line| line.number), span };
-        let block = match line {
-            Some(line) if self.wants_blocks => Rc::clone(&line.text),
-            Some(_) | None => Rc::from(""),
-        };
-        (place, Said { block, ..Said::default() })
+        let line = self.blocks.number_of(text, span.start).unwrap_or(0);
+        let block = if self.wants_blocks { self.blocks.text_of(text, span.start) } else { None };
+        let block = block.unwrap_or_else(|| Rc::clone(&self.nothing));
+        (Place { line, span }, Said { block, remark: None, reach: None, turned: None })
     }
 
     /// Whether a statement belongs to a cycle.
@@ -541,7 +539,7 @@ impl<'d> Drive<'d> {
         if self.wants_bounds {
             let now = self.clock.now();
             let (least, most) = match &self.beside {
-                Some(clock) => (now, clock.bounds().1.max(now)),
+                Some(longest) => (now, longest.seconds().max(now)),
                 None => self.clock.bounds(),
             };
             self.course.bounds = Some([least, most]);

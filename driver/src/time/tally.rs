@@ -269,7 +269,8 @@ struct Step {
     hole: bool,
     feed: Option<f64>,
     speed: Option<f64>,
-    reach: Option<Reach>,
+    /// Least and greatest X, Y and Z, mm.
+    reach: Option<[[f64; 2]; 3]>,
 }
 
 /// Kinds of time.
@@ -329,7 +330,10 @@ impl Step {
             feed: cuts.then(|| units(event.rate)),
             speed: (cuts && event.state.spindle != Spindle::Stopped)
                 .then(|| units(event.state.turns(event.end[0]))),
-            reach: cuts.then(|| said.reach.as_deref().copied().unwrap_or_else(ends)),
+            reach: cuts.then(|| {
+                let reach = said.reach.as_deref().copied().unwrap_or_else(ends);
+                reach.map(|side| side.map(|n: Nanos| units(n)))
+            }),
         }
     }
 }
@@ -359,7 +363,7 @@ impl Tally {
         self.feed = wider(self.feed, step.feed.map(|f| [f, f]));
         self.speed = wider(self.speed, step.speed.map(|s| [s, s]));
         if let Some(reach) = step.reach {
-            self.reach(reach.map(|side| side.map(|n: Nanos| units(n))));
+            self.reach(reach);
         }
     }
 
