@@ -2,8 +2,10 @@
 //!
 //! The shortest edit of two long lists with many differences costs their product. So lines that are the
 //! same are passed over, and from the first that is not the shortest edit is sought in a window of both
-//! lists, which grows until it ends with enough lines in common. Not here: what lines say (`text`).
+//! lists, which grows until it ends with enough lines in common. No more than that window is at hand. Not
+//! here: what lines say (`text`), and where they are read (`lines`).
 
+use std::io;
 use std::time::{Duration, Instant};
 
 use similar::{Algorithm, DiffOp, capture_diff_slices_deadline};
@@ -17,42 +19,68 @@ const TOGETHER: usize = 32;
 /// Seconds after which the shortest edit of a window is no longer sought, only some edit.
 const PATIENCE: u64 = 5;
 
-/// Edits from `a` to `b`, in their order; neighbours of one kind are one.
-pub(crate) fn edits(a: &[u32], b: &[u32]) -> Vec<DiffOp> {
+/// Two lists that are read as far as they are needed.
+pub(crate) trait Lists {
+    /// Reads on until so many items of one are at hand, or there are no more; gives how many are.
+    ///
+    /// # Errors
+    /// Reading.
+    fn there(&mut self, side: usize, wanted: usize) -> io::Result<usize>;
+
+    /// Whether the first items at hand are the same.
+    fn first_are_same(&self) -> bool;
+
+    /// So many items at hand of both: the same number for items that are the same.
+    fn ids(&self, counts: [usize; 2]) -> [Vec<u32>; 2];
+
+    /// So many items at hand are done with; they are alike or an edit.
+    fn pass(&mut self, counts: [usize; 2], alike: bool);
+}
+
+/// Edits from one list to the other, in their order; neighbours of one kind are one.
+///
+/// # Errors
+/// Reading the lists.
+pub(crate) fn edits(lists: &mut impl Lists) -> io::Result<Vec<DiffOp>> {
     let until = Instant::now() + Duration::from_secs(PATIENCE);
     let mut found = Edits::default();
     let (mut i, mut j) = (0, 0);
-    while i < a.len() || j < b.len() {
-        let same = a[i..].iter().zip(&b[j..]).take_while(|(a, b)| a == b).count();
+    loop {
+        let mut same = 0;
+        let mut there = [lists.there(0, 1)?, lists.there(1, 1)?];
+        while !there.contains(&0) && lists.first_are_same() {
+            lists.pass([1, 1], true);
+            same += 1;
+            there = [lists.there(0, 1)?, lists.there(1, 1)?];
+        }
         found.push(DiffOp::Equal { old_index: i, new_index: j, len: same });
         (i, j) = (i + same, j + same);
-        if i == a.len() && j == b.len() {
-            break;
+        if there == [0, 0] {
+            return Ok(found.ops);
         }
         let mut window = WINDOW;
         loop {
-            let (rest_a, rest_b) = (&a[i..], &b[j..]);
-            let (part_a, part_b) = (&rest_a[..window.min(rest_a.len())], &rest_b[..window.min(rest_b.len())]);
-            let whole = part_a.len() == rest_a.len() && part_b.len() == rest_b.len();
-            let ops = capture_diff_slices_deadline(Algorithm::Myers, part_a, part_b, Some(until));
+            let there = [lists.there(0, window + 1)?, lists.there(1, window + 1)?];
+            let whole = there.iter().all(|there| *there <= window);
+            let [part_a, part_b] = lists.ids(there.map(|there| there.min(window)));
+            let ops = capture_diff_slices_deadline(Algorithm::Myers, &part_a, &part_b, Some(until));
             let together = ops
                 .iter()
                 .rposition(|op| matches!(op, DiffOp::Equal { len, .. } if *len >= TOGETHER))
                 .or(whole.then_some(ops.len()));
             if let Some(end) = together {
+                let (from_a, from_b) = (i, j);
                 for op in &ops[..end] {
-                    found.push(moved(op, i, j));
+                    found.push(moved(op, from_a, from_b));
+                    let counts = [op.old_range().len(), op.new_range().len()];
+                    lists.pass(counts, matches!(op, DiffOp::Equal { .. }));
+                    (i, j) = (i + counts[0], j + counts[1]);
                 }
-                let done = ops
-                    .get(end)
-                    .map_or((part_a.len(), part_b.len()), |op| (op.old_range().start, op.new_range().start));
-                (i, j) = (i + done.0, j + done.1);
                 break;
             }
             window *= GROWTH;
         }
     }
-    found.ops
 }
 
 /// An edit of a window, in the whole lists.
@@ -97,6 +125,33 @@ impl Edits {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Lists in memory, of which so many items were passed.
+    struct Slices<'l>([&'l [u32]; 2]);
+
+    impl Lists for Slices<'_> {
+        fn there(&mut self, side: usize, wanted: usize) -> io::Result<usize> {
+            Ok(self.0[side].len().min(wanted))
+        }
+
+        fn first_are_same(&self) -> bool {
+            self.0[0].first() == self.0[1].first()
+        }
+
+        fn ids(&self, counts: [usize; 2]) -> [Vec<u32>; 2] {
+            [0, 1].map(|side| self.0[side][..counts[side]].to_vec())
+        }
+
+        fn pass(&mut self, counts: [usize; 2], alike: bool) {
+            let [a, b] = [0, 1].map(|side| self.0[side].split_at(counts[side]));
+            assert!(!alike || a.0 == b.0);
+            self.0 = [a.1, b.1];
+        }
+    }
+
+    fn edits(a: &[u32], b: &[u32]) -> Vec<DiffOp> {
+        super::edits(&mut Slices([a, b])).expect("memory")
+    }
 
     fn rng(state: &mut u32) -> u32 {
         *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

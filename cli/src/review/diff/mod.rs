@@ -7,6 +7,7 @@
 pub mod args;
 mod edits;
 pub mod git;
+mod lines;
 mod plain;
 mod text;
 

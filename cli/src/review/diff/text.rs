@@ -4,17 +4,17 @@
 //! `X100.`, where it counts millimetres it is. Only spelling is looked at; what blocks do is `motion`'s
 //! matter.
 
-use std::collections::HashMap;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::cell::RefCell;
+use std::io;
 
 use ncc_dialects::{Bare, Family, INTEGER_FEED, Quantity, Settings};
 use ncc_driver::review::diff::tell::{Account, Block, Difference, decoded};
 use ncc_driver::side::Side;
-use sha2::{Digest, Sha256};
 use similar::{DiffOp, group_diff_ops};
 
 use super::args::Ignore;
 use super::edits::edits;
+use super::lines::{Both, Lines, Say};
 
 /// Blocks around a difference that are shown.
 const AROUND: usize = 3;
@@ -24,8 +24,6 @@ const MOST_BLOCKS: usize = 100;
 const MOST: usize = 20_000;
 /// Bytes of a block that are shown and kept: no control reads a longer one.
 const LONGEST: usize = 16 * 1024;
-/// Bytes of a block by which another one is found to say the same; of a longer one, its hash.
-const LONGEST_KEY: usize = 256;
 /// The option that says what a number without a point counts, and its value that makes them units.
 const POINT_OPTION: (&str, &str) = ("decimal_point", "calculator");
 
@@ -50,17 +48,19 @@ pub(crate) fn compare(sides: &mut [Side; 2], ignore: &[Ignore]) -> io::Result<Te
         case: ignored(Ignore::Case),
         format: ignored(Ignore::NumberFormat),
     };
-    let texts = [read(&mut sides[0])?, read(&mut sides[1])?];
-    let mut ids: HashMap<Key, u32> = HashMap::new();
-    let [a, b] = [0, 1].map(|side: usize| lines(&texts[side], &sides[side].job.from, &rules, &mut ids));
-    drop(ids);
-    let ops = edits(&a.ids, &b.ids);
-    let both = [&a, &b];
+    let shown = [0, 1].map(|side: usize| sides[side].source.shown.clone());
+    let dialects = [0, 1].map(|side: usize| sides[side].dialect().id.clone());
+    let [first, second] = sides;
+    let mut texts = [lines(first, rules)?, lines(second, rules)?];
+    let ops = edits(&mut Both { texts: &mut texts, around: AROUND })?;
+    let crlf = [texts[0].crlf, texts[1].crlf];
+    let texts = RefCell::new(texts);
+    let unread = RefCell::new(None);
     let block = |side: usize, i: usize| {
-        let line = &both[side].lines[i];
-        let shown = decoded(&texts[side][line.start..line.end.min(line.start + LONGEST)]);
-        let text = if line.end - line.start > LONGEST { shown + "…" } else { shown };
-        Block { line: u64::from(line.number), text }
+        shown_block(&mut texts.borrow_mut()[side], i).unwrap_or_else(|error| {
+            unread.borrow_mut().get_or_insert(error);
+            Block { line: 0, text: String::new() }
+        })
     };
     let mut differences = Vec::new();
     let (mut only, mut same, mut count) = ([0u64; 2], 0u64, 0u64);
@@ -94,14 +94,17 @@ pub(crate) fn compare(sides: &mut [Side; 2], ignore: &[Ignore]) -> io::Result<Te
         }
     }
     let mut notes = Vec::new();
-    if a.crlf != b.crlf {
+    if crlf[0] != crlf[1] {
         let name = |crlf: bool| if crlf { "CR LF" } else { "LF" };
-        notes.push(format!("lines end with {} and with {}", name(a.crlf), name(b.crlf)));
+        notes.push(format!("lines end with {} and with {}", name(crlf[0]), name(crlf[1])));
     }
     // How lines end is a matter of blanks.
-    let equal = count == 0 && (a.crlf == b.crlf || rules.blanks);
+    let equal = count == 0 && (crlf[0] == crlf[1] || rules.blanks);
     let listed = differences.len() as u64;
     let unified = group_diff_ops(ops, AROUND).iter().map(|group| hunk(group, &block)).collect();
+    if let Some(error) = unread.take() {
+        return Err(error);
+    }
     let plural = |n: u64| if n == 1 { "block" } else { "blocks" };
     let summary = match (equal, count) {
         (true, _) if ignore.is_empty() => "the same text".to_owned(),
@@ -117,8 +120,8 @@ pub(crate) fn compare(sides: &mut [Side; 2], ignore: &[Ignore]) -> io::Result<Te
     };
     let account = Account {
         level: "text",
-        names: [0, 1].map(|side: usize| sides[side].source.shown.clone()),
-        dialects: [0, 1].map(|side: usize| sides[side].dialect().id.clone()),
+        names: shown,
+        dialects,
         equal,
         summary,
         same,
@@ -131,6 +134,14 @@ pub(crate) fn compare(sides: &mut [Side; 2], ignore: &[Ignore]) -> io::Result<Te
         left_out: count - listed,
     };
     Ok(Texts { account, unified })
+}
+
+/// A line that differs, or one around it.
+fn shown_block(lines: &mut Lines, index: usize) -> io::Result<Block> {
+    let Some(place) = lines.place(index) else { return Ok(Block { line: 0, text: String::new() }) };
+    let text = decoded(&lines.text(place, LONGEST)?);
+    let text = if place.length > LONGEST as u64 { text + "…" } else { text };
+    Ok(Block { line: place.number, text })
 }
 
 fn title([a, b]: [usize; 2]) -> String {
@@ -169,28 +180,17 @@ fn hunk(group: &[DiffOp], block: &dyn Fn(usize, usize) -> Block) -> String {
     format!("@@ -{a},{n} +{b},{m} @@\n{text}")
 }
 
-fn read(side: &mut Side) -> io::Result<Vec<u8>> {
-    let mut text = Vec::new();
-    side.source.file.seek(SeekFrom::Start(0))?;
-    side.source.file.read_to_end(&mut text)?;
-    Ok(text)
-}
-
-/// The words of a block, or their hash where the block is long.
-#[derive(Debug, PartialEq, Eq, Hash)]
-enum Key {
-    Text(Box<[u8]>),
-    Hash([u8; 32]),
-}
-
-impl Key {
-    fn of(said: &[u8]) -> Key {
-        if said.len() <= LONGEST_KEY {
-            Key::Text(said.into())
-        } else {
-            Key::Hash(Sha256::digest(said).into())
-        }
-    }
+/// The lines of a text, with what they say by these rules.
+fn lines(side: &mut Side, rules: Rules) -> io::Result<Lines<'_>> {
+    let Side { source, job } = side;
+    let settings: &Settings = &job.from;
+    let bare = bare(settings);
+    let say = move |line: &[u8], said: &mut Vec<u8>| {
+        normal(line, settings, &rules, &bare, said);
+        !(said.is_empty() && (rules.blanks || (rules.comments && !line.is_empty())))
+    };
+    let say: Option<Say> = if rules == Rules::default() { None } else { Some(Box::new(say)) };
+    Lines::new(&mut *source.file, say)
 }
 
 /// What counts for nothing.
@@ -201,50 +201,6 @@ struct Rules {
     comments: bool,
     case: bool,
     format: bool,
-}
-
-struct Line {
-    number: u32,
-    start: usize,
-    end: usize,
-}
-
-struct Lines {
-    lines: Vec<Line>,
-    /// The same number for lines that say the same.
-    ids: Vec<u32>,
-    crlf: bool,
-}
-
-fn lines(text: &[u8], settings: &Settings, rules: &Rules, ids: &mut HashMap<Key, u32>) -> Lines {
-    let mut out = Lines { lines: Vec::new(), ids: Vec::new(), crlf: false };
-    let bare = bare(settings);
-    let mut own = Vec::new();
-    let mut start = 0;
-    let mut number = 0;
-    while start < text.len() {
-        let end = memchr::memchr(b'\n', &text[start..]).map_or(text.len(), |len| start + len);
-        let cr = text[start..end].ends_with(b"\r");
-        out.crlf |= cr && number == 0;
-        let line = &text[start..end - usize::from(cr)];
-        number += 1;
-        let said = if *rules == Rules::default() {
-            line
-        } else {
-            own.clear();
-            normal(line, settings, rules, &bare, &mut own);
-            &own
-        };
-        let nothing = said.is_empty() && (rules.blanks || (rules.comments && !line.is_empty()));
-        if !nothing {
-            let next = ids.len() as u32;
-            let id = *ids.entry(Key::of(said)).or_insert(next);
-            out.ids.push(id);
-            out.lines.push(Line { number, start, end: start + line.len() });
-        }
-        start = end + 1;
-    }
-    out
 }
 
 /// Whether a bare number of a letter counts increments, letter by letter.
