@@ -22,11 +22,11 @@ pub mod siemens;
 pub mod word;
 
 pub use batch::{BareNumber, Batch, REFUSED};
+pub use common::pieces::Shown;
 use corners::Corners;
 use ncc_dialects::{Dialect, Family, Settings};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
-use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 pub use outline::{Flow, Word};
 
@@ -194,13 +194,7 @@ impl Reader {
 
     /// Reads a text that is there, as [`Reader::read`] does, and shows what is read of it behind each piece of so many
     /// bytes, with how many statements are [settled](Reader::settled).
-    pub fn read_showing(
-        &mut self,
-        text: &[u8],
-        base: u32,
-        out: &mut Batch,
-        shown: (usize, &mut dyn FnMut(&mut Vec<Stmt>, usize)),
-    ) {
+    pub fn read_showing(&mut self, text: &[u8], base: u32, out: &mut Batch, shown: Shown) {
         match &mut self.family {
             OfFamily::Word(reader) if self.corners.is_none() => reader.read_showing(text, base, out, shown),
             OfFamily::Siemens(reader) if self.corners.is_none() => {

@@ -67,11 +67,6 @@ impl Packer {
         self.shortest.saturating_mul(self.shortest)
     }
 
-    /// Moves in front that are left as they are where another kind follows, so that the stretch behind goes on for long.
-    fn patience(&self) -> usize {
-        self.shortest.max(self.at_once() / 4)
-    }
-
     /// Packs what is long enough of the first `settled` statements, behind which others will follow.
     pub(crate) fn pack(&mut self, body: &mut Vec<Stmt>, settled: usize) {
         let settled = settled.min(body.len());
@@ -170,7 +165,7 @@ impl Packer {
         let (mut end, mut other) = (start, false);
         while end < run_end {
             if known.has_more(&body[end]) {
-                if end - start >= self.patience() {
+                if end - start >= self.shortest {
                     other = true;
                     break;
                 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use ncc_ir::program::Stmt;
 
 /// After how many bytes, and what is done with the statements there, of which so many are settled.
-pub(crate) type Shown<'s> = (usize, &'s mut dyn FnMut(&mut Vec<Stmt>, usize));
+pub type Shown<'s> = (usize, &'s mut dyn FnMut(&mut Vec<Stmt>, usize));
 
 /// The pieces of a text: of so many bytes, or as many as the last line needs.
 pub(crate) fn pieces(text: &[u8], bytes: usize) -> impl Iterator<Item = Range<usize>> + '_ {
