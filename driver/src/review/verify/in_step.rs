@@ -21,7 +21,7 @@ use ncc_exec::{Event, Exec};
 use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
 
-use super::pair::Plan;
+use super::plan::Plan;
 use crate::job::Job;
 use crate::review::stream::{Course, Reading, Unsaid, read};
 use crate::side::Side;

@@ -11,4 +11,5 @@ pub mod document;
 pub mod hashes;
 mod in_step;
 pub mod pair;
+mod plan;
 pub mod text;

@@ -15,12 +15,12 @@ use ncc_dialects::SafeStart;
 use ncc_exec::verify::{Comparison, Deviation, Difference, Resolution};
 use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Seen};
-use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::expr::num::Nanos;
 
 use super::in_step;
+use super::plan::Plan;
 use crate::job::Job;
 use crate::machines::pair::Machines;
 use crate::review::stream::{Course, Stage, Unsaid, clearances, look, stream, stream_as};
@@ -290,83 +290,6 @@ fn starts(sides: &mut [Side; 2], worlds: &[[World; 2]]) -> io::Result<Vec<[Nanos
         })?;
     }
     Ok(starts)
-}
-
-/// How both sides are executed, whatever the switches.
-pub(super) struct Plan {
-    worlds: Vec<[World; 2]>,
-    starts: Vec<[Nanos; AXES]>,
-    /// The tool that is in the spindle of both, as far as the source's T code is stated.
-    tool: Option<u32>,
-    muted: bool,
-    /// With how many digits values stand in messages that have none too many.
-    in_full: Option<u8>,
-    /// Whether both write to devices.
-    writes: bool,
-    /// Whether both show what a program stop says.
-    stops_speak: bool,
-    /// One of the texts has no blocks; both are for controls of different kinds.
-    lines: bool,
-    between_controls: bool,
-    pub(super) unsaid: Unsaid,
-    in_inches: bool,
-    tolerance: Nanos,
-    resolution: Resolution,
-    /// What the output's own digits resolve.
-    own: Resolution,
-    tools: ncc_exec::maps::Renaming,
-    alarms: Option<Alarms>,
-    /// Optional stops switch spindle and coolant off on one of the controls.
-    optional_stops: bool,
-    seen: Seen,
-}
-
-impl Plan {
-    pub(super) fn controls(&self, side: usize, skip: u16) -> Vec<Exec> {
-        let control = |(worlds, start): (&[World; 2], &[Nanos; AXES])| {
-            let mut exec = Exec::new(&worlds[side], skip);
-            if side == 1 {
-                exec.be_at(*start);
-            }
-            self.tool.into_iter().for_each(|tool| exec.hold_tool(tool));
-            if self.muted {
-                exec.mute(self.stops_speak);
-            }
-            if !self.writes {
-                exec.without_output();
-            }
-            if let Some(digits) = self.in_full {
-                exec.values_in_full(digits);
-            }
-            if self.lines {
-                exec.without_blocks();
-            }
-            if self.between_controls {
-                exec.between_controls();
-            }
-            exec
-        };
-        self.worlds.iter().zip(&self.starts).map(control).collect()
-    }
-
-    pub(super) fn comparisons(&self) -> Vec<Comparison> {
-        let comparison = |start: &[Nanos; AXES]| {
-            let mut comparison = Comparison::new(self.resolution, *start);
-            comparison.rename_tools(self.tools.tools.clone(), &self.tools.tool_names);
-            comparison.measure(self.tolerance);
-            comparison.see(self.seen);
-            comparison.say_alarms(self.alarms.clone());
-            comparison.measure_by(self.own);
-            if self.optional_stops {
-                comparison.optional_stops();
-            }
-            if self.in_inches {
-                comparison.as_inches();
-            }
-            comparison
-        };
-        self.starts.iter().map(comparison).collect()
-    }
 }
 
 /// What a side hands over.
