@@ -247,7 +247,7 @@ fn arguments(row: &Row, source: &Path, output: &Path) -> Vec<OsString> {
             all
         }
         Verb::Check => verb(&["check"], &[&ours]),
-        Verb::Time => verb(&["time"], &[&ours]),
+        Verb::Time => verb(&["time", "--from", row.from], &[&source.into()]),
         Verb::Verify => verb(&["verify"], &[&ours, &theirs]),
         Verb::Diff => verb(&["diff"], &[&ours, &theirs]),
         Verb::DiffText => verb(&["diff", "--text"], &[&ours, &ours]),

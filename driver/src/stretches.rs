@@ -23,12 +23,11 @@ use std::sync::Arc;
 
 use ncc_ir::expr::Expr;
 use ncc_ir::program::packed::PackedLines;
-use ncc_ir::program::packing::packs;
 use ncc_ir::program::shapes::WordShape;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 
-use self::kinds::computes;
+pub(crate) use self::kinds::Words;
 use self::packer::PROBES;
 pub(crate) use self::packer::{Packer, pack};
 
@@ -41,21 +40,6 @@ pub(crate) struct Stretch {
     lines: Arc<PackedLines>,
     before: Vec<Stmt>,
     behind: Vec<Stmt>,
-}
-
-/// Which words are packed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Words {
-    /// Literals.
-    Literal,
-    /// Those that are computed as well.
-    All,
-}
-
-impl Words {
-    fn packs(self, stmt: &Stmt) -> bool {
-        packs(stmt) && (self == Words::All || !computes(stmt))
-    }
 }
 
 /// The stretches of a body, and what stands for each.
@@ -222,6 +206,7 @@ mod tests {
 
     use super::kinds::bits as bits_of;
     use super::*;
+    use ncc_ir::program::packing::packs;
 
     fn read(text: &str) -> Vec<Stmt> {
         let mut reader = Reader::new(Settings::new(builtin("fanuc").expect("a built-in dialect")), true);

@@ -5,8 +5,24 @@
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::program::packing::packs;
 use ncc_ir::program::shapes::{WordShape, each_number};
 use ncc_ir::program::{Op, Stmt};
+
+/// Which words are packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Words {
+    /// Literals.
+    Literal,
+    /// Those that are computed as well.
+    All,
+}
+
+impl Words {
+    pub(super) fn packs(self, stmt: &Stmt) -> bool {
+        packs(stmt) && (self == Words::All || !computes(stmt))
+    }
+}
 
 /// Kinds that some moves have.
 #[derive(Debug, Default)]

@@ -13,8 +13,7 @@ use ncc_ir::canon::Axis;
 use ncc_ir::program::packing::Packing;
 use ncc_ir::program::{Op, Stmt};
 
-use super::Words;
-use super::kinds::Kinds;
+use super::kinds::{Kinds, Words};
 
 /// Moves in front that may be changed, as they are the first.
 const LEAD: usize = 4;

@@ -26,6 +26,7 @@ mod places;
 mod run;
 mod tools;
 pub mod verify;
+mod word_value;
 pub mod world;
 
 pub use at_codes::cuts;
@@ -59,8 +60,7 @@ use ncc_ir::canon::{
     same_point,
 };
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry::polar::Pole;
 use ncc_ir::program::kinds::variables;
 use ncc_ir::program::{Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
@@ -315,35 +315,6 @@ impl Exec {
 
     fn fault<T>(&self, fault: Fault, span: Span) -> Result<T, Diagnostic> {
         Err(Diagnostic::new(fault, span))
-    }
-
-    /// A literal's value in nanos.
-    #[inline]
-    fn value(&self, value: &Expr, span: Span) -> Result<Nanos, Diagnostic> {
-        if let Some(value) = self.plain_value(value) {
-            return Ok(value);
-        }
-        match value {
-            Expr::Num(_) => self.fault(Fault::OutOfRange { word: "value".into() }, span),
-            Expr::Node(_) => self.fault(Fault::NotExecuted { what: "an expression".into() }, span),
-        }
-    }
-
-    /// The value of a word; `None` if it is an expression or out of range.
-    #[inline]
-    fn plain_value(&self, value: &Expr) -> Option<Nanos> {
-        let Expr::Num(n) = value else { return None };
-        let inch = n.unit == Unit::Entry && self.modes.inch;
-        // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
-        n.nanos(inch).filter(|value| value.unsigned_abs() < 1 << MOST_BITS)
-    }
-
-    #[inline]
-    fn whole_number(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
-        match value.literal().and_then(|n| n.whole_number()) {
-            Some(n) => Ok(n),
-            None => self.fault(Fault::OutOfRange { word: "".into() }, span),
-        }
     }
 
     /// Executes a statement; its events are pushed to `out`.
