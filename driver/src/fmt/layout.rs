@@ -36,7 +36,7 @@ pub fn line(dialect: &Dialect, line: &[u8], pieces: &[Piece], to: &mut Vec<u8>) 
     debug_assert!(to.len() >= start);
 }
 
-/// Whether a line of such words looks as [`line`] would write it: most lines do.
+/// Whether a line of such words looks as [`line()`] would write it: most lines do.
 pub fn is_laid_out(dialect: &Dialect, line: &[u8], words: &[PlainWord]) -> bool {
     let stays = |word: &PlainWord| {
         let text = line.get(word.start..word.end).unwrap_or_default();
