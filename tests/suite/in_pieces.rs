@@ -42,7 +42,7 @@ fn a_program_in_many_pieces_is_translated_as_in_one() {
 /// Nor on which thread the verification runs, also where it stops: text, verdict and what is told are the same.
 #[test]
 fn a_program_is_verified_on_a_second_thread_as_on_one() {
-    let targets = ["fanuc", "siemens", "linuxcnc", "mach9", "grbl"];
+    let targets = ["fanuc", "siemens"];
     let mut differing = Vec::new();
     for program in corpus::all() {
         let longest = program.text.split(|byte| *byte == b'\n').map(<[u8]>::len).max().unwrap_or(0);
