@@ -32,7 +32,7 @@ struct Row {
     verb: Verb,
 }
 
-/// What ncc is asked for. Where it takes two programs, they are the source and its translation.
+/// The verb that is measured. `Verify` and `Diff` compare the source with its translation.
 #[derive(Clone, Copy, PartialEq)]
 enum Verb {
     Translate,

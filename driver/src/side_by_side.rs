@@ -60,7 +60,7 @@ fn keep<T>(pieces: &mut VecDeque<T>) -> impl FnMut(T) -> ControlFlow<()> + '_ {
 }
 
 /// Whether the host has threads.
-pub(crate) fn has_threads() -> bool {
+fn has_threads() -> bool {
     static HAS: OnceLock<bool> = OnceLock::new();
     *HAS.get_or_init(|| thread::Builder::new().spawn(|| {}).is_ok_and(|thread| thread.join().is_ok()))
 }

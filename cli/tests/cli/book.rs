@@ -55,7 +55,7 @@ fn the_book_shows_what_is_printed() {
     }
 }
 
-/// The fenced blocks of a page: what stands behind the fence, and the text.
+/// The fenced blocks of a page: the info string and the text of each.
 fn blocks(page: &str) -> Vec<(&str, &str)> {
     let mut found = Vec::new();
     let mut rest = page;
@@ -81,7 +81,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// What a command of a `console` block prints.
+/// Runs a command of a `console` block and returns its output.
 fn console(folder: &Path, command: &str) -> String {
     let words: Vec<&str> = command.split(' ').collect();
     match words[..] {
@@ -131,7 +131,7 @@ fn links_lead_somewhere() {
             let file = link.split('#').next().unwrap_or(link);
             let to = path.parent().unwrap().join(file).canonicalize();
             let to = to.unwrap_or_else(|_| panic!("{}: {link} leads nowhere", path.display()));
-            // What is made of the book has nothing but the book.
+            // The rendered book contains only files below `docs/book/src`.
             let inside = to.starts_with(&book) || path.ends_with("README.md");
             assert!(inside, "{}: {link} leads out of the book", path.display());
         }

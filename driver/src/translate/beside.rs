@@ -7,7 +7,8 @@
 //!
 //! The outcome is that of one thread: both do the same steps in the same order. Where the verification stops, the first
 //! thread is ahead of it, and may have found what it would not have looked for. So the whole attempt is thrown away, and
-//! the program is translated anew on one thread, which reports the stop (`translate::run`).
+//! the program is translated anew on one thread, which reports the stop (`translate::run`). A host without threads, such
+//! as a page in a browser, starts none, and verifies on the first.
 //!
 //! Not here: what a step of the verification does (`verify_run`).
 

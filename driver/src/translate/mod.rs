@@ -41,7 +41,6 @@ use self::translation::Translation;
 use crate::job::{Job, Outcome};
 use crate::provenance::trace::{Asked, Recorded, Trace};
 use crate::questions::{self, Policy};
-use crate::side_by_side::has_threads;
 use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks, ends_by_return};
 use crate::source::reader::reader_for;
@@ -82,7 +81,7 @@ pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Ou
 type Run = (Outcome, Modes, Option<Recorded>);
 
 fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<Run> {
-    match attempt(job, asked, source, !job.one_thread && has_threads())? {
+    match attempt(job, asked, source, !job.one_thread)? {
         Some(run) => Ok(run),
         None => {
             source.rewind()?;

@@ -134,16 +134,21 @@ mod tests {
 
     const HEAD: &str = "G71 G17 G90 G94 G40\nG54\nT1 M6\nD1\nG0 X0 Y0 S500 M3\nZ50\nF150\n";
 
-    /// Events of both sides, where the source calls a cycle up and makes holes in a later piece, and the output does it
-    /// in these words. By itself the output is executed for each piece.
-    fn verified(cycles: [&str; 2], holes: [&str; 2], by_itself: bool) -> Result<u64, Stop> {
+    /// A reader of the source, and a verification in which, by itself, the output is executed for each piece.
+    fn sides(by_itself: bool) -> (Reader, Verifier) {
         let settings = Settings::new(builtin("siemens").expect("a built-in dialect"));
         let job = Job::new(settings.clone(), settings, "holes.mpf");
-        let mut reader = Reader::new(job.from.clone(), true);
         let mut verifier = Verifier::new(&job);
         if by_itself {
             verifier.watch();
         }
+        (Reader::new(job.from.clone(), true), verifier)
+    }
+
+    /// Events of both sides, where the source calls a cycle up and makes holes in a later piece, and the output does it
+    /// in these words.
+    fn verified(cycles: [&str; 2], holes: [&str; 2], by_itself: bool) -> Result<u64, Stop> {
+        let (mut reader, mut verifier) = sides(by_itself);
         let mut batch = Batch::default();
         let heads = cycles.map(|cycle| format!("{HEAD}{cycle}\n"));
         let ends = ["MCALL\nG0 Z50\nM30\n"; 2];
@@ -214,13 +219,7 @@ mod tests {
     /// Events of both sides, where the source calls a cycle up and makes many holes in the same piece; and whether one
     /// execution of the holes stood for both.
     fn verified_at_end(heads: [&str; 2], holes: [&str; 2], by_itself: bool) -> Result<(u64, bool), Stop> {
-        let settings = Settings::new(builtin("siemens").expect("a built-in dialect"));
-        let job = Job::new(settings.clone(), settings, "holes.mpf");
-        let mut reader = Reader::new(job.from.clone(), true);
-        let mut verifier = Verifier::new(&job);
-        if by_itself {
-            verifier.watch();
-        }
+        let (mut reader, mut verifier) = sides(by_itself);
         let mut batch = Batch::default();
         let [said, written] = [0, 1].map(|side| format!("{HEAD}{}\n{}", heads[side], holes[side]));
         reader.read(said.as_bytes(), 0, &mut batch);

@@ -1,8 +1,8 @@
 //! Two texts line by line, as far as a comparison has come: neither is in memory as a whole, nor is a long line.
 //!
 //! ```text
-//! what is alike          passed, and forgotten but for the last lines
-//! what differs           the places of its lines and of those around them
+//! equal lines         counted; only the last ones are kept
+//! different lines     kept as positions in the file, with the lines around them
 //! ```
 //!
 //! Not here: what a line says (`text`), and which lines are paired (`edits`).
@@ -39,7 +39,7 @@ impl Key {
     }
 }
 
-/// Where a line stands.
+/// The position of a line in its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     /// Its number, from 1.
@@ -50,13 +50,13 @@ pub(crate) struct Place {
     pub(crate) length: u64,
 }
 
-/// What a line says, written to the buffer; `false` is a line that counts for nothing.
+/// Writes the words of a line that count to the buffer; `false` skips the line.
 pub(crate) type Say<'s> = Box<dyn Fn(&[u8], &mut Vec<u8>) -> bool + 's>;
 
 /// One text.
 pub(crate) struct Lines<'f> {
     file: &'f mut dyn Readable,
-    /// What its lines say, where that is not all that is written.
+    /// Reduces a line to the words that count; absent where all of it counts.
     say: Option<Say<'f>>,
     page: Vec<u8>,
     /// Bytes of the page that are used.
@@ -75,7 +75,7 @@ pub(crate) struct Lines<'f> {
     behind: VecDeque<Place>,
     /// So many of the next are kept.
     keeps: usize,
-    /// Lines that are told, and those around them, by their index.
+    /// Reported lines and the lines around them, by index.
     kept: HashMap<usize, Place>,
 }
 

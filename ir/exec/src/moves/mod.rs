@@ -19,6 +19,8 @@ pub(crate) mod lines;
 pub(crate) mod pace;
 pub(crate) mod polar;
 pub(crate) mod rotary;
+#[cfg(test)]
+pub(crate) mod sketch;
 pub(crate) mod speed;
 pub(crate) mod standing;
 pub(crate) mod thread;

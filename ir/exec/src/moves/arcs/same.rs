@@ -109,35 +109,19 @@ impl Exec {
 mod tests {
     use super::*;
     use crate::Event;
+    use crate::moves::sketch::{mm, stmt, to};
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, Plane};
     use ncc_ir::expr::Expr;
-    use ncc_ir::expr::num::{Num, ONE, Unit};
-    use ncc_ir::program::{Centre, CentreFrom, Coord, Move, Turns};
-    use ncc_ir::source::Span;
+    use ncc_ir::expr::num::ONE;
+    use ncc_ir::program::{Centre, CentreFrom, Coord, Turns};
 
-    fn stmt(op: Op) -> Stmt {
-        Stmt::new(Span::default(), op)
-    }
-
-    fn mm(mantissa: i64) -> Expr {
-        Expr::Num(Num { mantissa, scale: 3, point: true, unit: Unit::Mm })
-    }
-
-    fn point(words: [Option<i64>; 3]) -> Point {
-        let mut axes: [Option<Coord>; AXES] = Default::default();
-        for (axis, value) in axes.iter_mut().zip(words) {
-            *axis = value.map(|value| Coord { value: mm(value), distance: Fact::Known(Distance::Absolute) });
-        }
-        Point { axes }
-    }
-
-    fn arc(turn: Turn, to: [Option<i64>; 3], centre: Centre) -> Stmt {
+    fn arc(turn: Turn, end: [Option<i64>; 3], centre: Centre) -> Stmt {
         let plane = Fact::Known(Plane::Xy);
         stmt(Op::ArcFeed(Box::new(Arc {
             plane,
             turn,
-            to: point(to),
+            to: to(end).to,
             centre,
             turns: Turns::NONE,
             said: true,
@@ -191,7 +175,7 @@ mod tests {
             Op::SetSpindleSpeed(Expr::int(500)),
             Op::StartSpindleClockwise,
             Op::SetFeedRate(Expr::int(100)),
-            Op::StraightTraverse(Move { to: point([Some(0), Some(0), Some(50_000)]), said: true }),
+            Op::StraightTraverse(to([Some(0), Some(0), Some(50_000)])),
         ];
         for op in start {
             exec.step(&stmt(op), &mut Vec::new()).expect("a plain program");
@@ -208,8 +192,7 @@ mod tests {
     /// them. That is so with most arcs of two rules, and not with those of which one rule says something else.
     #[test]
     fn arcs_that_pass_are_the_same_events() {
-        let line =
-            |x: i64| stmt(Op::StraightFeed(Move { to: point([Some(x), Some(1_000), None]), said: true }));
+        let line = |x: i64| stmt(Op::StraightFeed(to([Some(x), Some(1_000), None])));
         let (mut alike, mut differ) = (0, 0);
         for (own, others) in
             rules().iter().flat_map(|own| rules().into_iter().map(move |other| (*own, other)))

@@ -143,35 +143,15 @@ impl Exec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::moves::sketch::{mm, stmt, to, word};
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, ReturnLevel, Spindle, Turn};
     use ncc_ir::expr::Expr;
-    use ncc_ir::expr::num::{Num, Unit};
+    use ncc_ir::program::Pitch;
     use ncc_ir::program::cycle::{Approach, BoreStop, Clearance, Cycle, CycleKind, Tap};
-    use ncc_ir::program::{Move, Pitch};
-
-    fn stmt(op: Op) -> Stmt {
-        Stmt::new(Span::default(), op)
-    }
-
-    fn mm(mantissa: i64) -> Expr {
-        Expr::Num(Num { mantissa, scale: 3, point: true, unit: Unit::Mm })
-    }
-
-    fn word(mantissa: i64) -> Coord {
-        Coord { value: mm(mantissa), distance: Fact::Known(Distance::Absolute) }
-    }
-
-    fn point(words: [Option<i64>; 3]) -> Move {
-        let mut axes: [Option<Coord>; AXES] = Default::default();
-        for (axis, value) in axes.iter_mut().zip(words) {
-            *axis = value.map(word);
-        }
-        Move { to: Point { axes }, said: true }
-    }
 
     fn hole(x: i64, y: i64) -> Stmt {
-        stmt(Op::Hole(point([Some(x), Some(y), None])))
+        stmt(Op::Hole(to([Some(x), Some(y), None])))
     }
 
     fn plain() -> Cycle {
@@ -246,7 +226,7 @@ mod tests {
             Op::SetSpindleSpeed(Expr::int(500)),
             Op::StartSpindleClockwise,
             Op::SetFeedRate(Expr::int(100)),
-            Op::StraightTraverse(point([Some(0), Some(0), Some(50_000)])),
+            Op::StraightTraverse(to([Some(0), Some(0), Some(50_000)])),
             Op::StartCycle(Box::new(cycle.clone())),
         ];
         for op in start {
@@ -305,7 +285,7 @@ mod tests {
         let mut places = Vec::new();
         let said = [hole(1_000, 2_000), stmt(Op::Blank), hole(3_000, 2_000)];
         exec.clone().pass_holes(&said, &mut places).expect("plain holes");
-        let only_x = stmt(Op::Hole(point([Some(3_000), None, None])));
+        let only_x = stmt(Op::Hole(to([Some(3_000), None, None])));
         let mut holds = |written: &[Stmt]| exec.has_holes_at(written, &places);
         assert!(holds(&said) && holds(&[hole(1_000, 2_000), only_x]));
         assert!(!holds(&[hole(1_001, 2_000), hole(3_000, 2_000)]));
@@ -314,7 +294,7 @@ mod tests {
         assert!(!holds(&[hole(1_000, 2_000), hole(3_000, 2_000), hole(3_000, 2_000)]));
         let skipped = Stmt { skip: Some(1), ..hole(3_000, 2_000) };
         assert!(!holds(&[hole(1_000, 2_000), skipped]));
-        let lower = stmt(Op::Hole(point([Some(3_000), Some(2_000), Some(1_000)])));
+        let lower = stmt(Op::Hole(to([Some(3_000), Some(2_000), Some(1_000)])));
         assert!(!holds(&[hole(1_000, 2_000), lower]));
     }
 }
