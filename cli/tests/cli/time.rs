@@ -206,14 +206,15 @@ fn help() {
     expect("help-time.txt", &done.out);
 }
 
-/// Peak memory does not grow with a program that streams: one sixteen times as long takes no more.
+/// Peak memory does not grow with a program that streams: one five times as long takes no more.
+/// The short one already runs for long enough that a reading misses no plateau: the mark is polled.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_program() {
     let folder = folder();
     let folder = folder.path();
     for (form, model) in [("summary", "trapezoidal"), ("csv", "ideal"), ("ndjson", "jerk-limited")] {
-        let peaks = [8_000u32, 80_000].map(|blocks| {
+        let peaks = [30_000u32, 160_000].map(|blocks| {
             let source = folder.join("long.nc");
             let mut file = BufWriter::new(std::fs::File::create(&source).unwrap());
             writeln!(file, "%\nO1\nG21 G17 G90 G94\nT1 M6\nS9000 M3\nG0 X0. Y0.\nG43 H1 Z1.\nG1 Z-1. F900")
@@ -240,7 +241,7 @@ fn memory_does_not_grow_with_the_program() {
             peak(folder, &arguments)
         });
         // A page more or less, and what the allocator keeps.
-        assert!(peaks[1] < peaks[0] + 2048, "{form}: {peaks:?} KiB");
+        assert!(peaks[1] < peaks[0] + 1536, "{form}: {peaks:?} KiB");
     }
 }
 
