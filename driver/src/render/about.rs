@@ -155,7 +155,7 @@ impl About<'_> {
             debug_assert!(range.start <= range.end);
             Place { span, start, end, text, label: label.to_owned() }
         };
-        let related = related.iter().map(|span| place(*span, said.related)).collect();
+        let related = related.iter().map(|span| place(*span, &said.related)).collect();
         Ok(Told {
             code: format!("NC{:04}", fault.code()),
             severity,

@@ -7,7 +7,7 @@ macro_rules! pages {
     ($($code:literal)*) => {
         /// Pages by code.
         const PAGES: &[(u16, &str)] =
-            &[$(($code, include_str!(concat!("../../pages/NC0", stringify!($code), ".md")))),*];
+            &[$(($code, include_str!(concat!("../../messages/NC0", stringify!($code), "/page.md")))),*];
     };
 }
 

@@ -1,48 +1,41 @@
-//! Why a tool cannot have a file of its own, in words, and what to do.
+//! Why a tool cannot have a file of its own: the form of NC0510 and its help.
 //!
 //! ```text
-//! FileNeeds::Place(Y)    this first move relies on where Y was at the tool change
+//! FileNeeds::Place(Y)    this first move relies on the position of Y at the change
 //! ```
 //!
 //! Not here: what the file of a tool needs (`translate::per_tool`).
 
 use ncc_ir::diag::FileNeeds;
 
-/// The label at the place.
-pub(super) fn label(needs: FileNeeds) -> String {
-    let text = match needs {
-        FileNeeds::Place(axis) => {
-            let axis = char::from(axis.letter());
-            return format!("this first move relies on where {axis} was at the tool change");
-        }
-        FileNeeds::PlaceInInches(axis) => {
-            let axis = char::from(axis.letter());
-            return format!("inches cannot state exactly where {axis} is at the tool change");
-        }
-        FileNeeds::AnotherTool => {
-            "this comes before the first tool change, and in the file its tool is in the spindle already"
-        }
-        FileNeeds::Feed => "F of another tool is active here",
-        FileNeeds::Speed => "S of another tool is active here",
-        FileNeeds::Shift => "a shift of program zero is active at this tool change",
-        FileNeeds::Length => "a tool length is active at this tool change",
-        FileNeeds::Cycle => "a canned cycle is active at this tool change",
-        FileNeeds::Compensation => "cutter compensation is active at this tool change",
-        FileNeeds::TableValue => "a value that stays in the control's tables",
-        FileNeeds::Setting => "a setting that lasts beyond its tool",
-        FileNeeds::Switch => "a switch decides whether this block is executed",
-        FileNeeds::ToolNumber => "the number of this tool is computed",
-        FileNeeds::Control => "its text has calls, labels or loops",
-    };
-    text.to_owned()
+use super::message::{Help, Message};
+
+/// The entry of NC0510, and the axis in it.
+pub(super) fn message(needs: FileNeeds, m: Message) -> Message {
+    match needs {
+        FileNeeds::Place(axis) => m.text("axis", char::from(axis.letter())),
+        FileNeeds::PlaceInInches(axis) => m.form("inches").text("axis", char::from(axis.letter())),
+        FileNeeds::AnotherTool => m.form("tool"),
+        FileNeeds::Feed => m.form("feed"),
+        FileNeeds::Speed => m.form("speed"),
+        FileNeeds::Shift => m.form("shift"),
+        FileNeeds::Length => m.form("length"),
+        FileNeeds::Cycle => m.form("cycle"),
+        FileNeeds::Compensation => m.form("compensation"),
+        FileNeeds::TableValue => m.form("table"),
+        FileNeeds::Setting => m.form("setting"),
+        FileNeeds::Switch => m.form("switch"),
+        FileNeeds::ToolNumber => m.form("number"),
+        FileNeeds::Control => m.form("control"),
+    }
 }
 
 /// What to do.
-pub(super) fn advice(needs: FileNeeds) -> Vec<String> {
+pub(super) fn helps(needs: FileNeeds) -> Vec<Help> {
     let own = match needs {
-        FileNeeds::Place(_) => Some("state it here: a rapid move in G90 with all axes, above the work"),
-        FileNeeds::AnotherTool => Some("move it behind the first tool change"),
-        FileNeeds::Control => Some("`--pass flatten` writes the straight blocks that come of the program"),
+        FileNeeds::Place(_) => Some("help-place"),
+        FileNeeds::AnotherTool => Some("help-first"),
+        FileNeeds::Control => Some("help-flatten"),
         FileNeeds::PlaceInInches(_)
         | FileNeeds::Feed
         | FileNeeds::Speed
@@ -55,6 +48,5 @@ pub(super) fn advice(needs: FileNeeds) -> Vec<String> {
         | FileNeeds::Switch
         | FileNeeds::ToolNumber => None,
     };
-    let manual = "`--to-option tool_change=manual` writes one file, which stops for each tool";
-    own.into_iter().chain([manual]).map(str::to_owned).collect()
+    own.into_iter().chain(["help"]).map(Help::new).collect()
 }

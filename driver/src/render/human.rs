@@ -8,11 +8,19 @@ use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 
+use ncc_ir::source::Span;
+
 use super::about::{About, Loudness, Told};
+use super::message::Message;
+use super::source::Lines;
 use crate::job::{Counted, Job};
+use crate::source::called_files::Called;
 
 /// Of one code, so many diagnostics are shown; the rest is counted.
 pub const MOST: usize = 20;
+
+/// So many further places of the same fault are listed; the rest is counted.
+const FURTHER: usize = 8;
 
 /// So many characters are underlined at most.
 const LONGEST_LABEL: usize = 80;
@@ -33,7 +41,48 @@ pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) ->
     }
     all.sort_by_key(|d| d.span.start);
     all.dedup_by(|b, a| a.span == b.span && same(&a.fault, &b.fault));
+    // Of a word without a known meaning, its place among other words is no second fault.
+    let unknown = |fault: &Fault| matches!(fault, Fault::UnknownCode { .. } | Fault::NotSupported { .. });
+    let words: Vec<Span> = all.iter().filter(|d| unknown(&d.fault)).map(|d| d.span).collect();
+    let follows = |fault: &Fault| matches!(fault, Fault::TooManyCodes { .. } | Fault::CodesExclude { .. });
+    all.retain(|d| !(follows(&d.fault) && words.binary_search_by_key(&d.span.start, |w| w.start).is_ok()));
     all
+}
+
+/// Diagnostics that are one to the reader: the same fault at several places.
+struct Group<'d> {
+    first: &'d Diagnostic,
+    further: Vec<&'d Diagnostic>,
+    /// Places that are counted only.
+    more: usize,
+}
+
+/// Groups equal diagnostics of `all`, in the order of their first places, and counts those of a code that has more than
+/// [`MOST`] groups.
+fn grouped<'d>(all: Vec<&'d Diagnostic>, called: Option<&Called>) -> (Vec<Group<'d>>, BTreeMap<u16, usize>) {
+    let file = |d: &Diagnostic| called.and_then(|called| called.file(d.span.start)).map(|file| &file.name);
+    let mut groups: Vec<Group> = Vec::new();
+    let mut of_code: BTreeMap<u16, Vec<usize>> = BTreeMap::new();
+    let mut left_out: BTreeMap<u16, usize> = BTreeMap::new();
+    for d in all {
+        let code = d.fault.code();
+        let known = of_code.entry(code).or_default();
+        // What to type depends on the text of the place.
+        let by_text = matches!(d.fault, Fault::LetterOForZero);
+        let same = |at: &&usize| {
+            !by_text && groups[**at].first.fault == d.fault && file(groups[**at].first) == file(d)
+        };
+        match known.iter().find(same) {
+            Some(at) if groups[*at].further.len() < FURTHER => groups[*at].further.push(d),
+            Some(at) => groups[*at].more += 1,
+            None if known.len() < MOST => {
+                known.push(groups.len());
+                groups.push(Group { first: d, further: Vec::new(), more: 0 });
+            }
+            None => *left_out.entry(code).or_default() += 1,
+        }
+    }
+    (groups, left_out)
 }
 
 /// The same, at most [`MOST`] of a code; and how many of each code are left out.
@@ -82,11 +131,21 @@ pub fn print_counted(
     (diagnostics, counted): (&[Diagnostic], &[Counted]),
     loudness: Loudness,
 ) -> io::Result<()> {
-    let (shown, left_out) = choose(about.job, diagnostics, counted, loudness);
-    let lines = about.lines(shown.iter().copied())?;
-    for diagnostic in shown {
-        let told = about.tell_among(&lines, diagnostic, diagnostics)?;
-        let boxed = boxed(&told, &lines);
+    let all = told(about.job, diagnostics, loudness);
+    let (groups, mut left_out) = grouped(all, about.job.called.as_ref());
+    for counted in counted {
+        let code = counted.fault.code();
+        if groups.iter().any(|group| group.first.fault.code() == code) {
+            *left_out.entry(code).or_default() += counted.more as usize;
+        }
+    }
+    let places =
+        groups.iter().flat_map(|group| [group.first].into_iter().chain(group.further.iter().copied()));
+    let lines = about.lines(places)?;
+    for group in groups {
+        let told = about.tell_among(&lines, group.first, diagnostics)?;
+        let mut boxed = boxed(&told, &lines);
+        boxed.notes.splice(..0, also(&group, &lines));
         term::emit_to_write_style(out, &Config::default(), &told.excerpt, &boxed)
             .map_err(io::Error::other)?;
     }
@@ -96,13 +155,31 @@ pub fn print_counted(
     Ok(())
 }
 
+/// The further lines of a group, if it has some.
+fn also(group: &Group, lines: &Lines) -> Option<String> {
+    let first = lines.line(group.first.span.start)?.number;
+    let mut numbers: Vec<u64> =
+        group.further.iter().filter_map(|d| Some(lines.line(d.span.start)?.number)).collect();
+    numbers.dedup();
+    numbers.retain(|number| *number != first);
+    let last = numbers.pop()?;
+    let form = match (numbers.is_empty(), group.more) {
+        (_, 1..) => "also-more",
+        (true, 0) => "also-line",
+        (false, 0) => "also-lines",
+    };
+    let numbers: Vec<String> = numbers.iter().map(u64::to_string).collect();
+    let message = Message::common(form).text("lines", numbers.join(", ")).text("last", last.to_string());
+    Some(message.count("more", group.more as u64).headline())
+}
+
 /// Whether two faults at one place are one to the reader: several steps may find the same, and a
 /// pass and a back-end may both have no words for a place.
 fn same(a: &Fault, b: &Fault) -> bool {
     a == b || matches!((a, b), (Fault::TargetLacks { .. }, Fault::TargetLacks { .. }))
 }
 
-pub(crate) fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
+pub(crate) fn boxed(told: &Told, lines: &Lines) -> Boxed<()> {
     let range = |span| {
         let range = told.excerpt.range(lines, span).unwrap_or(0..0);
         let cut = told.excerpt.cut(range.start, LONGEST_LABEL);
@@ -115,7 +192,8 @@ pub(crate) fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
     let mut notes = told.details.clone();
     notes.extend(told.advice.iter().map(|line| format!("help: {line}")));
     if told.severity == Severity::Error && told.advice.is_empty() {
-        notes.push(format!("help: `ncc explain {}` says more", told.code));
+        let more = Message::common("explain").text("code", told.code.as_str());
+        notes.push(format!("help: {}", more.headline()));
     }
     Boxed::new(told.severity)
         .with_code(&told.code)

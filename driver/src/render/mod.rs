@@ -11,14 +11,18 @@ mod about;
 pub mod advice;
 pub mod dialects;
 pub mod explain;
+mod facts;
 mod file_needs;
 pub mod head;
 pub mod human;
 pub mod json;
 pub mod line;
+mod message;
 pub mod numbers;
 pub mod questions;
 pub mod report;
+#[cfg(test)]
+mod samples;
 pub mod source;
 pub mod spelled;
 pub mod summary;

@@ -10,6 +10,7 @@ use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
 use crate::render::spelled;
+use crate::render::words::unreachable;
 
 /// Of the program and its control: what the front-end took for granted.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -75,6 +76,7 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
             Fault::RadiusUnknown { entry: Some(entry) } => unknown.push(format!("entry {entry}")),
             Fault::RadiusUnknown { entry: None } => unknown.push("an edge".to_owned()),
             Fault::ContourUnreachable { why } => {
+                let why = unreachable(*why);
                 lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
             }
             Fault::TargetLacks { what } | Fault::NotExecuted { what } => {

@@ -10,7 +10,6 @@
 //! Not here: statements and events, and what stands between the moves.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::fmt;
 
 /// A point of the plane, mm.
 pub type Spot = [f64; 2];
@@ -59,19 +58,6 @@ pub enum Unreachable {
     NoMeeting,
     /// A line turns straight back towards the tool.
     TurnedBack,
-}
-
-impl fmt::Display for Unreachable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Unreachable::Entry => "the move onto the contour is not longer than the radius",
-            Unreachable::SmallArc => "the tool does not fit into the arc",
-            Unreachable::ShortLine => "this line cannot be reached at its inner corners without gouging",
-            Unreachable::ShortArc => "this arc cannot be reached at its inner corners without gouging",
-            Unreachable::NoMeeting => "the tool does not fit into the inner corner",
-            Unreachable::TurnedBack => "an inner corner of no angle",
-        })
-    }
 }
 
 /// A leg of the contour.

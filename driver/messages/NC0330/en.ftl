@@ -1,0 +1,3 @@
+NC0330 = read as { $taken }; { $other } reads it differently
+    .label = the first difference between both readings
+    .help = name the control: `--from { $taken }` or `--from { $other }`

@@ -1,0 +1,2 @@
+NC0401 = comment rewritten
+    .label = in the characters that { $target } can show

@@ -1,0 +1,2 @@
+NC0402 = centre of the arc rewritten
+    .label = in the form that { $target } takes

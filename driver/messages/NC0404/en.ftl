@@ -1,0 +1,5 @@
+NC0404 = hole pattern written as { $holes } { $holes ->
+        [one] position
+       *[other] positions
+    }
+    .label = { $target } has no code for it

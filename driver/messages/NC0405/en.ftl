@@ -1,0 +1,2 @@
+NC0405 = { $kind } cycle written as moves
+    .label = { $target } has no code for it

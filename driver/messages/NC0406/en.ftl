@@ -1,0 +1,5 @@
+NC0406 = program { $name } written { $times } { $times ->
+        [one] time
+       *[other] times
+    } in place of its call
+    .label = the call

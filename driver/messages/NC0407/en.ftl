@@ -1,0 +1,3 @@
+NC0407 = block-skip level { $level } lost
+    .label = { $target } has one switch for all levels
+    .help = tell the operator: the switches can no longer be used one by one

@@ -1,0 +1,5 @@
+NC0408 = { $count } block { $count ->
+        [one] number
+       *[other] numbers
+    } left out
+    .label = the first one

@@ -1,0 +1,2 @@
+NC0409 = program name kept as a comment
+    .label = { $target } has no place for it

@@ -1,0 +1,2 @@
+NC0410 = block written as several
+    .label = this block

@@ -1,0 +1,5 @@
+NC0412 = repetition written out { $times } { $times ->
+        [one] time
+       *[other] times
+    }
+    .label = { $target } has no code for it

@@ -1,0 +1,2 @@
+NC0413 = coordinates written without the frame
+    .label = { $target } has no code for this frame

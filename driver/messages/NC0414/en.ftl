@@ -1,0 +1,2 @@
+NC0414 = { $holes } holes written as the cycle { $kind }
+    .label = separate moves here

@@ -1,0 +1,2 @@
+NC0415 = { $holes } positions written as a { $pattern }
+    .label = separate positions here

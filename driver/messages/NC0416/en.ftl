@@ -1,0 +1,2 @@
+NC0416 = { $before } is called { $name }
+    .label = { $target } does not take the name

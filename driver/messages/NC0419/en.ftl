@@ -1,0 +1,2 @@
+NC0419 = work offset { $offset } left out
+    .label = { $target } does not have it; no move uses it

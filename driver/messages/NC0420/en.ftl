@@ -1,0 +1,2 @@
+NC0420 = executed, and written as { $blocks } straight blocks
+    .label = variables, loops, jumps and subprograms are gone

@@ -1,0 +1,2 @@
+NC0421 = variables have other names
+    .label = in { $target }, { $map }

@@ -1,0 +1,2 @@
+NC0422 = alarms have other numbers
+    .label = in { $target }, { $map }

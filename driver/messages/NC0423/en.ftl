@@ -1,0 +1,2 @@
+NC0423 = a value in a message has { $digits } decimal places
+    .label = { $target } shows trailing zeros

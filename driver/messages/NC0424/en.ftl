@@ -1,0 +1,3 @@
+NC0424 = text for a device left out
+    .label = { $target } does not write it; kept as a comment
+    .help = check that no system waits for this text

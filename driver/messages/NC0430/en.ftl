@@ -1,0 +1,2 @@
+NC0430 = polar point written in coordinates
+    .label = { $target } has no code for it

@@ -1,0 +1,2 @@
+NC0431 = cut in machine coordinates written in the work offset
+    .label = { $target } only moves rapidly there; the same point in { $offset }

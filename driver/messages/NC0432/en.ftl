@@ -1,0 +1,2 @@
+NC0432 = written as a cut in machine coordinates
+    .label = { $target } has a code for a point without the offsets

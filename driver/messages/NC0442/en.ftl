@@ -1,0 +1,2 @@
+NC0442 = feed of linear and rotary axes written as inverse time
+    .label = { $source } and { $target } count F differently here

@@ -1,0 +1,2 @@
+NC0444 = { $code } left out
+    .label = stated to have no effect on the cut

@@ -1,0 +1,2 @@
+NC0450 = corner written as an arc or a line
+    .label = { $target } has no code for this corner

@@ -1,0 +1,2 @@
+NC0501 = { $target } has no words for this: { $what }
+    .label = cannot be written

@@ -1,0 +1,9 @@
+NC0605 = partly verified: this branch was never reached
+    .label = no test run came here
+    .help = check the output of this block, or give more values: `--args`
+NC0605-false = partly verified: this condition was never true
+    .label = the branch for true never ran
+    .help = check the output of this branch, or give more values: `--args`
+NC0605-true = partly verified: this condition was always true
+    .label = the branch for false never ran
+    .help = check the output of this branch, or give more values: `--args`

@@ -1,0 +1,312 @@
+//! Each message once, with values: every entry of `messages/` is found, has its values, and keeps its length.
+
+use ncc_ir::behaviour::{Behaviour, Kept};
+use ncc_ir::canon::Axis;
+use ncc_ir::diag::{ArgumentCheck, Fault, FileNeeds, ModeName};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::geometry::offset_path::Unreachable;
+use ncc_ir::program::numbered::Numbered;
+
+use super::advice::advice;
+use super::facts::message;
+use super::message::ENTRIES;
+use super::words::{Context, words};
+
+/// A headline has at most so many characters, and a label: the form of a message, with short values.
+const HEADLINE: usize = 70;
+const LABEL: usize = 60;
+
+/// A text in the samples, as short as a word of a block.
+fn t() -> Box<str> {
+    "X1.".into()
+}
+
+/// Faults of each code, and of each form of a code.
+fn samples() -> Vec<Fault> {
+    let mut all = text_and_meaning();
+    all.extend(assumed());
+    all.extend(became());
+    all.extend(target_and_verification());
+    all
+}
+
+fn text_and_meaning() -> Vec<Fault> {
+    use Fault::*;
+    vec![
+        UnexpectedCharacter { found: '.' },
+        UnexpectedCharacter { found: '\r' },
+        UnexpectedCharacter { found: ')' },
+        BadNumber { text: t() },
+        UnclosedComment,
+        BlockTooLong { limit: 1000 },
+        NotText,
+        WordWithoutNumber { letter: 'X' },
+        LetterOForZero,
+        EmptyProgram,
+        Syntax { found: t(), expected: "a word".into() },
+        Syntax { found: "(".into(), expected: "a word".into() },
+        NoProgramEnd,
+        TextAfterEnd,
+        TextBeforeStart { mark: "%".into() },
+        OpeningMarkMissing { mark: "%".into() },
+        LabelTwice { name: "N10".into() },
+        ComparedLast { what: "EQ".into() },
+        UnknownCode { code: "G123".into() },
+        UnknownCode { code: "M46".into() },
+        NotSupported { code: "G12".into(), name: "circular pocket".into() },
+        NotSupported { code: "M31".into(), name: "chip conveyor forward".into() },
+        NotSupported { code: "#3000".into(), name: "variable of the control".into() },
+        CodesExclude { first: "G90".into(), second: "G91".into() },
+        WordUnused { word: t() },
+        WordMissing { code: "G41".into(), word: "D".into() },
+        WordMissing { code: "G43".into(), word: "H".into() },
+        WordMissing { code: "G83".into(), word: "R".into() },
+        WordTwice { letter: 'X' },
+        TooManyCodes { letter: 'M', limit: 1 },
+        PointNotAllowed { word: "S5000.".into() },
+        OutOfRange { word: t() },
+        NoMotionMode,
+        ArcWithoutCentre,
+        ArcCentreAndRadius,
+        ArcEndOffCircle { radii: [1_000_000_000, 1_020_000_000], allowed: 10_000_000 },
+        ArcRadiusTooSmall,
+        ArcRadiusNoWay,
+        PositionUnknown { axis: 'Z' },
+        CallUnknown { name: "2000".into() },
+        CallRecursive { name: "2000".into() },
+        CallsTooDeep { name: "2000".into(), most: 64 },
+        ProgramTwice { name: "2000".into() },
+        MacroLanguage { what: "POPEN".into() },
+        MacroLanguage { what: "M#101".into() },
+        NoToolSelected,
+        NoFeed,
+        NoCycle,
+        CycleUpsideDown,
+        EntryFactNeeded { fact: ModeName::Units },
+        EntryFactNeeded { fact: ModeName::Plane },
+        NotExecuted { what: "an unknown clearance".into() },
+        NotExecuted { what: "this".into() },
+        NoEnd { steps: 10_000_000 },
+        Interrupted { steps: 1_000 },
+        LabelUnknown { name: "N10".into() },
+        NoArc,
+        NoSpeed,
+        NoValue { what: "1 / 0".into() },
+        VariableUnset { name: "101".into() },
+        Computes { what: "a computed feed".into() },
+        Endless,
+        RefusedCompensated { what: "a tool change".into() },
+        BeginsOtherwise { fact: ModeName::Distance },
+        RadiusUnknown { entry: Some(12) },
+        RadiusUnknown { entry: None },
+        ContourUnreachable { why: Unreachable::ShortLine },
+        NoCorner { what: "it is too large".into() },
+    ]
+}
+
+fn assumed() -> Vec<Fault> {
+    use Fault::*;
+    vec![
+        AssumedMode { fact: ModeName::Plane, value: "G17".into() },
+        AssumedMode { fact: ModeName::WorkOffset, value: "G54".into() },
+        AssumedNoEffect { code: "M46".into() },
+        AssumedBareNumber { word: "X100".into(), value: "100 mm".into() },
+        AssumedOffsetWithZ,
+        AssumedWorkOffset { offset: 1 },
+        AssumedRow { code: "G12".into(), meaning: "pocket".into() },
+        AssumedOption { option: "first_tool".into(), value: "none".into() },
+        AssumedParameter { parameter: "MD 10280 bit 0".into(), value: "0".into() },
+        AssumedHoleOrder { pattern: "grid".into() },
+        AssumedEdge { tool: 12 },
+        AssumedPath { path: "exact stop".into() },
+        AssumedContourEnds,
+        AssumedRadius { entry: 12 },
+        AssumedTip,
+        AssumedTilt,
+        AssumedControl { taken: "fanuc".into(), other: "haas".into() },
+        AssumedToolChange { named: 2, waiting: 3 },
+        AssumedReturn { code: "G28".into(), words: t(), zero: false, last: true },
+        AssumedReturn { code: "G28".into(), words: t(), zero: false, last: false },
+        AssumedReturn { code: "G28".into(), words: t(), zero: true, last: false },
+        CallDepth { depth: 6, sure: 4, macros: false },
+        CallDepth { depth: 6, sure: 4, macros: true },
+        AssumedCycle { cycle: "G81".into(), motion: "G00".into() },
+        StartedAgain { behaviour: Behaviour::SpindleAtChange },
+        OpenBehaviour {
+            behaviour: Behaviour::SpindleAtChange,
+            source: true,
+            taken: "stops",
+            other: "goes-on",
+        },
+        OpenBehaviour { behaviour: Behaviour::VariablesAtEnd, source: true, taken: "kept", other: "lost" },
+        MovedAtChange,
+        OptionalStopDiffers,
+        PathAtStart { source: "exact stop", target: "rounded" },
+        NextRunShifted { axis: Axis::X, source: 0, target: 10_000_000_000 },
+        NextRunTurned,
+        NextRunVariables { names: ["500".into()].into(), source: Kept::Always, target: Kept::UntilEnd },
+        RoundsFreely,
+        FeedOnArcs { contour_in_source: true, inner: true },
+        FeedOnArcs { contour_in_source: false, inner: true },
+        FeedOnArcs { contour_in_source: false, inner: false },
+        FeedAtUnits { before: 1_000_000_000, now: 1_000_000_000 },
+        FeedAtUnits { before: 1_000_000_000, now: 25_400_000_000 },
+        AssumedContourPath,
+        LengthByHand { tool: 12 },
+        AssumedMilling { looks_like: "a lathe program".into(), line: 3 },
+        ToolNumbered { name: "DRILL".into(), number: 3 },
+        EdgeNumbered { tool: 12, edge: 2, entry: 41 },
+    ]
+}
+
+fn became() -> Vec<Fault> {
+    use Fault::*;
+    vec![
+        CommentReformatted,
+        ArcReformatted,
+        Rounded { word: t(), written: t() },
+        PatternExpanded { holes: 6 },
+        CycleExpanded { kind: "peck drilling".into() },
+        CallExpanded { name: "2000".into(), times: 1 },
+        SkipLevelLost { level: 2 },
+        NumbersLeftOut { count: 12 },
+        NameAsComment,
+        BlockSplit,
+        MessageDropped,
+        CodeLeftOut { code: "M46".into() },
+        MessageAsComment,
+        RepeatExpanded { times: 3 },
+        FramesExpanded,
+        CycleFolded { kind: "G83".into(), holes: 12 },
+        PatternFolded { pattern: "bolt circle".into(), holes: 6, digits: 3, inch: false },
+        NameChanged { from: "O1".into(), to: "PART".into() },
+        PathRelaxed { from: "exact-stop".into(), to: "blended".into() },
+        PathRelaxed { from: "slow-corners".into(), to: "blended".into() },
+        PathRelaxed { from: "tapping".into(), to: "blended".into() },
+        AdviceLeftOut { kind: "look-ahead".into() },
+        WorkOffsetLeftOut { offset: 7 },
+        Flattened { blocks: 1000 },
+        VariablesRenamed { map: "#1 is R1".into() },
+        AlarmsRenumbered { map: "1 is 65001".into() },
+        ValuesInFull { digits: 3 },
+        OutputDropped,
+        MacroCloned { name: "O9010".into(), names: "O9010 and O9011".into() },
+        AlarmValues,
+        SideEffectWritten { behaviour: Behaviour::FeedOnArcs },
+        SideEffectWritten { behaviour: Behaviour::SpindleAtChange },
+        MachineCutExpanded { offset: 1 },
+        MachineCutFolded { digits: 3, inch: false },
+        PeckShortened,
+        PolarExpanded,
+        CompensationExpanded { radius: 5_000_000_000 },
+        FeedByTime,
+        CornerExpanded,
+    ]
+}
+
+fn target_and_verification() -> Vec<Fault> {
+    use Fault::*;
+    let needs = [
+        FileNeeds::Place(Axis::Y),
+        FileNeeds::PlaceInInches(Axis::Y),
+        FileNeeds::AnotherTool,
+        FileNeeds::Feed,
+        FileNeeds::Speed,
+        FileNeeds::Shift,
+        FileNeeds::Length,
+        FileNeeds::Cycle,
+        FileNeeds::Compensation,
+        FileNeeds::TableValue,
+        FileNeeds::Setting,
+        FileNeeds::Switch,
+        FileNeeds::ToolNumber,
+        FileNeeds::Control,
+    ];
+    let checks = [
+        ArgumentCheck::NotAsked,
+        ArgumentCheck::Nothing,
+        ArgumentCheck::Whole,
+        ArgumentCheck::LeftOut,
+        ArgumentCheck::Default(Num::int(5, Unit::One)),
+    ];
+    let mut all = vec![
+        TargetLacks { what: "a mirror".into() },
+        SecondWorkOffset { first: 1, second: 2 },
+        ArcVanishes,
+        TargetRange { word: t() },
+        ProfileDenies { fact: "metric".into(), machine: "mill".into() },
+        NotInMap { what: Numbered::Tool, number: 12, name: None },
+        NotInMap { what: Numbered::LengthEntry, number: 12, name: Some("DRILL".into()) },
+        DoneByTarget { behaviour: Behaviour::ZAtChange },
+        DoneByTarget { behaviour: Behaviour::SpindleAtChange },
+        MustBeStated { behaviour: Behaviour::SpindleAtChange },
+        ModeNotSet { fact: ModeName::Plane },
+        RotaryTurnOpen { axis: Axis::A, by: 350_000_000_000, or: -10_000_000_000 },
+        CallsDeeper { name: "2000".into(), depth: 6, most: 4, macros: false },
+        CallsDeeper { name: "2000".into(), depth: 6, most: 4, macros: true },
+        ArcRadiiDiffer { radii: [1_000_000_000, 1_020_000_000], allowed: 10_000_000 },
+        CompensatedThere { what: "a tool change".into() },
+        NotTheSame { difference: "X".into() },
+        NotReadBack { code: 101 },
+        SkipSettingsSampled { levels: 8 },
+        VariableGiven { name: "500".into() },
+        BranchUncovered { holds: true, fails: true },
+        BranchUncovered { holds: true, fails: false },
+        BranchUncovered { holds: false, fails: true },
+        OutputNotTaken { blocks: "N10".into() },
+        FactNotTried { behaviour: Some(Behaviour::SpindleAtChange), source: true },
+        FactNotTried { behaviour: None, source: true },
+        ValueNotRead { name: "500".into() },
+        NotCalled { name: "O2000".into() },
+        CutStanding,
+    ];
+    all.extend(needs.map(|needs| NoFileOfTool { needs }));
+    all.extend(checks.map(|check| ArgumentNeeded { name: "#9".into(), place: 0, check }));
+    all
+}
+
+/// Formatting checks by itself that an entry is there, parses, and has a value for each of its variables.
+#[test]
+fn every_fault_has_its_words() {
+    let dialect = |id: &str| ncc_dialects::builtin(id).unwrap();
+    let mut codes: Vec<u16> = Vec::new();
+    let mut long = Vec::new();
+    for fault in samples() {
+        for (from, to) in
+            [("fanuc", "siemens"), ("siemens", "fanuc"), ("mach9", "linuxcnc"), ("haas", "mach9")]
+        {
+            let at = Context { from: dialect(from), to: dialect(to), snippet: "GO", beside: ("", "X1.") };
+            let said = words(&fault, at);
+            assert!(!said.message.is_empty() && !said.label.is_empty(), "{fault:?}");
+            let told = message(&fault, at);
+            for words in [&said.message, &said.label].into_iter().chain(&advice(&fault, at)) {
+                assert!(!words.contains('\n') && !words.contains("  "), "{told:?}: {words}");
+            }
+            if from == "fanuc" {
+                for (words, most) in [(&said.message, HEADLINE), (&said.label, LABEL)] {
+                    if words.chars().count() > most {
+                        long.push(format!("{} {words}", words.chars().count()));
+                    }
+                }
+            }
+        }
+        codes.push(fault.code());
+    }
+    codes.sort_unstable();
+    codes.dedup();
+    let mut known = Fault::CODES.to_vec();
+    known.sort_unstable();
+    assert_eq!(codes, known, "a code without a sample");
+    assert_eq!(long, [""; 0], "longer than the form of a message allows");
+}
+
+/// An entry is of its own code, and every attribute is one that something shows.
+#[test]
+fn entries_belong_to_their_code() {
+    for (code, text) in ENTRIES {
+        let id = format!("NC{code:04}");
+        for line in text.lines().filter(|line| line.starts_with(|c: char| !c.is_whitespace())) {
+            assert!(line.starts_with(&id), "{id}: {line}");
+        }
+    }
+}
