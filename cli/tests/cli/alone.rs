@@ -79,10 +79,10 @@ fn a_macro_is_a_file_that_a_linuxcnc_calls() {
     let alone = ncc(folder, &["fanuc", "to", "linuxcnc", "lib/O9180.nc"]).exits(0);
     // Which place each letter has.
     for (letter, place) in [(4, 1), (7, 2), (9, 3), (18, 4), (24, 5), (25, 6), (26, 7)] {
-        let told = format!("every call must give the argument #{letter} in place {place}\n");
+        let told = format!("every call must pass #{letter} in place {place}\n");
         assert!(alone.err.contains(&told), "{told}{}", alone.err);
     }
-    assert!(alone.err.contains("one that counted on this default must give 2.5"), "{}", alone.err);
+    assert!(alone.err.contains("one that relied on this default must pass 2.5"), "{}", alone.err);
     let after = |text: &str, mark: &str| text.split_once(mark).unwrap().1.to_owned();
     let own = after(&alone.out, "o9180 sub\n");
     assert!(own.starts_with("#26 = #7\n") && own.ends_with("\no9180 endsub\nM2\n%\n"), "{own}");
@@ -184,7 +184,7 @@ fn a_linuxcnc_knows_a_subprogram_by_the_name_of_its_file() {
     // An argument that is left out is zero there, and nothing for a Fanuc.
     let letters = ncc(folder, &["linuxcnc", "to", "fanuc", "slot.ngc"]).exits(0);
     assert!(letters.out.contains("X#1 Y5.") && letters.out.contains("\nM99\n"), "{}", letters.out);
-    assert_eq!(letters.err.matches("has no value where a call leaves it out").count(), 2, "{}", letters.err);
+    assert_eq!(letters.err.matches("has no value for an argument that a call omits").count(), 1, "{}", letters.err);
     let again = ncc(folder, &["linuxcnc", "to", "linuxcnc", "slot.ngc"]).exits(0).out;
     assert!(again.contains("\no<slot> sub\n") && again.ends_with("\no<slot> endsub\nM2\n%\n"), "{again}");
     // No letter gives the tenth.

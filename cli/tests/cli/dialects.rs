@@ -39,7 +39,7 @@ fn a_shops_dialect_is_a_name_like_any_other() {
     // Written are the words of the base.
     let back = run("shop to shop part.nc --dialect shop.toml --no-head").exits(0).out;
     assert!(back.contains("\nM08\n"), "{back}");
-    assert!(run("fanuc to canon part.nc").exits(1).err.contains("`M24` is unknown"));
+    assert!(run("fanuc to canon part.nc").exits(1).err.contains("`M24` is not a standard fanuc code"));
     assert!(run("dialects --dialect shop.toml").exits(0).out.contains("shop      Our Fanuc"));
     let shown = run("dialects show shop --dialect shop.toml").exits(0).out;
     assert!(shown.contains("builds on: fanuc") && shown.contains("the builder's list"), "{shown}");

@@ -15,7 +15,7 @@ const REFUSED: [(&str, &str); 7] = [
     ("interp-g84-g18-g99", "cycle along another axis"),
     ("interp-g84-g19-g99", "cycle along another axis"),
     ("interp-inverse-time-with-comp", "under cutter radius compensation"),
-    ("interp-m98m99-10-M98-P001", "two programs are called `2`"),
+    ("interp-m98m99-10-M98-P001", "two programs have the name `2`"),
 ];
 
 /// Half-way between two digits a binary number is printed the other way.

@@ -35,7 +35,7 @@ fn corners_are_told_by_what_they_do() {
     let harmless = told.err.split_once("no effect on the cut").map_or("", |(_, rest)| rest);
     assert!(!harmless.contains("corners") && !harmless.contains("the feed"), "{}", told.err);
     let all = ncc(&root, &["fanuc", "to", "siemens", "corpus/fanuc/corner-override.nc", "-v"]).exits(0);
-    all.says("goes round them at the whole feed").says("leave feed hold and override alone");
+    all.says("full feed at inner corners of a contour").says("do not use feed hold and override");
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn of_a_binary_only_that_is_said() {
     for from in ["mach9", "fanuc", "canon", "ir"] {
         let done = ncc(folder.path(), &[from, "to", "fanuc", "binary.cn"]).exits(1);
         assert_eq!(done.err.matches("error[").count(), 1, "{from}: {}", done.err);
-        done.says("NC0105").says("this is not a part program");
+        done.says("NC0105").says("this file is not a part program");
     }
 }
 

@@ -111,7 +111,10 @@ fn a_rotary_turn_is_a_question_for_programs() {
     fs::write(at.join("units.ngc"), turn.replace("G21 ", "").replace("F500", "F50")).unwrap();
     let report = |arguments: &str, code: i32| -> serde_json::Value {
         let done = say(at, &format!("{arguments} --report r.json")).exits(code);
-        assert_eq!(done.err.contains("error[NC0522]: A turns by 270 degrees here, or by -90?"), code == 1);
+        assert_eq!(
+            done.err.contains("error[NC0522]: does A turn by 270 degrees here, or by -90?"),
+            code == 1
+        );
         serde_json::from_slice(&fs::read(at.join("r.json")).unwrap()).unwrap()
     };
     let asked = report("linuxcnc to fanuc turn.ngc", 1);

@@ -294,6 +294,6 @@ fn a_parameter_that_the_machine_states_is_used_for_programs_in_the_text_form() {
     let stated = format!("{profile}[options]\npeck_clearance = 0.5\nbreak_lift = 0.5\n");
     std::fs::write(folder.join("own.toml"), stated).unwrap();
     let call = |machine: &str| time(folder, &["pecks.ir", "--from", "ir", "--machine", machine]);
-    call("none.toml").exits(1).says("NC0226").says("[options] of a machine profile");
+    call("none.toml").exits(1).says("NC0226").says("`[options]` of a machine profile");
     call("own.toml").exits(0);
 }

@@ -303,7 +303,7 @@ fn values_in_messages() {
     write(&folder, "shown.mpf", source);
     let run = |arguments: &[&str]| ncc(folder.path(), arguments);
     let told = run(&["siemens", "to", "linuxcnc", "shown.mpf", "-o", "shown.ngc"]).exits(0).err;
-    assert!(told.contains("values in messages, with 6 digits behind the point (`-v` lists them)"), "{told}");
+    assert!(told.contains("values in messages, with 6 decimal places (`-v` lists them)"), "{told}");
     let written = read(&folder, "shown.ngc");
     assert!(written.contains("(DEBUG,DEPTH #101)"), "{written}");
     let verify = |out: &str| run(&["verify", "siemens:shown.mpf", out]);

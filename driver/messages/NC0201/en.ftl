@@ -3,5 +3,6 @@ NC0201 = { $code } is unknown
     .help = `ncc dialects show { $source }` lists the known codes; ncc passes no unknown code on
 NC0201-machine = { $code } is not a standard { $source } code
     .label = the machine builder defines it
-    .help-m-code = `--m-code { $plain }=drop` if it has no effect on the cut, `--m-code { $plain }=carry` if the target machine has it too, `--m-code { $plain }=M…` if the target machine has another code; or `[[m_code]]` in both profiles
+    .help-m-code = if it has no effect on the cut, leave it out: `--m-code { $plain }=drop`
+    .help-m-code-target = if the target machine has it too: `--m-code { $plain }=carry`; if it has another code for it: `--m-code { $plain }=M…`
     .help-call = if it calls a macro with the words in its block, leave both out: `--call { $plain }=drop`

@@ -1,7 +1,8 @@
 NC0202 = { $code } is not supported: { $name }
     .label = ncc does not translate it
     .help = write this block another way, or edit it by hand
-    .help-m-code = `--m-code { $plain }=drop` if it has no effect on the cut, `--m-code { $plain }=carry` if the target machine has it too, `--m-code { $plain }=M…` if the target machine has another code; or `[[m_code]]` in both profiles
+    .help-m-code = if it has no effect on the cut, leave it out: `--m-code { $plain }=drop`
+    .help-m-code-target = if the target machine has it too: `--m-code { $plain }=carry`; if it has another code for it: `--m-code { $plain }=M…`
     .help-variant = if the control of this program has { $plain }: `{ $options }`
     .help-option = state what the control does with it: { $options }; otherwise delete it
     .help-run-once = to run it once: delete this block, and end the program with M30

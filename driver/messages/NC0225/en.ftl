@@ -3,4 +3,4 @@ NC0225 = this depends on the { $mode }, which only the caller sets
     .help = set it in the subprogram itself
 NC0225-units = inch or mm? This subprogram never says
     .label = this length depends on the caller
-    .help = add `G21` or `G20` to the subprogram, as its caller has it
+    .help = add `{ $mm }` (mm) or `{ $inch }` (inch) to the subprogram, as its caller has it

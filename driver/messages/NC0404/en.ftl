@@ -3,3 +3,4 @@ NC0404 = hole pattern written as { $holes } { $holes ->
        *[other] positions
     }
     .label = { $target } has no code for it
+    .account = a hole pattern into its { $holes } positions

@@ -3,3 +3,4 @@ NC0406 = program { $name } written { $times } { $times ->
        *[other] times
     } in place of its call
     .label = the call
+    .account = program { $plain } where it is called

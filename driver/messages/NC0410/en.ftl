@@ -1,2 +1,3 @@
 NC0410 = block written as several
     .label = this block
+    .account = blocks, as several

@@ -3,3 +3,4 @@ NC0412 = repetition written out { $times } { $times ->
        *[other] times
     }
     .label = { $target } has no code for it
+    .account = a repetition into its blocks

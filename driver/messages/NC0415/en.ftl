@@ -1,2 +1,3 @@
 NC0415 = { $holes } positions written as a { $pattern }
     .label = separate positions here
+    .account = { $holes } positions into a { $pattern }

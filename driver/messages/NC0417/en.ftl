@@ -1,9 +1,12 @@
 NC0417 = corners by { $path } written as { $written }
     .label = { $target } has no code for this path mode
+    .account = { $path }, as { $written }
     .help = check corners and their tolerance on the machine
 NC0417-inner = full feed at inner corners of a contour
     .label = { $target } has no code that lowers the feed there
+    .account = the feed, not lowered at inner corners of a contour
     .help = program a lower feed at the inner corners
 NC0417-tapping = feed hold and override are active again
     .label = { $target } has no code that disables them
+    .account = the feed, which can be held and overridden
     .help = do not use feed hold and override in these blocks

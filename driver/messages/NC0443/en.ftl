@@ -1,2 +1,3 @@
 NC0443 = message kept as a comment
     .label = { $target } shows none while the program runs
+    .account = messages, as comments

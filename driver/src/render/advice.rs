@@ -51,7 +51,7 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         Fault::UnknownCode { code } if is_open(code, at.from) => {
             // Of a control whose machine can have codes that call macros.
             let call = at.from.program.macro_b.then(|| Help::new("help-call"));
-            [Help::new("help-m-code")].into_iter().chain(call).collect()
+            unsupported::m_code().into_iter().chain(call).collect()
         }
         Fault::NotSupported { code, .. } if is_open(code, at.from) => unsupported::open(code, at.from),
         Fault::NotSupported { code, name } => return unsupported::helps(code, name, at.from),

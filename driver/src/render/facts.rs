@@ -4,8 +4,9 @@
 //! Fault::WordWithoutNumber { letter: 'X' }    NC0106, letter = X, source = fanuc, target = siemens
 //! ```
 
+use ncc_dialects::Meaning;
 use ncc_ir::behaviour::{Behaviour, Concern};
-use ncc_ir::canon::PathMode;
+use ncc_ir::canon::{PathMode, Units};
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
 use ncc_ir::geometry::offset_path::Unreachable;
 
@@ -126,7 +127,11 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
             m.text("name", name.to_string())
         }
         Fault::NotCalled { name } => m.text("name", name.to_string()),
-        Fault::EntryFactNeeded { fact: ModeName::Units } => m.form("units"),
+        Fault::EntryFactNeeded { fact: ModeName::Units } => {
+            let code =
+                |units| at.from.code_for(Meaning::UseLengthUnits(units)).map_or("", |row| row.code.as_str());
+            m.form("units").text("mm", code(Units::Mm)).text("inch", code(Units::Inch))
+        }
         Fault::BeginsOtherwise { fact } | Fault::EntryFactNeeded { fact } | Fault::ModeNotSet { fact } => {
             m.text("mode", mode(*fact))
         }
@@ -136,7 +141,9 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
         Fault::ContourUnreachable { why } => unreachable(*why, m),
 
         Fault::AssumedMode { fact, value } => m.text("mode", mode(*fact)).text("value", plain(value)),
-        Fault::AssumedNoEffect { code } | Fault::CodeLeftOut { code } => m.text("code", quoted(code)),
+        Fault::AssumedNoEffect { code } | Fault::CodeLeftOut { code } => {
+            m.text("code", quoted(code)).text("plain", plain(code))
+        }
         Fault::AssumedBareNumber { word, value } => m.text("word", quoted(word)).text("value", plain(value)),
         Fault::AssumedWorkOffset { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
         Fault::AssumedRow { code, meaning } => m.text("code", quoted(code)).text("meaning", plain(meaning)),
@@ -206,7 +213,9 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
         Fault::Rounded { word, written } => m.text("word", quoted(word)).text("written", quoted(written)),
         Fault::PatternExpanded { holes } => m.count("holes", *holes),
         Fault::CycleExpanded { kind } => m.text("kind", plain(kind)),
-        Fault::CallExpanded { name, times } => m.text("name", quoted(name)).count("times", *times),
+        Fault::CallExpanded { name, times } => {
+            m.text("name", quoted(name)).text("plain", plain(name)).count("times", *times)
+        }
         Fault::SkipLevelLost { level } => m.text("level", level.to_string()),
         Fault::NumbersLeftOut { count } => m.count("count", *count),
         Fault::RepeatExpanded { times } => m.count("times", *times),

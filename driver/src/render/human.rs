@@ -19,8 +19,9 @@ use crate::source::called_files::Called;
 /// Of one code, so many diagnostics are shown; the rest is counted.
 pub const MOST: usize = 20;
 
-/// So many further places of the same fault are listed; the rest is counted.
-const FURTHER: usize = 8;
+/// So many further places of the same fault are kept, and so many are listed; the rest is counted.
+const FURTHER: usize = 32;
+const LISTED: usize = 8;
 
 /// So many characters are underlined at most.
 const LONGEST_LABEL: usize = 80;
@@ -46,6 +47,16 @@ pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) ->
     let words: Vec<Span> = all.iter().filter(|d| unknown(&d.fault)).map(|d| d.span).collect();
     let follows = |fault: &Fault| matches!(fault, Fault::TooManyCodes { .. } | Fault::CodesExclude { .. });
     all.retain(|d| !(follows(&d.fault) && words.binary_search_by_key(&d.span.start, |w| w.start).is_ok()));
+    // Of a statement and an expression in it, the expression is the cause.
+    let statement = |d: &Diagnostic| matches!(d.fault, Fault::MacroLanguage { .. });
+    let within: Vec<bool> = (0..all.len())
+        .map(|at| {
+            let next = all[at + 1..].iter().find(|d| statement(d));
+            statement(all[at]) && next.is_some_and(|d| d.span.end <= all[at].span.end)
+        })
+        .collect();
+    let mut within = within.into_iter();
+    all.retain(|_| !within.next().unwrap_or(false));
     all
 }
 
@@ -70,7 +81,8 @@ fn grouped<'d>(all: Vec<&'d Diagnostic>, called: Option<&Called>) -> (Vec<Group<
         // What to type depends on the text of the place.
         let by_text = matches!(d.fault, Fault::LetterOForZero);
         let same = |at: &&usize| {
-            !by_text && groups[**at].first.fault == d.fault && file(groups[**at].first) == file(d)
+            let first = groups[**at].first;
+            !by_text && file(first) == file(d) && (first.fault == d.fault || alike(&first.fault, &d.fault))
         };
         match known.iter().find(same) {
             Some(at) if groups[*at].further.len() < FURTHER => groups[*at].further.push(d),
@@ -143,7 +155,7 @@ pub fn print_counted(
         groups.iter().flat_map(|group| [group.first].into_iter().chain(group.further.iter().copied()));
     let lines = about.lines(places)?;
     for group in groups {
-        let told = about.tell_among(&lines, group.first, diagnostics)?;
+        let told = about.tell_among(&lines, &group.named(), diagnostics)?;
         let mut boxed = boxed(&told, &lines);
         boxed.notes.splice(..0, also(&group, &lines));
         term::emit_to_write_style(out, &Config::default(), &told.excerpt, &boxed)
@@ -155,6 +167,34 @@ pub fn print_counted(
     Ok(())
 }
 
+/// Whether two faults are one to the reader but for the names in them.
+fn alike(a: &Fault, b: &Fault) -> bool {
+    match (a, b) {
+        (
+            Fault::ArgumentNeeded { place: 0, check: a, .. },
+            Fault::ArgumentNeeded { place: 0, check: b, .. },
+        ) => a == b,
+        _ => false,
+    }
+}
+
+impl Group<'_> {
+    /// The diagnostic of all of them: the first one, with the names of all.
+    fn named(&self) -> Diagnostic {
+        let mut all = self.first.clone();
+        if let Fault::ArgumentNeeded { name, .. } = &mut all.fault {
+            let further = self.further.iter().filter_map(|d| match &d.fault {
+                Fault::ArgumentNeeded { name, .. } => Some(name),
+                _ => None,
+            });
+            let mut names: Vec<&str> = [&*name].into_iter().chain(further).map(|name| &**name).collect();
+            names.dedup();
+            *name = names.join(", ").into();
+        }
+        all
+    }
+}
+
 /// The further lines of a group, if it has some.
 fn also(group: &Group, lines: &Lines) -> Option<String> {
     let first = lines.line(group.first.span.start)?.number;
@@ -162,15 +202,17 @@ fn also(group: &Group, lines: &Lines) -> Option<String> {
         group.further.iter().filter_map(|d| Some(lines.line(d.span.start)?.number)).collect();
     numbers.dedup();
     numbers.retain(|number| *number != first);
+    let more = group.more + numbers.len().saturating_sub(LISTED);
+    numbers.truncate(LISTED);
     let last = numbers.pop()?;
-    let form = match (numbers.is_empty(), group.more) {
+    let form = match (numbers.is_empty(), more) {
         (_, 1..) => "also-more",
         (true, 0) => "also-line",
         (false, 0) => "also-lines",
     };
     let numbers: Vec<String> = numbers.iter().map(u64::to_string).collect();
     let message = Message::common(form).text("lines", numbers.join(", ")).text("last", last.to_string());
-    Some(message.count("more", group.more as u64).headline())
+    Some(message.count("more", more as u64).headline())
 }
 
 /// Whether two faults at one place are one to the reader: several steps may find the same, and a

@@ -7,7 +7,8 @@
 //! Message::new(106).text("letter", "X")    "`X` without a number"
 //! ```
 //!
-//! The form is Fluent's: a headline, and attributes for the label, the further places (`related`) and the helps. A code
+//! The form is Fluent's: a headline, and attributes for the label, the further places (`related`), the helps and the
+//! phrase in the account (`account`). A code
 //! may have several entries, told apart by a form: `NC0225-units`. Another language is another file in the folder of
 //! the code. Not here: which entry and which values a fault has (`facts`, `advice`).
 
@@ -119,6 +120,11 @@ impl Message {
     /// The words at the place.
     pub(super) fn label(&self) -> String {
         Opened::new(self).words(Some("label"), &[]).unwrap_or_default()
+    }
+
+    /// The phrase in the account of a translation: the entry's `account`, or its headline.
+    pub(super) fn account(&self) -> String {
+        Opened::new(self).words(Some("account"), &[]).unwrap_or_else(|| self.headline())
     }
 
     /// The words at further places, if the entry has some.

@@ -51,6 +51,10 @@ pub fn tell(
 ) -> io::Result<()> {
     if loudness != Loudness::Quiet || outcome.release.is_err() {
         questions::print(out, about, &outcome.questions)?;
+        if !outcome.questions.is_empty() && !human::told(about.job, &outcome.diagnostics, loudness).is_empty()
+        {
+            writeln!(out)?;
+        }
     }
     human::print_counted(out, about, (&outcome.diagnostics, &outcome.counted), loudness)?;
     if loudness != Loudness::Quiet {

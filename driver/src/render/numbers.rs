@@ -15,7 +15,7 @@ pub fn millimetres(nanos: i64) -> String {
 /// The headline of a rotary turn that controls do not make alike, by so many nanos of a degree.
 pub fn rotary_turn(axis: Axis, by: i64, or: i64) -> String {
     let axis = char::from(axis.letter());
-    format!("{axis} turns by {} degrees here, or by {}?", signed(by), signed(or))
+    format!("does {axis} turn by {} degrees here, or by {}?", signed(by), signed(or))
 }
 
 /// A length or an angle with its sign, as [`millimetres`].

@@ -279,7 +279,8 @@ fn every_fault_has_its_words() {
             let said = words(&fault, at);
             assert!(!said.message.is_empty() && !said.label.is_empty(), "{fault:?}");
             let told = message(&fault, at);
-            for words in [&said.message, &said.label].into_iter().chain(&advice(&fault, at)) {
+            for words in [&said.message, &said.label, &told.account()].into_iter().chain(&advice(&fault, at))
+            {
                 assert!(!words.contains('\n') && !words.contains("  "), "{told:?}: {words}");
             }
             if from == "fanuc" {

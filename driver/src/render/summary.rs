@@ -4,19 +4,17 @@ use std::collections::HashMap;
 use std::io;
 
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
-use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
 use super::about::{About, Loudness};
+use super::facts::message;
 use super::human::told;
-use super::numbers::{given_number, millimetres, plural};
+use super::numbers::plural;
 use super::questions::taken;
 use super::source::Lines;
-use super::spelled::work_offset;
-use super::text::plain;
-use super::words::{Context, words};
+use super::words::Context;
 use crate::job::{Failure, Outcome};
 use crate::questions::Question;
 use crate::render::head::{assumption, by_name};
@@ -99,12 +97,12 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
         (Ok(()), Some(verified)) => {
             write!(out, ", ")?;
             coloured(out, Color::Green, "verified")?;
-            let worlds = format!("{} {}", verified.worlds, plural(verified.worlds.into(), "world"));
+            let set_ups = format!("{} test {}", verified.worlds, plural(verified.worlds.into(), "set-up"));
             let skips = match verified.skip_settings {
                 0 | 1 => String::new(),
                 n => format!(" and {n} settings of the block-skip switches"),
             };
-            writeln!(out, ": the same {} events in source and output, in {worlds}{skips}", verified.events)?;
+            writeln!(out, ": the same {} events in source and output, in {set_ups}{skips}", verified.events)?;
         }
         (Ok(()), None) => {
             write!(out, ", ")?;
@@ -313,190 +311,11 @@ fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
 
 /// A fault as a phrase after its heading. Details that differ from place to place are left out.
 pub fn phrase(fault: &Fault, at: Context) -> String {
-    let to = at.to.id.as_str();
-    match fault {
-        Fault::AssumedBareNumber { .. } => {
-            "numbers without a decimal point, read by the control's usual setting".to_owned()
-        }
-        Fault::AssumedOption { option, value } => format!("{} = {}", plain(option), plain(value)),
-        Fault::AssumedWorkOffset { offset } => {
-            format!("the only work offset is {}", work_offset(*offset, [at.to, at.from]))
-        }
-        // In the words that the operator reads at the top of the program.
-        Fault::AssumedMode { .. }
-        | Fault::AssumedNoEffect { .. }
-        | Fault::AssumedOffsetWithZ
-        | Fault::AssumedRow { .. }
-        | Fault::AssumedHoleOrder { .. }
-        | Fault::AssumedContourEnds
-        | Fault::AssumedMilling { .. }
-        | Fault::AssumedTip
-        | Fault::AssumedTilt
-        | Fault::AssumedContourPath
-        | Fault::AssumedControl { .. }
-        | Fault::AssumedToolChange { .. }
-        | Fault::AssumedReturn { .. }
-        | Fault::AssumedCycle { .. }
-        | Fault::StartedAgain { .. }
-        | Fault::OpenBehaviour { .. }
-        | Fault::FeedAtUnits { .. }
-        | Fault::MovedAtChange
-        | Fault::LengthByHand { .. }
-        | Fault::FeedOnArcs { .. }
-        | Fault::PathAtStart { .. }
-        | Fault::NextRunShifted { .. }
-        | Fault::NextRunTurned
-        | Fault::NextRunVariables { .. }
-        | Fault::RoundsFreely
-        | Fault::OptionalStopDiffers
-        | Fault::CallDepth { .. }
-        | Fault::AssumedEdge { .. }
-        | Fault::AssumedRadius { .. }
-        | Fault::AssumedPath { .. }
-        | Fault::AssumedParameter { .. } => {
-            assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)
-        }
-        Fault::SideEffectWritten { behaviour } => format!("{}, as words", behaviour.about()),
-        Fault::CommentReformatted => format!("comments, in the characters of {to}"),
-        Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
-        Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
-        Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
-        Fault::MachineCutExpanded { offset } => format!(
-            "cuts in machine coordinates into {}, less the offsets",
-            work_offset(*offset, [at.to, at.from])
-        ),
-        Fault::MachineCutFolded { .. } => {
-            "words less the offsets into cuts in machine coordinates".to_owned()
-        }
-        Fault::MacroCloned { name, names } => {
-            format!("the macro {}, as {}: one for each set of arguments", plain(name), plain(names))
-        }
-        Fault::PeckShortened => "pecks that are longer than their holes".to_owned(),
-        Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
-        Fault::CompensationExpanded { radius } => {
-            format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))
-        }
-        Fault::FeedByTime => "feed of linear and rotary axes together, by time".to_owned(),
-        Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
-        Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
-        Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
-        Fault::AlarmsRenumbered { .. } => "alarms under other numbers".to_owned(),
-        Fault::AlarmValues => "values in the text of an alarm left out".to_owned(),
-        Fault::ValuesInFull { digits } => {
-            format!("values in messages, with {digits} digits behind the point")
-        }
-        Fault::VariablesRenamed { .. } => "variables under other names".to_owned(),
-        Fault::Flattened { blocks } => format!("what computes into {blocks} straight blocks"),
-        Fault::FramesExpanded => "frames into the coordinates".to_owned(),
-        Fault::CycleFolded { kind, holes } => {
-            format!("moves into the {} cycle ({holes} {})", plain(kind), plural(u64::from(*holes), "hole"))
-        }
-        Fault::PatternFolded { pattern, holes, .. } => {
-            format!("{holes} positions into a {}", plain(pattern))
-        }
-        Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
-        Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
-        Fault::PathRelaxed { from, to: mode } => match PathMode::named(from) {
-            Some(PathMode::SlowCorners) => "the feed, not lowered at inner corners of a contour".to_owned(),
-            Some(PathMode::Tapping) => "the feed, which can be held and overridden".to_owned(),
-            _ => format!("{}, as {}", plain(from), plain(mode)),
-        },
-        Fault::AdviceLeftOut { kind } => format!("{} left out", plain(&kind.replace('-', " "))),
-        Fault::WorkOffsetLeftOut { offset } => format!("work offset {offset} left out: nothing moves in it"),
-        Fault::NumbersLeftOut { count } => {
-            format!("{count} block {} left out", plural(u64::from(*count), "number"))
-        }
-        Fault::NameChanged { from, to } => format!("the name {}, as {}", plain(from), plain(to)),
-        Fault::ToolNumbered { .. } => format!("{}, numbered in the order of use", given_number(fault)),
-        Fault::EdgeNumbered { .. } => given_number(fault),
-        Fault::CodeLeftOut { code } => format!("{} left out, as stated", plain(code)),
-        Fault::MessageAsComment => "messages, as comments".to_owned(),
-        Fault::NameAsComment => "the program's name, as a comment".to_owned(),
-        Fault::BlockSplit => "blocks, as several".to_owned(),
-        Fault::MessageDropped => "messages to the operator".to_owned(),
-        Fault::OutputDropped => "text for a device or a file left out".to_owned(),
-
-        // What is no verdict has no place in the account, and would be named by its message.
-        Fault::RadiusUnknown { .. }
-        | Fault::ContourUnreachable { .. }
-        | Fault::UnexpectedCharacter { .. }
-        | Fault::BadNumber { .. }
-        | Fault::UnclosedComment
-        | Fault::BlockTooLong { .. }
-        | Fault::NotText
-        | Fault::WordWithoutNumber { .. }
-        | Fault::LetterOForZero
-        | Fault::EmptyProgram
-        | Fault::Syntax { .. }
-        | Fault::NoProgramEnd
-        | Fault::TextAfterEnd
-        | Fault::TextBeforeStart { .. }
-        | Fault::LabelTwice { .. }
-        | Fault::ComparedLast { .. }
-        | Fault::OpeningMarkMissing { .. }
-        | Fault::UnknownCode { .. }
-        | Fault::NotSupported { .. }
-        | Fault::CodesExclude { .. }
-        | Fault::WordUnused { .. }
-        | Fault::WordMissing { .. }
-        | Fault::WordTwice { .. }
-        | Fault::TooManyCodes { .. }
-        | Fault::PointNotAllowed { .. }
-        | Fault::OutOfRange { .. }
-        | Fault::NoMotionMode
-        | Fault::ArcWithoutCentre
-        | Fault::ArcCentreAndRadius
-        | Fault::ArcEndOffCircle { .. }
-        | Fault::ArcRadiusTooSmall
-        | Fault::NoArc
-        | Fault::NoCorner { .. }
-        | Fault::ArcRadiusNoWay
-        | Fault::PositionUnknown { .. }
-        | Fault::CallUnknown { .. }
-        | Fault::LabelUnknown { .. }
-        | Fault::CallRecursive { .. }
-        | Fault::CallsTooDeep { .. }
-        | Fault::CallsDeeper { .. }
-        | Fault::ProgramTwice { .. }
-        | Fault::MacroLanguage { .. }
-        | Fault::NoToolSelected
-        | Fault::NoFeed
-        | Fault::NoSpeed
-        | Fault::NoValue { .. }
-        | Fault::VariableUnset { .. }
-        | Fault::BeginsOtherwise { .. }
-        | Fault::Computes { .. }
-        | Fault::NoCycle
-        | Fault::CycleUpsideDown
-        | Fault::EntryFactNeeded { .. }
-        | Fault::NotExecuted { .. }
-        | Fault::NoEnd { .. }
-        | Fault::Interrupted { .. }
-        | Fault::Endless
-        | Fault::TargetLacks { .. }
-        | Fault::SecondWorkOffset { .. }
-        | Fault::NoFileOfTool { .. }
-        | Fault::ModeNotSet { .. }
-        | Fault::ArcRadiiDiffer { .. }
-        | Fault::RotaryTurnOpen { .. }
-        | Fault::CompensatedThere { .. }
-        | Fault::RefusedCompensated { .. }
-        | Fault::ArcVanishes
-        | Fault::DoneByTarget { .. }
-        | Fault::MustBeStated { .. }
-        | Fault::TargetRange { .. }
-        | Fault::ProfileDenies { .. }
-        | Fault::NotInMap { .. }
-        | Fault::NotTheSame { .. }
-        | Fault::NotReadBack { .. }
-        | Fault::VariableGiven { .. }
-        | Fault::ValueNotRead { .. }
-        | Fault::BranchUncovered { .. }
-        | Fault::OutputNotTaken { .. }
-        | Fault::FactNotTried { .. }
-        | Fault::NotCalled { .. }
-        | Fault::ArgumentNeeded { .. }
-        | Fault::CutStanding
-        | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
-    }
+    // Assumptions, in the words that the operator reads at the top of the program; of those with a line of their own there,
+    // and of numbers without a point, which are many, in the words of the message.
+    let own = match fault {
+        Fault::AssumedBareNumber { .. } | Fault::EdgeNumbered { .. } => None,
+        _ => assumption(fault, [at.to, at.from]),
+    };
+    own.unwrap_or_else(|| message(fault, at).account())
 }

@@ -120,7 +120,12 @@ fn variant(code: &str, from: &Dialect) -> Option<Help> {
 
 /// What can be said of an M code that the dialect refuses.
 pub(super) fn open(code: &str, from: &Dialect) -> Vec<Help> {
-    variant(code, from).into_iter().chain([Help::new("help-m-code")]).collect()
+    variant(code, from).into_iter().chain(m_code()).collect()
+}
+
+/// What can be said of a code that is the machine's own.
+pub(super) fn m_code() -> [Help; 2] {
+    [Help::new("help-m-code"), Help::new("help-m-code-target")]
 }
 
 /// The option for a control that moves without compensation where no radius is named.

@@ -126,7 +126,7 @@ fn head(out: &mut dyn Write, account: &Account) -> io::Result<()> {
         };
         writeln!(
             out,
-            "  compared: {} events in {} worlds{settings}, within {} mm",
+            "  compared: {} events in {} test set-ups{settings}, within {} mm",
             account.same + account.unmatched[0].max(account.unmatched[1]),
             account.worlds,
             account.tolerance

@@ -33,7 +33,7 @@ pub fn write(out: &mut dyn Write, account: &Account) -> io::Result<()> {
     if account.level == "motion" {
         writeln!(
             out,
-            "<p><small>Compared: {} events that agree, {} and {} that do not; in {} worlds, under {} \
+            "<p><small>Compared: {} events that agree, {} and {} that do not; in {} test set-ups, under {} \
              setting(s) of the block-skip switches, within {} mm.</small></p>",
             account.same,
             account.unmatched[0],

@@ -79,7 +79,7 @@ fn compared(document: &Document) -> String {
         c.events,
         plural(c.events, "event"),
         c.worlds,
-        plural(c.worlds.into(), "world"),
+        plural(c.worlds.into(), "test set-up"),
     )
 }
 
