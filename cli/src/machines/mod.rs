@@ -17,7 +17,7 @@ use codespan_reporting::files::SimpleFile;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_dialects::Dialect;
-use ncc_driver::machines::words::{message, words};
+use ncc_driver::machines::words::words;
 use ncc_driver::machines::{pair, show, test};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_machines::schema::LineEnds;
@@ -133,7 +133,7 @@ pub(crate) fn print_as(
         }
         let boxed = Boxed::new(severity)
             .with_code(format!("NC{:04}", error.wrong.code()))
-            .with_message(message(&error.wrong))
+            .with_message(said.message)
             .with_labels(labels)
             .with_notes(said.help.into_iter().map(|help| format!("help: {help}")).collect());
         term::emit_to_write_style(err, &Config::default(), &file, &boxed)?;

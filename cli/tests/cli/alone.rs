@@ -184,7 +184,12 @@ fn a_linuxcnc_knows_a_subprogram_by_the_name_of_its_file() {
     // An argument that is left out is zero there, and nothing for a Fanuc.
     let letters = ncc(folder, &["linuxcnc", "to", "fanuc", "slot.ngc"]).exits(0);
     assert!(letters.out.contains("X#1 Y5.") && letters.out.contains("\nM99\n"), "{}", letters.out);
-    assert_eq!(letters.err.matches("has no value for an argument that a call omits").count(), 1, "{}", letters.err);
+    assert_eq!(
+        letters.err.matches("has no value for an argument that a call omits").count(),
+        1,
+        "{}",
+        letters.err
+    );
     let again = ncc(folder, &["linuxcnc", "to", "linuxcnc", "slot.ngc"]).exits(0).out;
     assert!(again.contains("\no<slot> sub\n") && again.ends_with("\no<slot> endsub\nM2\n%\n"), "{again}");
     // No letter gives the tenth.

@@ -1,3 +1,9 @@
 NC0805 = feed move with the spindle stopped
     .label = no M03 or M04 with a speed is active here
     .help = write `M03` before this block, with a speed: `S1000 M03`
+NC0805-check = feed move with the spindle stopped
+    .label = no block before it starts the spindle
+    .help = start the spindle before the first cut of each tool
+NC0805-speed = feed move with a spindle without a speed
+    .label = the spindle was started without S
+    .help = program the speed before the spindle starts

@@ -8,7 +8,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::source::Span;
 
 use super::drive::Course;
-use super::words::{not_checked, words};
+use super::words::{message, not_checked};
 use crate::job::Job;
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{About, Place, Told};
@@ -191,25 +191,26 @@ fn of_finding(
     let others: Vec<Span> = finding.related.iter().filter(|span| file(span) == own).copied().collect();
     let spans: Vec<Span> = std::iter::once(finding.span).chain(others.iter().copied()).collect();
     let excerpt = Excerpt::read(&mut source.file, lines, shown, &spans)?;
-    let words = words(finding);
+    let message = message(finding);
     let place = |span: Span, label: &str| {
         let start = excerpt.location(lines, span.start).unwrap_or((1, 1));
         let text = excerpt.snippet(lines, span).to_owned();
         let end = (start.0, start.1 + text.chars().count() as u64);
         Place { span, start, end, text, label: label.to_owned() }
     };
-    let labels = words.related.iter().copied().chain(std::iter::repeat(""));
-    let related = others.iter().zip(labels).map(|(span, label)| place(*span, label)).collect();
+    let labels = [message.related(), message.related_2()].map(Option::unwrap_or_default);
+    let labels = labels.into_iter().chain(std::iter::repeat(String::new()));
+    let related = others.iter().zip(labels).map(|(span, label)| place(*span, &label)).collect();
     Ok(Told {
         code: format!("NC{:04}", finding.what.rule().code()),
         severity: heading(severity),
         verdict: None,
         rank: None,
-        message: words.message,
-        place: place(finding.span, &words.label),
+        message: message.headline(),
+        place: place(finding.span, &message.label()),
         related,
         details: Vec::new(),
-        advice: vec![words.advice.to_owned()],
+        advice: message.helps(None),
         excerpt,
     })
 }

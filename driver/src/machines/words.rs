@@ -1,104 +1,112 @@
-//! What is wrong with a profile, in words.
+//! What is wrong with a profile, in words: which entry of `messages/`, and the values in it.
 
 use ncc_machines::Wrong;
 
-/// The words beside a place.
+use crate::render::message::{Help, Message};
+
+/// What is wrong, in words.
 pub struct Words {
+    /// What is wrong, in a line.
+    pub message: String,
     /// Why this place.
     pub label: String,
     /// What to do.
     pub help: Option<String>,
 }
 
-/// What is wrong, in a line.
-pub fn message(wrong: &Wrong) -> String {
-    match wrong {
-        Wrong::Form { message } => {
-            let first = message.lines().next().unwrap_or("it is no profile");
-            first
-                .replace("expected f64", "expected a number")
-                .replace("expected u32", "expected a whole number")
+/// What is wrong, in words. `schemas`: where every key of the file is listed.
+pub fn words(wrong: &Wrong, schemas: &str) -> Words {
+    let message = message(wrong);
+    let help = match wrong {
+        Wrong::Form { .. } => Some(Help::Words(schemas.to_owned())),
+        Wrong::UnknownOption { has, .. } if !has.is_empty() => {
+            Some(Help::new("help-has").text("has", has.join(", ")))
         }
-        Wrong::UnknownDialect { name } => format!("there is no dialect `{name}`"),
-        Wrong::UnknownOption { option, .. } => format!("the dialect has no option `{option}`"),
-        Wrong::OptionValue { option, value, .. } => format!("`{value}` is no value of {option}"),
-        Wrong::UnknownRow { row } => format!("the dialect has no row `{row}`"),
-        Wrong::Twice { what } => format!("{what} twice"),
-        Wrong::UpsideDown => "travel upside down".to_owned(),
-        Wrong::Takes { key, .. } => format!("this is no value of {key}"),
-        Wrong::Missing { key, .. } => format!("{key} is missing"),
-        Wrong::CodeKnown { code, .. } => format!("{code} is in the dialect's dictionary already"),
-        Wrong::NotOneToOne { function } => format!("two codes for {function}"),
-        Wrong::TooFine { key, .. } => format!("{key}: finer than the control"),
-        Wrong::NoForm { key, lacks } => format!("{key}: the dialect has no {lacks}"),
-        Wrong::NoMachine { name, .. } => format!("there is no machine `{name}`"),
-        Wrong::Pattern { .. } => "no file can match this pattern".to_owned(),
-        Wrong::TwoRows { program } => format!("two rows of [[programs]] match {program}"),
-        Wrong::NoFile { pattern } => format!("no file matches `{pattern}`"),
-        Wrong::NoRows => "no [[programs]] in the project file".to_owned(),
-        Wrong::NoFolder { name } => format!("there is no folder `{name}`"),
+        _ => None,
+    };
+    Words {
+        message: message.headline(),
+        label: message.label(),
+        help: message.helps(help.map(|help| vec![help])).pop(),
     }
 }
 
-/// The words at its place.
-pub fn words(wrong: &Wrong, schemas: &str) -> Words {
-    let list = |words: &[String]| words.join(", ");
-    let (label, help): (String, Option<String>) = match wrong {
-        Wrong::Form { .. } => ("here".into(), Some(schemas.to_owned())),
-        Wrong::UnknownDialect { .. } => {
-            ("not one of the dictionaries".into(), Some("`ncc dialects` lists them".into()))
+fn message(wrong: &Wrong) -> Message {
+    let m = Message::new(wrong.code());
+    match wrong {
+        Wrong::Form { message } => {
+            let first = message.lines().next().unwrap_or("it is no profile");
+            let trade = first.replace("expected f64", "expected a number");
+            m.text("message", trade.replace("expected u32", "expected a whole number"))
         }
-        Wrong::UnknownOption { has, .. } if has.is_empty() => ("it has no options at all".into(), None),
-        Wrong::UnknownOption { has, .. } => ("no such option".into(), Some(format!("it has: {}", list(has)))),
-        Wrong::OptionValue { takes, .. } if takes.is_empty() => ("it takes a number from 0".into(), None),
-        Wrong::OptionValue { takes, .. } => (format!("it takes: {}", list(takes)), None),
-        Wrong::UnknownRow { .. } => (
-            "nothing to confirm".into(),
-            Some(
-                "`ncc dialects show` lists the rows; `ncc doctor` writes the keys that a program needs"
-                    .into(),
-            ),
-        ),
-        Wrong::Twice { .. } => ("again".into(), Some("keep one of the two".into())),
-        Wrong::UpsideDown => ("the lower end comes first".into(), None),
-        Wrong::Takes { takes, .. } => (format!("it takes {takes}"), None),
-        Wrong::Missing { why, .. } => ((*why).into(), None),
-        Wrong::CodeKnown { means, .. } => (
-            format!("there it is {means}"),
-            Some("leave it out: what a dictionary says holds for every machine of the dialect".into()),
-        ),
-        Wrong::NotOneToOne { .. } => (
-            "the second one".into(),
-            Some("which of them would be written? keep one, or give them two names".into()),
-        ),
-        Wrong::TooFine { most, .. } => (format!("it has {most} digits after the point"), None),
-        Wrong::NoForm { .. } => ("cannot be written so".into(), None),
+        Wrong::UnknownDialect { name } | Wrong::NoFolder { name } => m.text("name", name.as_str()),
+        Wrong::UnknownOption { option, has } => {
+            let m = if has.is_empty() { m.form("none") } else { m };
+            m.text("option", option.as_str())
+        }
+        Wrong::OptionValue { option, value, takes } => {
+            let m = if takes.is_empty() { m.form("number") } else { m.text("takes", takes.join(", ")) };
+            m.text("option", option.as_str()).text("value", value.as_str())
+        }
+        Wrong::UnknownRow { row } => m.text("row", row.as_str()),
+        Wrong::Twice { what } => m.text("what", what.to_string()),
+        Wrong::UpsideDown | Wrong::NoRows => m,
+        Wrong::Takes { key, takes } => m.text("key", key.to_string()).text("takes", takes.to_string()),
+        Wrong::Missing { key, why } => m.text("key", key.to_string()).text("why", why.to_string()),
+        Wrong::CodeKnown { code, means } => m.text("code", code.to_string()).text("means", means.to_string()),
+        Wrong::NotOneToOne { function } => m.text("function", function.to_string()),
+        Wrong::TooFine { key, most } => m.text("key", key.to_string()).text("most", most.to_string()),
+        Wrong::NoForm { key, lacks } => m.text("key", key.to_string()).text("lacks", lacks.to_string()),
         Wrong::NoMachine { name, is_dialect: true, .. } => {
-            (format!("{name} is a dialect"), Some(format!("write `{{ dialect = {name:?} }}`")))
+            let table = format!("{{ dialect = {name:?} }}");
+            m.form("dialect").text("name", name.as_str()).text("table", table)
         }
-        Wrong::NoMachine { has, .. } => (
-            "neither a shipped machine nor a file".into(),
-            Some(format!("name the file of a profile, or one of {}", list(has))),
-        ),
-        Wrong::Pattern { message } => (
-            message.clone(),
-            Some("write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`".into()),
-        ),
-        Wrong::TwoRows { .. } => {
-            ("which machine is it for?".into(), Some("let one of the patterns match fewer files".into()))
+        Wrong::NoMachine { name, has, .. } => m.text("name", name.as_str()).text("has", has.join(", ")),
+        Wrong::Pattern { message } => m.text("message", message.as_str()),
+        Wrong::TwoRows { program } => m.text("program", program.to_string()),
+        Wrong::NoFile { pattern } => m.text("pattern", pattern.as_str()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Formatting checks by itself that an entry is there, parses, and has a value for each of its variables.
+    #[test]
+    fn every_fault_of_a_profile_has_its_words() {
+        let s = || "name".to_owned();
+        let some = || vec![s()];
+        let all = [
+            Wrong::Form { message: "expected u32\nat".into() },
+            Wrong::UnknownDialect { name: s() },
+            Wrong::UnknownOption { option: s(), has: some() },
+            Wrong::UnknownOption { option: s(), has: Vec::new() },
+            Wrong::OptionValue { option: s(), value: s(), takes: some() },
+            Wrong::OptionValue { option: s(), value: s(), takes: Vec::new() },
+            Wrong::UnknownRow { row: s() },
+            Wrong::Twice { what: s() },
+            Wrong::UpsideDown,
+            Wrong::Takes { key: "key", takes: "a number" },
+            Wrong::Missing { key: "key", why: "it has a name" },
+            Wrong::CodeKnown { code: s(), means: s() },
+            Wrong::NotOneToOne { function: s() },
+            Wrong::TooFine { key: "key", most: 3 },
+            Wrong::NoForm { key: "key", lacks: "form" },
+            Wrong::NoMachine { name: s(), has: some(), is_dialect: true },
+            Wrong::NoMachine { name: s(), has: some(), is_dialect: false },
+            Wrong::Pattern { message: s() },
+            Wrong::TwoRows { program: s() },
+            Wrong::NoFile { pattern: s() },
+            Wrong::NoRows,
+            Wrong::NoFolder { name: s() },
+        ];
+        let mut codes: Vec<u16> = all.iter().map(Wrong::code).collect();
+        codes.dedup();
+        assert_eq!(codes, [Wrong::CODES, Wrong::PROJECT_CODES].concat(), "a code without a sample");
+        for wrong in &all {
+            let words = words(wrong, "schemas");
+            assert!(!words.message.is_empty() && !words.label.is_empty(), "{wrong:?}");
         }
-        Wrong::NoFile { .. } => (
-            "below the folder of this file".into(),
-            Some(
-                "patterns begin in the folder of this file; `*` stays in one folder, `**/` goes down".into(),
-            ),
-        ),
-        Wrong::NoRows => {
-            ("the file has no rows".into(), Some("`ncc init PROGRAM --to DIALECT` writes one".into()))
-        }
-        Wrong::NoFolder { .. } => {
-            ("seen from the folder of this file".into(), Some("make it, or correct its name".into()))
-        }
-    };
-    Words { label, help }
+    }
 }

@@ -20,7 +20,7 @@ const COMMON: u16 = 0;
 macro_rules! entries {
     ($($code:literal)*) => {
         /// The entries of each code.
-        pub(super) const ENTRIES: &[(u16, &str)] =
+        pub(crate) const ENTRIES: &[(u16, &str)] =
             &[$(($code, include_str!(concat!("../../messages/NC0", stringify!($code), "/en.ftl")))),*];
     };
 }
@@ -35,12 +35,13 @@ entries! {
     430 431 432 433 440 442 443 444 450
     501 502 503 504 505 506 507 508 509 510 520 521 522 523
     601 602 603 604 605 606 607 608 609 610
-    805
+    701 702 703 704 705 706 707 708 709 710 711 712 713 714 715 716 717 718 719
+    801 802 803 804 805 806 807 808 809 810 811 812 813 814
 }
 
 /// A value in a message.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// Text, as it is shown.
     Text(String),
     /// A count, by which the words of an entry may differ.
@@ -49,7 +50,7 @@ pub(super) enum Value {
 
 /// A help of a message, with values of its own besides those of the message.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Help {
+pub(crate) enum Help {
     /// An attribute of the message's entry.
     Entry(&'static str, Vec<(&'static str, Value)>),
     /// Words that are made elsewhere.
@@ -58,13 +59,13 @@ pub(super) enum Help {
 
 impl Help {
     /// A help without values of its own.
-    pub(super) fn new(attribute: &'static str) -> Help {
+    pub(crate) fn new(attribute: &'static str) -> Help {
         Help::Entry(attribute, Vec::new())
     }
 
     /// The same with a text in it.
     #[must_use]
-    pub(super) fn text(mut self, name: &'static str, text: impl Into<String>) -> Help {
+    pub(crate) fn text(mut self, name: &'static str, text: impl Into<String>) -> Help {
         if let Help::Entry(_, values) = &mut self {
             values.push((name, Value::Text(text.into())));
         }
@@ -74,7 +75,7 @@ impl Help {
 
 /// A message: its code, which of the code's entries, and the values in it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Message {
+pub(crate) struct Message {
     code: u16,
     form: &'static str,
     values: Vec<(&'static str, Value)>,
@@ -82,58 +83,63 @@ pub(super) struct Message {
 
 impl Message {
     /// The only or the first entry of a code.
-    pub(super) fn new(code: u16) -> Message {
+    pub(crate) fn new(code: u16) -> Message {
         Message { code, form: "", values: Vec::new() }
     }
 
     /// Words that belong to no code: `common-also`.
-    pub(super) fn common(form: &'static str) -> Message {
+    pub(crate) fn common(form: &'static str) -> Message {
         Message::new(COMMON).form(form)
     }
 
     /// The entry of this form: `units` for `NC0225-units`.
     #[must_use]
-    pub(super) fn form(mut self, form: &'static str) -> Message {
+    pub(crate) fn form(mut self, form: &'static str) -> Message {
         self.form = form;
         self
     }
 
     /// With a text in it.
     #[must_use]
-    pub(super) fn text(mut self, name: &'static str, text: impl Into<String>) -> Message {
+    pub(crate) fn text(mut self, name: &'static str, text: impl Into<String>) -> Message {
         self.values.push((name, Value::Text(text.into())));
         self
     }
 
     /// With a count in it, by which its words may differ.
     #[must_use]
-    pub(super) fn count(mut self, name: &'static str, count: impl Into<u64>) -> Message {
+    pub(crate) fn count(mut self, name: &'static str, count: impl Into<u64>) -> Message {
         self.values.push((name, Value::Count(count.into())));
         self
     }
 
     /// The headline.
-    pub(super) fn headline(&self) -> String {
+    pub(crate) fn headline(&self) -> String {
         Opened::new(self).words(None, &[]).unwrap_or_default()
     }
 
     /// The words at the place.
-    pub(super) fn label(&self) -> String {
+    pub(crate) fn label(&self) -> String {
         Opened::new(self).words(Some("label"), &[]).unwrap_or_default()
     }
 
     /// The phrase in the account of a translation: the entry's `account`, or its headline.
-    pub(super) fn account(&self) -> String {
+    pub(crate) fn account(&self) -> String {
         Opened::new(self).words(Some("account"), &[]).unwrap_or_else(|| self.headline())
     }
 
     /// The words at further places, if the entry has some.
-    pub(super) fn related(&self) -> Option<String> {
+    pub(crate) fn related(&self) -> Option<String> {
         Opened::new(self).words(Some("related"), &[])
     }
 
+    /// The words at a second further place, if the entry has some.
+    pub(crate) fn related_2(&self) -> Option<String> {
+        Opened::new(self).words(Some("related-2"), &[])
+    }
+
     /// The helps: those that are named, or else the entry's `help` if it has one.
-    pub(super) fn helps(&self, named: Option<Vec<Help>>) -> Vec<String> {
+    pub(crate) fn helps(&self, named: Option<Vec<Help>>) -> Vec<String> {
         let opened = Opened::new(self);
         let Some(named) = named else {
             return opened.words(Some("help"), &[]).into_iter().collect();

@@ -1,0 +1,2 @@
+NC0701 = { $message }
+    .label = here

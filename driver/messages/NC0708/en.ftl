@@ -1,0 +1,2 @@
+NC0708 = this is not a value of { $key }
+    .label = it takes { $takes }

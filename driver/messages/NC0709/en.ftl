@@ -1,0 +1,2 @@
+NC0709 = { $key } is missing
+    .label = { $why }

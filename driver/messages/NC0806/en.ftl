@@ -1,0 +1,9 @@
+NC0806 = Z moves without the length of T{ $tool }
+    .label = no length offset since the tool change
+    .related = changed here
+    .help = program the length offset of the tool before Z moves
+NC0806-old = Z moves with a length that is not stated for T{ $tool }
+    .label = the length offset from before the change is still active
+    .related = changed here
+    .related-2 = this length is active
+    .help = program the length offset of the tool before Z moves

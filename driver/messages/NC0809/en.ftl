@@ -1,0 +1,16 @@
+NC0809-incremental = the program ends in incremental mode
+    .label = G91 here, and no G90 after it
+    .related = the program ends here
+    .help = program absolute mode before the end: the next program may start in incremental mode
+NC0809-cycle = the program ends with a canned cycle active
+    .label = started here, and never cancelled
+    .related = the program ends here
+    .help = cancel the cycle before the end
+NC0809-frame = the program ends with a frame active
+    .label = set here, and never cancelled
+    .related = the program ends here
+    .help = cancel frames before the end
+NC0809-compensation = the program ends with cutter compensation active
+    .label = switched on here, and never off
+    .related = the program ends here
+    .help = switch compensation off on a move away from the work

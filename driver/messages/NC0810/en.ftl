@@ -1,0 +1,12 @@
+NC0810-spindle = the spindle turns when the program ends
+    .label = started here, and never stopped
+    .related = the program ends here
+    .help = most controls stop it at the end; if yours does not, program it
+NC0810-coolant = coolant is on when the program ends
+    .label = switched on here, and never off
+    .related = the program ends here
+    .help = most controls switch it off at the end; if yours does not, program it
+NC0810-length = a length offset is active when the program ends
+    .label = activated here, and never cancelled
+    .related = the program ends here
+    .help = cancel it, if the next program may move Z before it programs its own
