@@ -6,3 +6,6 @@ NC0205 = { $code } without { $word }
     .help-no-radius = if the control moves without compensation here: `--from-option { $option }={ $value }`
     .help-h-is-radius = if H is the radius, as on a Fanuc 0, write D instead of H
     .help-entry-at-start = or state the { $plain } number active at the start: `--value '#{ $variable }=NUMBER'`
+NC0205-return = { $code } needs an axis on { $source }
+    .label = no axis word in this block
+    .help = write `G91 { $code } Z0.`, then `G90`; `G90 { $code } Z0.` moves to Z0 of the part first

@@ -8,7 +8,7 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
 
-use super::facts::message;
+use super::facts::{is_return, message};
 use super::file_needs;
 use super::message::{Help, Message};
 use super::numbers::millimetres;
@@ -55,6 +55,7 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         }
         Fault::NotSupported { code, .. } if is_open(code, at.from) => unsupported::open(code, at.from),
         Fault::NotSupported { code, name } => return unsupported::helps(code, name, at.from),
+        Fault::WordMissing { code, .. } if is_return(code, at.from) => return None,
         Fault::WordMissing { code, word } => unsupported::missing(code, word, at.from),
         Fault::ArcWithoutCentre if has(at.from, ARC_WITHOUT_CENTRE) => vec![
             Help::new("help-radius").text("letter", "R"),

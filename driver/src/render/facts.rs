@@ -4,7 +4,7 @@
 //! Fault::WordWithoutNumber { letter: 'X' }    NC0106, letter = X, source = fanuc, target = siemens
 //! ```
 
-use ncc_dialects::Meaning;
+use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::{PathMode, Units};
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
@@ -93,6 +93,10 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
         }
         Fault::WordUnused { word } | Fault::PointNotAllowed { word } | Fault::OutOfRange { word } => {
             m.text("word", quoted(word))
+        }
+        // Any axis will do.
+        Fault::WordMissing { code, word } if is_return(code, at.from) => {
+            m.form("return").text("code", plain(code)).text("plain", plain(word))
         }
         Fault::WordMissing { code, word } => m
             .text("code", quoted(code))
@@ -282,6 +286,12 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
 /// `--from-option` or `--to-option`.
 fn side(source: bool) -> &'static str {
     if source { "from" } else { "to" }
+}
+
+/// Whether a code returns to a reference point, by way of a point that its axis words name: `G28`, `G30`.
+pub(super) fn is_return(code: &str, from: &Dialect) -> bool {
+    let means = from.code.iter().find(|row| row.code == code).and_then(|row| row.means);
+    matches!(means, Some(Meaning::GoToReference { .. })) && ["G28", "G30"].contains(&code)
 }
 
 /// What kind of calls are counted.

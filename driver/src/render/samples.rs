@@ -61,6 +61,7 @@ fn text_and_meaning() -> Vec<Fault> {
         WordMissing { code: "G41".into(), word: "D".into() },
         WordMissing { code: "G43".into(), word: "H".into() },
         WordMissing { code: "G83".into(), word: "R".into() },
+        WordMissing { code: "G28".into(), word: "X".into() },
         WordTwice { letter: 'X' },
         TooManyCodes { letter: 'M', limit: 1 },
         PointNotAllowed { word: "S5000.".into() },

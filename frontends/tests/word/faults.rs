@@ -59,6 +59,7 @@ fn the_letter_o_for_a_zero() {
         assert_eq!(faults(id, "GOX-15.\n"), ["LetterOForZero at 'O'"], "{id}");
         assert_eq!(faults(id, "GZO\n"), ["LetterOForZero at 'O'"], "{id}");
         assert_eq!(faults(id, "G0X1O\n"), ["LetterOForZero at 'O'"], "{id}");
+        assert_eq!(faults(id, "G0X1.Y3O.\n"), ["LetterOForZero at 'O'"], "{id}");
     }
     // A word of a language is no number.
     assert!(!faults("haas", "COVER PLATE\n").iter().any(|fault| fault.starts_with("LetterOForZero")));
