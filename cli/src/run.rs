@@ -115,11 +115,35 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
             clap_complete::generate(args.shell, &mut Cli::command(), "ncc", &mut text);
             files::data_to_stdout(&mut |out| out.write_all(&text))
         }
+        Verb::Man(args) => manual(args.verb.as_deref()),
     };
     match done {
         Ok(()) => Exit::Done,
         Err(problem) => fail(&problem, &mut err, false),
     }
+}
+
+/// Prints a manual page in roff, the form that `man -l` takes.
+fn manual(verb: Option<&str>) -> Result<(), Problem> {
+    let mut all = Cli::command();
+    all.build();
+    let page = match verb {
+        None => all,
+        Some(verb) => {
+            let found = all.get_subcommands().find(|command| command.get_name() == verb);
+            let verbs: Vec<&str> = all.get_subcommands().map(|command| command.get_name()).collect();
+            let found = found.ok_or_else(|| {
+                Problem::usage(
+                    format!("there is no verb `{verb}`"),
+                    format!("there are: {}", verbs.join(", ")),
+                )
+            })?;
+            found.clone()
+        }
+    };
+    let mut text = Vec::new();
+    clap_mangen::Man::new(page).render(&mut text).map_err(|e| Problem::file("write", "the page", &e))?;
+    files::data_to_stdout(&mut |out| out.write_all(&text))
 }
 
 fn ended(done: Result<Exit, Problem>, err: &mut dyn WriteColor) -> Exit {

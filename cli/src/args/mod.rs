@@ -156,6 +156,8 @@ pub enum Verb {
     Explain(Explain),
     /// Print completions for a shell
     Completions(Completions),
+    /// Print the manual page of ncc, or of a verb
+    Man(Man),
 }
 
 /// `ncc translate`.
@@ -367,6 +369,13 @@ pub struct Completions {
     /// The shell
     #[arg(value_enum)]
     pub shell: clap_complete::Shell,
+}
+
+/// `ncc man`.
+#[derive(Debug, Args)]
+pub struct Man {
+    /// A verb, such as `translate`; without one, the page of ncc
+    pub verb: Option<String>,
 }
 
 fn pass(name: &str) -> Result<&'static Pass, String> {

@@ -72,6 +72,17 @@ fn every_code_is_explained() {
 }
 
 #[test]
+fn manual_pages_are_roff_and_know_the_options() {
+    let folder = folder();
+    let page = ncc(folder.path(), &["man"]).exits(0).out;
+    assert!(page.contains(".TH ncc 1") && page.contains("ncc\\-translate"), "{page}");
+    let page = ncc(folder.path(), &["man", "translate"]).exits(0).out;
+    assert!(page.contains(".TH ncc\\-translate 1") || page.contains(".TH ncc-translate 1"), "{page}");
+    assert!(page.contains("from\\-option"), "{page}");
+    ncc(folder.path(), &["man", "translat"]).exits(2).says("there is no verb `translat`");
+}
+
+#[test]
 fn completions_know_the_options() {
     let folder = folder();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {

@@ -1,11 +1,13 @@
 //! The result as one JSON document; its form is in `driver/schema/check.schema.json`.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use serde::Serialize;
 
 use super::told::{Item, Program, name};
 use crate::render::json::JsonPlace;
+use crate::render::message::Value;
 
 /// The version of the document's form.
 const VERSION: u32 = 1;
@@ -44,6 +46,8 @@ struct Found {
     rule: Option<&'static str>,
     severity: &'static str,
     message: String,
+    entry: String,
+    values: BTreeMap<&'static str, Value>,
     place: JsonPlace,
     related: Vec<JsonPlace>,
     advice: Vec<String>,
@@ -89,6 +93,8 @@ fn found(item: Item) -> Found {
         rule: item.name,
         severity: name(item.severity),
         message: item.told.message,
+        entry: item.told.entry,
+        values: item.told.values,
         place: item.told.place.into(),
         related: item.told.related.into_iter().map(JsonPlace::from).collect(),
         advice: item.told.advice,

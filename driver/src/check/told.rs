@@ -207,6 +207,8 @@ fn of_finding(
         verdict: None,
         rank: None,
         message: message.headline(),
+        entry: message.entry(),
+        values: message.values(),
         place: place(finding.span, &message.label()),
         related,
         details: Vec::new(),

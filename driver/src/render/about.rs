@@ -6,6 +6,7 @@
 //!
 //! Not here: the wording (`words`, `advice`), and how it is laid out (`human`, `json`).
 
+use std::collections::BTreeMap;
 use std::io;
 
 use codespan_reporting::diagnostic::Severity;
@@ -14,6 +15,7 @@ use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
 use super::advice;
+use super::message::Value;
 use super::source::{Excerpt, Lines};
 use super::words::{Context, words};
 use crate::job::Job;
@@ -53,6 +55,10 @@ pub struct Told {
     pub rank: Option<Rank>,
     /// What is wrong, or what became of the place.
     pub message: String,
+    /// The entry of its words: `NC0225-units`.
+    pub entry: String,
+    /// The values in its words, by their names.
+    pub values: BTreeMap<&'static str, Value>,
     /// Its place.
     pub place: Place,
     /// Further places.
@@ -163,6 +169,8 @@ impl About<'_> {
             rank: fault.rank(),
             place: place(diagnostic.span, &said.label),
             message: said.message,
+            entry: said.entry,
+            values: said.values,
             related,
             details: advice::details(fault),
             advice,

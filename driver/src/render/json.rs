@@ -1,5 +1,6 @@
 //! Diagnostics for programs: one JSON object a line on stderr.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use codespan_reporting::diagnostic::Severity;
@@ -10,6 +11,7 @@ use serde::Serialize;
 use super::about::{About, Loudness, Place, Told};
 use super::human::{choose, told};
 use super::line::line;
+use super::message::Value;
 use crate::job::Counted;
 
 /// A diagnostic, as it stands in a line of `--format json` and in a report.
@@ -26,6 +28,10 @@ pub struct Entry {
     pub rank: Option<&'static str>,
     /// What is wrong, or what became of the place.
     pub message: String,
+    /// The entry of these words in `messages/`: `NC0225-units`.
+    pub entry: String,
+    /// The values in them, by their names.
+    pub values: BTreeMap<&'static str, Value>,
     /// Its place.
     pub place: JsonPlace,
     /// Further places.
@@ -75,6 +81,8 @@ impl Entry {
             verdict: told.verdict.map(|v| v.name()),
             rank: told.rank.map(Rank::name),
             message: told.message.clone(),
+            entry: told.entry.clone(),
+            values: told.values.clone(),
             place: told.place.clone().into(),
             related: told.related.iter().cloned().map(JsonPlace::from).collect(),
             details: told.details.clone(),

@@ -12,7 +12,10 @@
 //! may have several entries, told apart by a form: `NC0225-units`. Another language is another file in the folder of
 //! the code. Not here: which entry and which values a fault has (`facts`, `advice`).
 
+use std::collections::BTreeMap;
+
 use fluent_bundle::{FluentArgs, FluentBundle, FluentResource, FluentValue};
+use serde::Serialize;
 
 /// In place of a code: words that belong to no code.
 const COMMON: u16 = 0;
@@ -40,8 +43,9 @@ entries! {
 }
 
 /// A value in a message.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Value {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Value {
     /// Text, as it is shown.
     Text(String),
     /// A count, by which the words of an entry may differ.
@@ -113,6 +117,24 @@ impl Message {
         self
     }
 
+    /// The name of its entry: `NC0225-units`.
+    pub(crate) fn entry(&self) -> String {
+        match (self.code, self.form) {
+            (COMMON, form) => format!("common-{form}"),
+            (code, "") => format!("NC{code:04}"),
+            (code, form) => format!("NC{code:04}-{form}"),
+        }
+    }
+
+    /// Its values by their names, without the backquotes of quoted text, for programs that make words of their own.
+    pub(crate) fn values(&self) -> BTreeMap<&'static str, Value> {
+        let bare = |value: &Value| match value {
+            Value::Text(text) => Value::Text(text.trim_matches('`').to_owned()),
+            Value::Count(count) => Value::Count(*count),
+        };
+        self.values.iter().map(|(name, value)| (*name, bare(value))).collect()
+    }
+
     /// The headline.
     pub(crate) fn headline(&self) -> String {
         Opened::new(self).words(None, &[]).unwrap_or_default()
@@ -169,12 +191,7 @@ impl Opened<'_> {
 
     /// The words of an attribute, or of the headline, if the entry has it.
     fn words(&self, attribute: Option<&str>, own: &[(&'static str, Value)]) -> Option<String> {
-        let Message { code, form, .. } = self.message;
-        let id = match (*code, *form) {
-            (COMMON, form) => format!("common-{form}"),
-            (code, "") => format!("NC{code:04}"),
-            (code, form) => format!("NC{code:04}-{form}"),
-        };
+        let id = self.message.entry();
         let entry = self.bundle.get_message(&id);
         debug_assert!(entry.is_some(), "messages/ has no {id}");
         let pattern = match attribute {

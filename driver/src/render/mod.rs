@@ -17,7 +17,7 @@ pub mod head;
 pub mod human;
 pub mod json;
 pub mod line;
-pub(crate) mod message;
+pub mod message;
 pub mod numbers;
 pub mod questions;
 pub mod report;

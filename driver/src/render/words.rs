@@ -6,12 +6,14 @@
 //!
 //! The words are in `messages/`, the values in `facts`; what to do about a fault is in `advice`.
 
+use std::collections::BTreeMap;
+
 use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::geometry::offset_path::Unreachable;
 
 use super::facts::{self, message};
-use super::message::Message;
+use super::message::{Message, Value};
 
 /// What the wording may name besides the fault's own data.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +29,7 @@ pub struct Context<'a> {
 }
 
 /// The words of a fault.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Words {
     /// What is wrong, in one line.
     pub message: String,
@@ -35,6 +37,10 @@ pub struct Words {
     pub label: String,
     /// What the further places are.
     pub related: String,
+    /// The entry of these words: `NC0225-units`.
+    pub entry: String,
+    /// The values in them, by their names.
+    pub values: BTreeMap<&'static str, Value>,
 }
 
 /// The words of a fault.
@@ -43,6 +49,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
     Words {
         message: message.headline(),
         label: message.label(),
+        entry: message.entry(),
+        values: message.values(),
         related: message.related().unwrap_or_else(|| Message::common("related").headline()),
     }
 }

@@ -5,6 +5,7 @@
 //!
 //! Not here: which dialect a milling program is written in (`guess`).
 
+use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use codespan_reporting::diagnostic::Severity;
@@ -19,6 +20,7 @@ use crate::problem::{Problem, as_write};
 use crate::render::human::boxed;
 use crate::render::json::Entry;
 use crate::render::line;
+use crate::render::message::Value;
 use crate::render::questions::{Asked, AskedAnswer};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
@@ -112,6 +114,8 @@ impl Refusal {
             verdict: None,
             rank: None,
             message: headline(finding),
+            entry: format!("NC{CODE:04}"),
+            values: BTreeMap::from([("looks", Value::Text(kind(finding)))]),
             place: Place { span: spans[0], start, end, text, label },
             related: Vec::new(),
             details: signs,
