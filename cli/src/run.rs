@@ -12,6 +12,7 @@ use ncc_driver::job::{Failure, Job, file_per_tool};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::map;
 use ncc_driver::provenance::trace::Asked;
+use ncc_driver::render::scaffold::scaffold;
 use ncc_driver::render::terminal::Shown;
 use ncc_driver::render::{About, dialects, explain, line, report};
 use ncc_driver::source::not_milling::Refusal;
@@ -21,7 +22,7 @@ use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
 
 use crate::args::sugar::{Said, rewrite};
-use crate::args::typed::{Assumed, Color, Eol, Format, Style};
+use crate::args::typed::{Assumed, Color, Eol, Format, Style, is_name};
 use crate::args::{Cli, DialectsWhat, Translate, Verb};
 use crate::files::{self, Destination, arrow};
 use crate::known::{self, Known};
@@ -84,6 +85,7 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
             Some(DialectsWhat::Show { id }) => {
                 known.dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
             }
+            Some(DialectsWhat::New { id, base }) => new_dialect(id, base, &known),
             Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
             Some(DialectsWhat::Test { what, quiet }) => {
                 return ended(dictionary_test::run(known, what, *quiet, &mut err), &mut err);
@@ -121,6 +123,18 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         Ok(()) => Exit::Done,
         Err(problem) => fail(&problem, &mut err, false),
     }
+}
+
+/// Prints a dictionary to begin with.
+fn new_dialect(id: &str, base: &str, known: &Known) -> Result<(), Problem> {
+    let base = known.dialect(base)?;
+    if !is_name(id) || known.get(id).is_some() {
+        return Err(Problem::usage(
+            format!("`{id}` cannot be the name of a dialect of your own"),
+            "letters, digits, `_` and `-`, and no name that `ncc dialects` lists",
+        ));
+    }
+    print(&scaffold(id, base))
 }
 
 /// Prints a manual page in roff, the form that `man -l` takes.

@@ -352,6 +352,14 @@ pub enum DialectsWhat {
         #[arg(short, long)]
         quiet: bool,
     },
+    /// Print a commented dictionary to begin with, which builds on another dialect
+    New {
+        /// Its name, such as `shop`
+        id: String,
+        /// The dialect that it builds on
+        #[arg(long, value_name = "DIALECT")]
+        base: String,
+    },
     /// Print the form of a dictionary: every table and field
     Schema,
 }

@@ -193,3 +193,26 @@ fn an_option_says_what_a_tool_change_leaves_of_the_spindle() {
     assert!(out.exits(0).out.contains("T2 M06\nX50.\n"));
     run("fanuc to fanuc part.nc --to-option spindle_at_change=stops").exits(1).says("goes on turning");
 }
+
+/// What `dialects new` prints is a dialect that can be used at once, and that passes its test.
+#[test]
+fn a_new_dialect_is_its_base_until_rows_are_added() {
+    let folder = folder();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    for base in ["fanuc", "siemens", "mach3"] {
+        let file = run(&format!("dialects new own-{base} --base {base}")).exits(0).out;
+        std::fs::write(folder.path().join("own.toml"), &file).unwrap();
+        // The options are what they are on the base, also without the mark of a comment.
+        let (head, options) = file.split_once("# What a parameter").unwrap();
+        let rows = options.lines().filter_map(|line| line.strip_prefix("# "));
+        let rows: Vec<&str> =
+            rows.filter(|row| row.starts_with(['[', 'n', 'd']) && !row.contains(": ")).collect();
+        std::fs::write(folder.path().join("all.toml"), format!("{head}\n{}\n", rows.join("\n"))).unwrap();
+        run("dialects --dialect all.toml").exits(0);
+        let list = run("dialects --dialect own.toml").exits(0).out;
+        assert!(list.contains(&format!("own-{base}")), "{list}");
+    }
+    run("dialects test own.toml -q").exits(0);
+    run("dialects new fanuc --base haas").exits(2).says("cannot be the name");
+    run("dialects new shop --base fanuk").exits(2).says("did you mean fanuc?");
+}

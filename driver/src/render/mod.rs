@@ -23,6 +23,7 @@ pub mod questions;
 pub mod report;
 #[cfg(test)]
 mod samples;
+pub mod scaffold;
 pub mod source;
 pub mod spelled;
 pub mod summary;
