@@ -5,7 +5,7 @@
 
 use ncc_dialects::{Dialect, Meaning, Settings};
 use ncc_driver::problem::Problem;
-use ncc_driver::render::advice::may_be_stated;
+use ncc_driver::render::messages::codes::may_be_stated;
 use ncc_machines::reading::Side;
 
 use crate::args::typed::MCode;

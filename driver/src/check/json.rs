@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::told::{Item, Program, name};
 use crate::render::json::JsonPlace;
-use crate::render::message::Value;
+use crate::render::messages::message::Value;
 
 /// The version of the document's form.
 const VERSION: u32 = 1;

@@ -3,7 +3,7 @@
 use ncc_check::{Checked, Finding, LeftOn, Outside, Unchecked, What};
 use ncc_ir::expr::num::Nanos;
 
-use crate::render::message::Message;
+use crate::render::messages::message::Message;
 
 /// A value in nanos, as a decimal without zeros at its end.
 pub fn decimal(nanos: Nanos) -> String {

@@ -13,7 +13,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
 
 use super::row::Row;
-use crate::render::words::{Context, words};
+use crate::render::messages::words::{Context, words};
 
 /// A statement to be tried, in the text form of the neutral program.
 #[derive(Clone, Debug, Default)]

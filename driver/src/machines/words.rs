@@ -2,7 +2,7 @@
 
 use ncc_machines::Wrong;
 
-use crate::render::message::{Help, Message};
+use crate::render::messages::message::{Help, Message};
 
 /// What is wrong, in words.
 pub struct Words {

@@ -14,10 +14,10 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
-use super::advice;
-use super::message::Value;
+use super::messages::advice;
+use super::messages::message::Value;
+use super::messages::words::{Context, words};
 use super::source::{Excerpt, Lines};
-use super::words::{Context, words};
 use crate::job::Job;
 use crate::source::Readable;
 

@@ -11,7 +11,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::source::Span;
 
 use super::about::{About, Loudness, Told};
-use super::message::Message;
+use super::messages::message::Message;
 use super::source::Lines;
 use crate::job::{Counted, Job};
 use crate::source::called_files::Called;

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::about::{About, Loudness, Place, Told};
 use super::human::{choose, told};
 use super::line::line;
-use super::message::Value;
+use super::messages::message::Value;
 use crate::job::Counted;
 
 /// A diagnostic, as it stands in a line of `--format json` and in a report.

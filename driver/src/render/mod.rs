@@ -1,6 +1,6 @@
 //! Telling what was found: typed diagnostics become words, with the lines that they point at.
 //!
-//! `words` and `advice` have the wording, `source` fetches the lines, `human` and `json` are the
+//! `messages` has the wording, `source` fetches the lines, `human` and `json` are the
 //! two forms on stderr, `summary` is the account at the end. Nothing here decides anything.
 //!
 //! ```text
@@ -8,30 +8,22 @@
 //! ```
 
 mod about;
-pub mod advice;
 pub mod dialects;
 pub mod explain;
-mod facts;
-mod file_needs;
 pub mod head;
 pub mod human;
 pub mod json;
 pub mod line;
-pub mod message;
+pub mod messages;
 pub mod numbers;
 pub mod questions;
 pub mod report;
-#[cfg(test)]
-mod samples;
 pub mod scaffold;
 pub mod source;
 pub mod spelled;
 pub mod summary;
 pub mod terminal;
 pub mod text;
-mod unsupported;
-mod unwritable;
-pub mod words;
 
 use std::io;
 

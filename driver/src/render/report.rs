@@ -18,7 +18,7 @@ use crate::job::project_answers::Used;
 use crate::job::{Failure, Job, Outcome};
 use crate::questions::of_translation;
 use crate::render::json::Entry;
-use crate::render::words::Context;
+use crate::render::messages::words::Context;
 use crate::render::{About, questions, summary};
 use crate::source::called_files;
 use crate::source::chunks::{Chunk, Chunks, PIECE};

@@ -16,7 +16,7 @@ pub fn scaffold(id: &str, base: &Dialect) -> String {
     let mut text =
         include_str!("../../messages/dialect.toml").replace("{id}", id).replace("{base}", &base.id);
     // What codes do besides their name has rows of its own.
-    let behaves = |name: &str| Behaviour::ALL.into_iter().any(|behaviour| behaviour.option() == name);
+    let behaves = |name: &str| Behaviour::ALL.iter().any(|behaviour| behaviour.option() == name);
     for row in base.option.iter().filter(|row| !behaves(&row.name)) {
         let values = match row.values.is_empty() {
             true => "a number".to_owned(),

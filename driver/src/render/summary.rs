@@ -9,12 +9,12 @@ use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
 use super::about::{About, Loudness};
-use super::facts::message;
 use super::human::told;
+use super::messages::facts::message;
+use super::messages::words::Context;
 use super::numbers::plural;
 use super::questions::taken;
 use super::source::Lines;
-use super::words::Context;
 use crate::job::{Failure, Outcome};
 use crate::questions::Question;
 use crate::render::head::{assumption, by_name};

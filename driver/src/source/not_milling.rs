@@ -20,7 +20,7 @@ use crate::problem::{Problem, as_write};
 use crate::render::human::boxed;
 use crate::render::json::Entry;
 use crate::render::line;
-use crate::render::message::Value;
+use crate::render::messages::message::Value;
 use crate::render::questions::{Asked, AskedAnswer};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};

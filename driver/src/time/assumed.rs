@@ -9,8 +9,8 @@ use super::drive::{Course, Length, Plan};
 use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
+use crate::render::messages::words::unreachable;
 use crate::render::spelled;
-use crate::render::words::unreachable;
 
 /// Of the program and its control: what the front-end took for granted.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {

@@ -15,8 +15,8 @@ use super::{
     Asked, Assumed, Call, Choice, Compared, Deviation, Document, FINER, First, Halves, Hashed, KIND, Mistake,
     One, Place, Program, Row, VERSION, Word,
 };
+use crate::render::messages::words::Context;
 use crate::render::report::hex;
-use crate::render::words::Context;
 use crate::render::{About, summary};
 use crate::review::diff::motion::motion;
 use crate::review::diff::tell::{Account, Block, Blocks};

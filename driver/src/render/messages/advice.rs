@@ -1,21 +1,22 @@
 //! What to do about a fault: which helps of its entry in `messages/`, the first one what most people will want.
 
 use ncc_dialects::{
-    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, CodeRow, DECIMAL_POINT, Dialect, FIRST_TOOL, MACRO_DEPTH,
+    ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FIRST_TOOL, MACRO_DEPTH,
     STRAIGHT_LINE,
 };
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
 
-use super::facts::{is_return, message};
+use super::codes::{is_open, is_return};
+use super::context::Context;
+use super::facts::message;
 use super::file_needs;
 use super::message::{Help, Message};
-use super::numbers::millimetres;
-use super::text::{plain, plain_upto};
 use super::unsupported;
 use super::unwritable;
-use super::words::Context;
+use crate::render::numbers::millimetres;
+use crate::render::text::{plain, plain_upto};
 use crate::review::words::decimal;
 
 /// Tolerances of arcs that are proposed: nanos of a millimetre, and millimetres as they are typed.
@@ -241,18 +242,6 @@ fn mend(at: Context) -> Help {
         }
     };
     Help::new("help-word").text("mended", format!("{before}{mended}{after}"))
-}
-
-/// Whether a code is an M code that the user may say something of: the dialect does not have it, or refuses it.
-pub(super) fn is_open(code: &str, dialect: &Dialect) -> bool {
-    let number = code.strip_prefix('M').and_then(|number| number.parse::<u32>().ok());
-    number.is_some_and(|number| may_be_stated(dialect.code_row(b'M', number.saturating_mul(10))))
-}
-
-/// Whether what a code does may be stated by the user: the dialect does not have it, or refuses it, and it does not name
-/// blocks to go on at.
-pub fn may_be_stated(row: Option<&CodeRow>) -> bool {
-    row.is_none_or(|row| row.means.is_none() && row.blocks.is_empty())
 }
 
 /// Whether a text is the number or the name of a variable.

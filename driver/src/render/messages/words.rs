@@ -8,25 +8,12 @@
 
 use std::collections::BTreeMap;
 
-use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::geometry::offset_path::Unreachable;
 
+pub use super::context::Context;
 use super::facts::{self, message};
 use super::message::{Message, Value};
-
-/// What the wording may name besides the fault's own data.
-#[derive(Clone, Copy, Debug)]
-pub struct Context<'a> {
-    /// The source's dialect.
-    pub from: &'a Dialect,
-    /// The target's dialect.
-    pub to: &'a Dialect,
-    /// The text that the diagnostic points at.
-    pub snippet: &'a str,
-    /// The text directly before and after it.
-    pub beside: (&'a str, &'a str),
-}
 
 /// The words of a fault.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,24 +4,25 @@
 //! Fault::WordWithoutNumber { letter: 'X' }    NC0106, letter = X, source = fanuc, target = siemens
 //! ```
 
-use ncc_dialects::{Dialect, Meaning};
+use ncc_dialects::Meaning;
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::{PathMode, Units};
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
 use ncc_ir::geometry::offset_path::Unreachable;
 
+use super::codes::{is_open, is_return};
+use super::context::Context;
 use super::file_needs;
 use super::message::Message;
-use super::numbers::{millimetres, numbered, signed, thousands};
-use super::spelled::{character, found_words, kept, mode, work_offset};
-use super::text::{plain, plain_upto, quoted};
-use super::words::Context;
+use crate::render::numbers::{millimetres, numbered, signed, thousands};
+use crate::render::spelled::{character, found_words, kept, mode, work_offset};
+use crate::render::text::{plain, plain_upto, quoted};
 
 /// So much is shown of the words of a block in a headline, in characters.
 const WORDS: usize = 24;
 
 /// The message of a fault.
-pub(super) fn message(fault: &Fault, at: Context) -> Message {
+pub(crate) fn message(fault: &Fault, at: Context) -> Message {
     let m = Message::new(fault.code()).text("source", at.from.id.as_str()).text("target", at.to.id.as_str());
     let control = |source: bool| if source { at.from.id.as_str() } else { at.to.id.as_str() };
     match fault {
@@ -83,7 +84,7 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
 
         Fault::UnknownCode { code } => {
             let m = m.text("code", quoted(code)).text("plain", plain(code));
-            if super::advice::is_open(code, at.from) { m.form("machine") } else { m }
+            if is_open(code, at.from) { m.form("machine") } else { m }
         }
         Fault::NotSupported { code, name } => {
             m.text("code", quoted(code)).text("plain", plain(code)).text("name", plain(name))
@@ -286,12 +287,6 @@ pub(super) fn message(fault: &Fault, at: Context) -> Message {
 /// `--from-option` or `--to-option`.
 fn side(source: bool) -> &'static str {
     if source { "from" } else { "to" }
-}
-
-/// Whether a code returns to a reference point, by way of a point that its axis words name: `G28`, `G30`.
-pub(super) fn is_return(code: &str, from: &Dialect) -> bool {
-    let means = from.code.iter().find(|row| row.code == code).and_then(|row| row.means);
-    matches!(means, Some(Meaning::GoToReference { .. })) && ["G28", "G30"].contains(&code)
 }
 
 /// What kind of calls are counted.

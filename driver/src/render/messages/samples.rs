@@ -8,9 +8,10 @@ use ncc_ir::geometry::offset_path::Unreachable;
 use ncc_ir::program::numbered::Numbered;
 
 use super::advice::advice;
+use super::context::Context;
 use super::facts::message;
 use super::message::ENTRIES;
-use super::words::{Context, words};
+use super::words::words;
 
 /// A headline has at most so many characters, and a label: the form of a message, with short values.
 const HEADLINE: usize = 70;

@@ -24,7 +24,7 @@ macro_rules! entries {
     ($($code:literal)*) => {
         /// The entries of each code.
         pub(crate) const ENTRIES: &[(u16, &str)] =
-            &[$(($code, include_str!(concat!("../../messages/NC0", stringify!($code), "/en.ftl")))),*];
+            &[$(($code, include_str!(concat!("../../../messages/NC0", stringify!($code), "/en.ftl")))),*];
     };
 }
 
@@ -215,7 +215,7 @@ impl Opened<'_> {
 /// The entries of a code, ready to be formatted. A file that does not parse has the entries before its fault.
 fn bundle(code: u16) -> FluentBundle<FluentResource> {
     let text = match code {
-        COMMON => include_str!("../../messages/common/en.ftl"),
+        COMMON => include_str!("../../../messages/common/en.ftl"),
         _ => ENTRIES.iter().find(|(known, _)| *known == code).map_or("", |(_, text)| *text),
     };
     let parsed = FluentResource::try_new(text.to_owned());
