@@ -41,6 +41,7 @@ mod rows;
 mod rs274;
 mod schema;
 mod second;
+mod sentences;
 mod shared;
 mod shop_programs;
 mod shop_siemens;

@@ -1,0 +1,115 @@
+//! Where ncc's words stand: sentences for users are in `driver/messages`, and not in the code of the libraries.
+//!
+//! `tests/sentences.txt` has a line for each file that holds strings of three words or more, with their number. None may
+//! grow, and no file may come to it: `UPDATE_EXPECT=1` writes the list anew only where it got shorter.
+//!
+//! Not counted: comments, tests, what only a developer sees (assertions, `expect`), and `about` lines, which name a thing.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+
+use ncc_tests::corpus::root;
+use ncc_tests::expect::{self, Failures};
+
+use crate::tidy::files;
+
+/// The libraries.
+const ROOMS: &[&str] = &["ir", "frontends", "backends", "machines", "analysis", "driver", "engine"];
+
+/// Words in front of a string that a user never sees, or that is the name of a thing.
+const OTHER: &[&str] = &["assert", "expect(", "panic!", "unreachable!", "about", "#["];
+
+/// Whether a string has three words side by side, each of two letters or more.
+fn is_sentence(text: &str) -> bool {
+    let word = |word: &str| {
+        let word = word.trim_matches(|c: char| !c.is_alphabetic());
+        word.chars().count() > 1 && word.chars().all(|c| c.is_lowercase() || c == '\'')
+    };
+    let words: Vec<bool> = text.split_whitespace().map(word).collect();
+    words.windows(3).any(|three| three == [true; 3])
+}
+
+/// How many sentences the strings of a file have.
+fn sentences(text: &str) -> usize {
+    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let mut rest = text;
+    let mut count = 0;
+    // The statement before a string tells who reads it.
+    let mut before = String::new();
+    while let Some(at) = rest.find(['"', '\'', '/', ';', '{', '}']) {
+        before += &rest[..at];
+        rest = &rest[at..];
+        if rest.starts_with("//") {
+            rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
+        } else if let Some(string) = rest.strip_prefix('"') {
+            let mut end = 0;
+            while let Some(next) = string[end..].find(['"', '\\']) {
+                end += next;
+                if string[end..].starts_with('"') {
+                    break;
+                }
+                end += 1 + string[end + 1..].chars().next().map_or(0, char::len_utf8);
+            }
+            count += usize::from(is_sentence(&string[..end]) && !OTHER.iter().any(|o| before.contains(o)));
+            rest = string.get(end + 1..).unwrap_or("");
+        } else if rest.starts_with("'\"'") || rest.starts_with("'{'") || rest.starts_with("'}'") || rest.starts_with("';'") {
+            rest = &rest[3..];
+        } else {
+            if rest.starts_with([';', '{', '}']) {
+                before.clear();
+            }
+            rest = &rest[1..];
+        }
+    }
+    count
+}
+
+#[test]
+fn sentences_are_found() {
+    let found = |text: &str| sentences(text);
+    assert_eq!(found("let a = \"this cannot be written\";"), 1);
+    assert_eq!(found("// \"this cannot be written\"\nlet a = \"two words\"; let b = 'x';"), 0);
+    assert_eq!(found("assert!(a, \"this cannot be written\"); f(\"so it is here\", '\"')"), 1);
+    assert_eq!(found("#[cfg(test)]\nmod tests {\n \"this cannot be written\""), 0);
+    assert_eq!(found("f(\"G54 X1. Y2.\", \"{from} to {to} and\")"), 0);
+}
+
+#[test]
+fn words_for_users_are_no_code_of_a_library() {
+    let mut found: BTreeMap<String, usize> = BTreeMap::new();
+    for room in ROOMS {
+        for path in files(room, &[".rs"]) {
+            let name = path.strip_prefix(root()).unwrap_or(&path).to_string_lossy().replace('\\', "/");
+            let is_test = ["/tests/", "tests.rs", "/benches/", "/examples/", "build.rs", "samples.rs"];
+            if is_test.iter().any(|part| name.contains(part)) {
+                continue;
+            }
+            let count = sentences(&fs::read_to_string(&path).expect("a source file"));
+            if count > 0 {
+                found.insert(name, count);
+            }
+        }
+    }
+    let list = root().join("tests/sentences.txt");
+    let before = fs::read_to_string(&list).unwrap_or_default();
+    let allowed: BTreeMap<&str, usize> = before
+        .lines()
+        .filter_map(|line| line.rsplit_once(' ').and_then(|(what, much)| Some((what, much.parse().ok()?))))
+        .collect();
+    let mut failures = Failures::default();
+    let mut text = String::new();
+    for (name, count) in &found {
+        let _ = writeln!(text, "{name} {count}");
+        match allowed.get(name.as_str()) {
+            Some(most) if count <= most => {}
+            Some(most) => failures.add(name, format!("{count} sentences, were {most}: they belong into messages/")),
+            None if before.is_empty() => {}
+            None => failures.add(name, format!("{count} sentences: they belong into messages/")),
+        }
+    }
+    if failures.count() == 0 {
+        failures.check("the list", expect::file(&list, text.as_bytes()));
+    }
+    failures.finish();
+}
