@@ -7,6 +7,7 @@ use crate::behaviour::{Behaviour, Kept};
 use crate::canon::Axis;
 use crate::expr::num::Num;
 use crate::geometry::offset_path::Unreachable;
+use crate::lack::Lack;
 use crate::program::numbered::Numbered;
 use crate::source::Span;
 
@@ -175,6 +176,11 @@ macro_rules! faults {
             /// The number of its stable code: 107 is `NC0107`.
             pub const fn code(&self) -> u16 {
                 match self { $( Fault::$name { .. } => $code, )* }
+            }
+
+            /// The fault of what a target lacks.
+            pub fn lacks(lack: impl Into<Lack>) -> Fault {
+                Fault::TargetLacks { lack: lack.into() }
             }
 
             /// How grave it is.
@@ -486,7 +492,7 @@ faults! {
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.
-    TargetLacks { what: Box<str> } = 501, Error;
+    TargetLacks { lack: Lack } = 501, Error;
     /// A second work offset for a control that has one.
     SecondWorkOffset { first: u16, second: u16 } = 502, Error;
     /// The arc is gone after rounding to the target's digits.

@@ -168,6 +168,7 @@ pub mod computed;
 pub mod diag;
 pub mod expr;
 pub mod geometry;
+pub mod lack;
 pub mod operator_text;
 pub mod program;
 pub mod rank;

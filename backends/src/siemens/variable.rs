@@ -13,6 +13,7 @@ use ncc_ir::computed::assigned_variables::AssignedVariables;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::types::Types;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
+use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::arguments;
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::{Alarm, Attribute, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
@@ -380,14 +381,14 @@ impl Writer {
 
     /// A message with values in it.
     pub(super) fn message_of(&mut self, pieces: &[Piece], span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot("a message"))?;
+        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot(OperatorLack::Message))?;
         let mut texts = Vec::with_capacity(pieces.len() + 1);
         let mut long = 0;
         for piece in pieces {
             match piece {
                 Piece::Text(text) => {
                     if text.contains('"') || text.chars().any(char::is_control) {
-                        return Err(cannot("a message with a quotation mark"));
+                        return Err(cannot(OperatorLack::MessageQuotation));
                     }
                     long += text.chars().count();
                     texts.push(format!("\"{text}\""));
@@ -409,7 +410,7 @@ impl Writer {
             }
         }
         if long > LONGEST_MESSAGE {
-            return Err(cannot("a message of more than 200 characters"));
+            return Err(cannot(OperatorLack::MessageLength));
         }
         self.alone(&format!("{}({})", row.name, texts.join("<<")), sink)
     }
@@ -422,7 +423,7 @@ impl Writer {
             cannot_compute("an alarm whose number is not among 61000 to 61999 and 65000 to 66999")
         })?;
         if alarm.text.contains('"') || alarm.text.chars().any(char::is_control) {
-            return Err(cannot("an alarm with a quotation mark"));
+            return Err(cannot(OperatorLack::AlarmQuotation));
         }
         if !std::mem::replace(&mut self.variables.told_alarm, true) {
             let parameter = "alarms 61000 to 61999 and 65000 to 66999".into();

@@ -13,6 +13,7 @@ pub mod explain;
 pub mod head;
 pub mod human;
 pub mod json;
+pub(crate) mod lacks;
 pub mod line;
 pub mod messages;
 pub mod numbers;

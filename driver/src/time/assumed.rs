@@ -10,7 +10,7 @@ use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
 use crate::render::messages::words::unreachable;
-use crate::render::spelled;
+use crate::render::{lacks, spelled};
 
 /// Of the program and its control: what the front-end took for granted.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -79,7 +79,11 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
                 let why = unreachable(*why);
                 lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
             }
-            Fault::TargetLacks { what } | Fault::NotExecuted { what } => {
+            Fault::TargetLacks { lack } => {
+                let lack = lacks::text(lack);
+                lines.push(format!("from line {line} on timed along the programmed contour: {lack}"));
+            }
+            Fault::NotExecuted { what } => {
                 lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
             }
             _ => lines.push(format!("from line {line} on timed along the programmed contour")),

@@ -8,6 +8,7 @@ use ncc_ir::computed::computes::{Handed, LETTERS};
 use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Var};
+use ncc_ir::lack::{FlowLack, HolesLack};
 use ncc_ir::program::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_ir::program::{Op, Program, Stmt, Text, Type};
 use ncc_ir::source::Span;
@@ -33,8 +34,7 @@ impl Translation<'_> {
         let ends = to.program.macro_b || files(to) && files(self.job.from.dialect);
         // What has been written already has stated modes, which would be the caller's from there on.
         if !ends && !named && !to.can.everything || self.written > 0 {
-            let what = "the return of a subprogram without its main program".into();
-            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::lacks(FlowLack::ReturnWithoutMain), at)], Told::Writer);
             return true;
         }
         self.verify_here();
@@ -50,8 +50,7 @@ impl Translation<'_> {
         }
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {
-            let what = "a cycle that is left in force for a caller that is not in the text".into();
-            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::lacks(HolesLack::LeftForUnknownCaller), at)], Told::Writer);
             return true;
         }
         let moves_end_cycles = self.handed() == Some(Handed::Names)

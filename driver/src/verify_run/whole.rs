@@ -11,6 +11,7 @@ use ncc_exec::{Event, Exec, Kind, Progress, Runner};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::value::Wrong;
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
@@ -104,10 +105,7 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
         Fault::ArcEndOffCircle { radii, allowed } => {
             Some(Fault::ArcRadiiDiffer { radii: *radii, allowed: *allowed })
         }
-        Fault::ArcRadiusTooSmall => {
-            let what = "a computed radius below half the distance from start to end".into();
-            Some(Fault::TargetLacks { what })
-        }
+        Fault::ArcRadiusTooSmall => Some(Fault::lacks(ArcsLack::ComputedRadiusShort)),
         _ => None,
     }
 }

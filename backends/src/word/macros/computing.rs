@@ -14,6 +14,7 @@ use ncc_ir::computed::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::units::Said;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
@@ -345,7 +346,7 @@ impl Writer {
         let arguments = self.arguments(call, stmt.span, sink)?;
         let mut need = Need::new(Rank::Alone).code(Some(words.code)).letter(words.number);
         let count = match (call.times, words.count) {
-            (0, _) => return Err(cannot("a call that is made no times")),
+            (0, _) => return Err(cannot(FlowLack::CallNoTimes)),
             (1, _) => None,
             (2..=MOST_TIMES, Some(letter)) if self.dialect.formula.arguments_again => Some(letter),
             (2..=MOST_TIMES, _) => {

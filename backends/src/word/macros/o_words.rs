@@ -15,6 +15,7 @@ use ncc_ir::computed::computes::counted;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::partial_expr::may_fail;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -174,7 +175,8 @@ impl Writer {
         if let Some(name) = self.o_words.alone.take().filter(|_| self.o_words.sub.is_some()) {
             self.o_end(&name, Span::default(), sink);
             // Its caller goes on before; the file by itself ends (O Codes, Calling Files).
-            if let Err(fault) = self.words.m_code(Rank::Stop, self.words.codes.end, "the program's end", sink)
+            if let Err(fault) =
+                self.words.m_code(Rank::Stop, self.words.codes.end, FlowLack::ProgramEnd, sink)
             {
                 sink.report(fault, Span::default());
             }
@@ -248,7 +250,7 @@ impl Writer {
     /// Whether a subprogram can be called so.
     fn o_name(&self, name: &str) -> Result<(), Fault> {
         if name.is_empty() {
-            return Err(cannot("a subprogram without a name"));
+            return Err(cannot(FlowLack::SubprogramUnnamed));
         }
         let fits = |b: u8| b.is_ascii_alphanumeric() || b"_-+.".contains(&b);
         let number = name.bytes().all(|b| b.is_ascii_digit());
@@ -260,7 +262,7 @@ impl Writer {
         };
         match good && alike == 1 {
             true => Ok(()),
-            false => Err(cannot(format!("a subprogram called {name}"))),
+            false => Err(cannot(FlowLack::SubprogramName { name: name.into() })),
         }
     }
 
@@ -321,7 +323,7 @@ impl Writer {
     ) -> Result<(), Fault> {
         self.no_result()?;
         if stmt.skip.is_some() {
-            return Err(cannot("blocks that can be skipped together"));
+            return Err(cannot(FlowLack::SkippedTogether));
         }
         self.flow(stmt, sink)?;
         let label = self.o_label();
@@ -430,13 +432,13 @@ impl Writer {
     pub(crate) fn o_call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.no_result()?;
         if stmt.skip.is_some() {
-            return Err(cannot("a call that can be skipped"));
+            return Err(cannot(FlowLack::CallSkipped));
         }
         self.flow(stmt, sink)?;
         self.o_name(&call.name)?;
         match call.times {
             1 => {}
-            0 => return Err(cannot("a call that is made no times")),
+            0 => return Err(cannot(FlowLack::CallNoTimes)),
             _ => return Err(cannot_compute("a call with variables of its own that is made several times")),
         }
         let parameters = self.parameters_of(&call.name);

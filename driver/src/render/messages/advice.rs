@@ -125,8 +125,8 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         }
         Fault::VariableUnset { .. } => vec![Help::new("help"), Help::new("help-value")],
         Fault::NotExecuted { what } if what.starts_with("an unknown ") => vec![Help::new("help-option")],
-        Fault::TargetLacks { what } => {
-            unwritable::help(what, at.from, at.to).into_iter().map(Help::Words).collect()
+        Fault::TargetLacks { lack } => {
+            unwritable::help(lack, at.from, at.to).into_iter().map(Help::Words).collect()
         }
         Fault::RotaryTurnOpen { .. } => rotary_turn(at),
         Fault::NoFileOfTool { needs } => file_needs::helps(*needs),

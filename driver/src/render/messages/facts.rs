@@ -14,6 +14,7 @@ use super::codes::{is_open, is_return};
 use super::context::Context;
 use super::file_needs;
 use super::message::Message;
+use crate::render::lacks;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
 use crate::render::spelled::{character, found_words, kept, mode, work_offset};
 use crate::render::text::{plain, plain_upto, quoted};
@@ -245,7 +246,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::MachineCutExpanded { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
         Fault::CompensationExpanded { radius } => m.text("radius", millimetres(*radius)),
 
-        Fault::TargetLacks { what } => m.text("what", plain(what)),
+        Fault::TargetLacks { lack } => m.text("what", plain(&lacks::text(lack))),
         Fault::SecondWorkOffset { first, second } => {
             m.text("first", first.to_string()).text("second", second.to_string())
         }

@@ -5,6 +5,7 @@ use ncc_ir::canon::Axis;
 use ncc_ir::diag::{ArgumentCheck, Fault, FileNeeds, ModeName};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::geometry::offset_path::Unreachable;
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::numbered::Numbered;
 
 use super::advice::advice;
@@ -232,7 +233,7 @@ fn target_and_verification() -> Vec<Fault> {
         ArgumentCheck::Default(Num::int(5, Unit::One)),
     ];
     let mut all = vec![
-        TargetLacks { what: "a mirror".into() },
+        TargetLacks { lack: FramesLack::Mirror.into() },
         SecondWorkOffset { first: 1, second: 2 },
         ArcVanishes,
         TargetRange { word: t() },

@@ -11,14 +11,10 @@ use ncc_ir::canon::{AdviceKind, Axis, Plane, Side};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry::arc_feed::{self, ArcFeed};
+use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, variables};
 use ncc_ir::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use ncc_ir::source::Span;
-
-/// What no other control does alike: a block of a compensated contour that moves nowhere, and one more behind it.
-pub const NOWHERE: &str = "a compensated contour with a block that goes nowhere";
-/// The same, of blocks that do not move in the plane.
-pub const STILL: &str = "a compensated contour with two still blocks in a row";
 
 /// Compensation of a move. Without one, all the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -159,8 +155,7 @@ impl Exec {
         let again = on.side.is_some();
         if again && self.contour.elsewhere {
             // A Sinumerik takes the block for the way onto a contour, a Fanuc for a part of it.
-            let what = "cutter radius compensation switched on again without G40";
-            return self.fault(Fault::TargetLacks { what: what.into() }, span);
+            return self.fault(Fault::lacks(CompensationLack::OnAgain), span);
         }
         if again && (on.side, on.plane, on.radius) != (new.side, new.plane, new.radius) {
             return self
@@ -293,11 +288,11 @@ impl Exec {
             } else if self.contour.entered && self.contour.still > 1 && !computed {
                 if self.contour.elsewhere {
                     // The corner before them is each control's own.
-                    let (what, at) = match self.contour.nowhere {
-                        Some(at) => (NOWHERE, at),
-                        None => (STILL, span),
+                    let (lack, at) = match self.contour.nowhere {
+                        Some(at) => (CompensationLack::WithoutMotion, at),
+                        None => (CompensationLack::TwoWithoutMotion, span),
                     };
-                    return self.fault(Fault::TargetLacks { what: what.into() }, at);
+                    return self.fault(Fault::lacks(lack), at);
                 }
                 if let Some(event) = out.get_mut(events) {
                     event.state.compensation.gap = true;

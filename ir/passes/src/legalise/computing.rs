@@ -19,9 +19,9 @@ use crate::legalise::{Legaliser, Target};
 use crate::modes::feed_unit;
 use crate::pass::{KeptProgram, ProgramMoment, Shared, Subprograms};
 use crate::support::mode_analysis::{self, Known};
-use crate::threads::taps;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::lack::ThreadsLack;
 use ncc_ir::program::arguments;
 use ncc_ir::program::cycle::{Cycle, CycleKind};
 use ncc_ir::program::kinds::{drilling, flow};
@@ -316,7 +316,7 @@ impl Region<'_> {
         if own.shared.states.ask(TapsState::has_lost_feed)
             && let Some(last) = before.last()
         {
-            found.push(Diagnostic::new(Fault::TargetLacks { what: taps::LOST.into() }, last.span));
+            found.push(Diagnostic::new(Fault::lacks(ThreadsLack::FeedReplaced), last.span));
         }
         own.finish(stmts, &mut found);
         // It may stand in the block of what came before it.
