@@ -172,6 +172,8 @@ pub mod lack;
 pub mod operator_text;
 pub mod program;
 pub mod rank;
+pub mod run_time;
 pub mod source;
 pub mod track;
 pub mod transliterate;
+pub mod unexecuted;

@@ -3,6 +3,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::lack::{Lack, WordsLack};
+use ncc_ir::run_time::RunTime;
 
 use super::number::{self, Unwritable};
 
@@ -12,8 +13,8 @@ pub(crate) fn cannot(lack: impl Into<Lack>) -> Fault {
 }
 
 /// The fault of what the control cannot compute.
-pub(crate) fn cannot_compute(what: impl Into<Box<str>>) -> Fault {
-    Fault::Computes { what: what.into() }
+pub(crate) fn cannot_compute(what: impl Into<RunTime>) -> Fault {
+    Fault::computes(what)
 }
 
 /// The fault of a number that cannot be written.

@@ -12,6 +12,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::lack::{FlowLack, HolesLack};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::run_time::RunTimeFlow;
 use ncc_ir::source::Span;
 use ncc_passes::support::mode_analysis::has_bare_holes;
 
@@ -222,7 +223,7 @@ impl Writer {
     fn opens(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         let most = self.dialect.formula.loops;
         if self.computing.deep >= most.into() {
-            return Err(cannot_compute(format!("a structure within {most} others")));
+            return Err(cannot_compute(RunTimeFlow::StructureDepth { most }));
         }
         self.behind_label(sink);
         self.alone(text, sink)?;

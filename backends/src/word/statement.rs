@@ -10,6 +10,7 @@ use ncc_ir::lack::{
     ToolsLack, WordsLack,
 };
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::run_time::{RunTimeFlow, RunTimeValue};
 use ncc_ir::source::Span;
 
 use super::Writer;
@@ -157,8 +158,8 @@ impl Writer {
             Op::MessageOf(_) => Err(cannot(OperatorLack::MessageValues)),
             Op::Output(output) => self.output(output, stmt, sink),
             Op::Alarm(alarm) => self.alarm(alarm, stmt, sink),
-            Op::Declare(_) => Err(cannot_compute("a variable that is made known")),
-            Op::Leave | Op::NextTurn => Err(cannot_compute("a loop that is left")),
+            Op::Declare(_) => Err(cannot_compute(RunTimeValue::Declaration)),
+            Op::Leave | Op::NextTurn => Err(cannot_compute(RunTimeFlow::LoopLeft)),
             Op::Assign(to, value) => self.assign(to, value, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
             Op::Goto(label) => self.go_to(label, stmt, sink),
@@ -269,7 +270,7 @@ impl Writer {
         }
         let Some(n) = seconds.literal() else {
             let value = milliseconds(seconds);
-            let value = value.ok_or_else(|| cannot_compute("computed seconds in a word of milliseconds"))?;
+            let value = value.ok_or_else(|| cannot_compute(RunTimeValue::Milliseconds))?;
             return self.words.computed(&dwell.word, value, span, sink);
         };
         let letter = dwell.word.letter;

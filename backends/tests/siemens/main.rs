@@ -11,6 +11,7 @@ use ncc_dialects::{Settings, builtin};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::lack::Lack;
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
+use ncc_ir::run_time::RunTime;
 
 use build::*;
 use ncc_backends::siemens::Writer;
@@ -58,10 +59,10 @@ pub(crate) fn refused(stmts: &[Stmt]) -> Lack {
 }
 
 /// What of a program that computes is refused.
-pub(crate) fn not_computed(stmts: &[Stmt]) -> String {
+pub(crate) fn not_computed(stmts: &[Stmt]) -> RunTime {
     let (text, diags) = text(stmts);
     let what = diags.iter().find_map(|d| match &d.fault {
-        Fault::Computes { what } => Some(what.to_string()),
+        Fault::Computes { what } => Some(what.clone()),
         _ => None,
     });
     what.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))

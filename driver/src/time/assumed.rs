@@ -10,7 +10,8 @@ use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
 use crate::render::messages::words::unreachable;
-use crate::render::{lacks, spelled};
+use crate::render::reasons::{lacks, unexecuted};
+use crate::render::spelled;
 
 /// Of the program and its control: what the front-end took for granted.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -84,6 +85,7 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
                 lines.push(format!("from line {line} on timed along the programmed contour: {lack}"));
             }
             Fault::NotExecuted { what } => {
+                let what = unexecuted::text(what);
                 lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
             }
             _ => lines.push(format!("from line {line} on timed along the programmed contour")),

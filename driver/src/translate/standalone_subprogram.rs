@@ -11,6 +11,7 @@ use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::lack::{FlowLack, HolesLack};
 use ncc_ir::program::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_ir::program::{Op, Program, Stmt, Text, Type};
+use ncc_ir::run_time::RunTimeFlow;
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 use ncc_passes::values::variables::questions;
@@ -118,8 +119,8 @@ impl Translation<'_> {
         let mut told = Vec::new();
         for (place, (_, var, at)) in (1..).zip(own) {
             if self.job.given.may_be_vacant(&var.name()) {
-                let what = format!("the argument {}, which --args leaves without a value", var.name());
-                told.push(Diagnostic::new(Fault::Computes { what: what.into() }, at));
+                let what = RunTimeFlow::ArgumentEmpty { name: var.name().into() };
+                told.push(Diagnostic::new(Fault::computes(what), at));
                 continue;
             }
             let needed = |check| {
@@ -172,8 +173,7 @@ impl Translation<'_> {
             let number = own.name().parse::<u32>();
             let fault = match number {
                 Ok(number) if LETTERS.iter().all(|(_, own)| *own != number) => {
-                    let what = format!("the argument {number}, which no letter gives").into();
-                    Fault::Computes { what }
+                    Fault::computes(RunTimeFlow::ArgumentLetter { number })
                 }
                 _ => {
                     let name = if number.is_ok() { format!("#{}", own.name()) } else { own.name().into() };

@@ -17,7 +17,7 @@ pub enum FeedsLack {
     InverseTime,
     /// This feed under a constant surface speed.
     UnderSurfaceSpeed,
-    /// What a feed counts where it is not known what a speed does.
+    /// A feed mode where the spindle speed mode is not known.
     ModeUnderUnknownSpeed,
     /// A dwell.
     Dwell,

@@ -103,7 +103,7 @@ pub enum HolesLack {
     ZeroUnderApproach,
     /// A hole on the path to which a length is activated.
     LengthAtHole,
-    /// Boring with another feed on the way out, under a feed that the cycle does not state.
+    /// Boring with another feed for the retract, where the cycle does not state its feed.
     BoringFeedOut,
     /// A cycle after which the spindle turns as before, which is not known.
     SpindleAfterUnknown,

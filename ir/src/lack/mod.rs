@@ -2,7 +2,7 @@
 //!
 //! `G33 X10. Z-5. F1.` for a control that cuts threads along one axis alone is refused as
 //! `Lack::Threads(ThreadsLack::AxisCount)`. Each wing has its reasons in a file. The driver alone has their words
-//! (`render/lacks`) and chooses the help by the variant.
+//! (`render/reasons`) and chooses the help by the variant.
 
 mod arcs;
 mod compensation;

@@ -27,7 +27,7 @@ pub enum ModesLack {
     CallersUnit,
     /// A length in a unit that is not known.
     LengthUnitUnknown,
-    /// Units that a subprogram says after its first label alone.
+    /// Units that a subprogram states only after its first label.
     UnitsAfterLabel,
     /// What its caller has active, where this control begins otherwise.
     CallersModes,

@@ -26,11 +26,11 @@ pub enum ThreadsLack {
     SkippedTap,
     /// The end of a tapping cycle that can be skipped.
     SkippedTapEnd,
-    /// A spindle that turns another way while a boring cycle is active.
+    /// A spindle that reverses while a boring cycle is active.
     BoringReversal,
     /// A spindle that is switched while a tapping cycle is active.
     SwitchedSpindle,
-    /// A tap's feed in the place of one that only the run knows.
+    /// A feed of a tap that replaces a run-time feed.
     FeedReplaced,
     /// A feed or a speed that changes while a tapping cycle is active.
     FeedOrSpeedChanges,

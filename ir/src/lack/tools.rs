@@ -22,7 +22,7 @@ pub enum ToolsLack {
     ChangeKeepsLength,
     /// A tool change under a length offset that is not known.
     ChangeUnderUnknownLength,
-    /// A spindle that goes on turning when the tool is changed.
+    /// A tool change with the spindle turning.
     SpindleTurnsAtChange,
     /// An edge of a tool.
     Edge,

@@ -58,9 +58,9 @@ pub enum WordsLack {
     RapidMove,
     /// A position that does what the caller has active.
     CallersMotion,
-    /// In which direction a rotary axis goes.
+    /// The direction of a rotary axis.
     RotaryDirection,
-    /// The direction of a rotary axis from where nobody knows.
+    /// The direction of a rotary axis from an unknown position.
     RotaryStartUnknown,
     /// A rotary axis that turns in the other direction.
     RotaryOtherDirection,

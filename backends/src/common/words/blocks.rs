@@ -4,6 +4,7 @@ use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
 use ncc_ir::lack::{FlowLack, LengthsLack, WordsLack};
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 
 use super::Words;
 use crate::common::Sink;
@@ -138,7 +139,7 @@ impl Words {
         to.append(&mut self.block.after);
         let most = self.dialect.block.longest;
         if most > 0 && length > most as usize {
-            let fault = cannot_compute(format!("a block of more than {most} characters"));
+            let fault = cannot_compute(RunTimeWord::BlockLength { most });
             sink.report(fault, self.block.at);
         }
         let most = self.dialect.block.longest_bare;

@@ -11,6 +11,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::lack::{MachineLack, WordsLack};
 use ncc_ir::program::{Coord, Move, Point};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 use super::{Words, rounded};
@@ -206,7 +207,7 @@ impl Words {
         };
         // How often a block is executed decides what its rounding adds up to.
         if self.facts.kept && distance == Some(Distance::Incremental) && (before, residue) != (0, 0) {
-            return Err(cannot_compute("an incremental word that is finer than the digits of the control"));
+            return Err(cannot_compute(RunTimeValue::FineIncrement));
         }
         if shaped.rounded {
             rounded(letter.letter, n, shaped, span, sink);

@@ -4,6 +4,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Alarm, Op, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 
 use crate::common::Sink;
 use crate::common::fault::{cannot, cannot_compute};
@@ -57,7 +58,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let variable = self.variable_of("alarm").ok_or_else(|| cannot(OperatorLack::Alarm))?;
-        let number = alarm.number.as_ref().ok_or_else(|| cannot_compute("an alarm without a number"))?;
+        let number = alarm.number.as_ref().ok_or_else(|| cannot_compute(RunTimeWord::AlarmWithoutNumber))?;
         if let (Some(n), Some([from, to])) = (number.literal(), self.dialect.formula.alarms) {
             let known = n.whole_number().is_some_and(|n| (i64::from(from)..=i64::from(to)).contains(&n));
             if !known {

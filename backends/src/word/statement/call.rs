@@ -3,6 +3,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Call, Stmt};
+use ncc_ir::run_time::RunTimeFlow;
 
 use super::super::Writer;
 use super::super::macros::modal_call::AtMoves;
@@ -23,7 +24,7 @@ impl Writer {
             return self.macro_call(call, stmt, sink);
         }
         if self.is_o_sub(&call.name) {
-            return Err(cannot_compute("a call of a program that has variables of its own elsewhere"));
+            return Err(cannot_compute(RunTimeFlow::CallOfOwnElsewhere));
         }
         let words = self.words.codes.call.ok_or_else(|| cannot(FlowLack::SubprogramCall))?;
         self.call_up_now(stmt, sink)?;

@@ -21,6 +21,7 @@ use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Move, Op, Point, Program, Stmt, Turns};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::unexecuted::NoCorner;
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -78,7 +79,7 @@ impl ExpandCornersState {
 }
 
 fn no_next() -> Fault {
-    Fault::NoCorner { what: "a corner without a move that follows in its plane".into() }
+    Fault::NoCorner { why: NoCorner::NoNextMove }
 }
 
 fn cannot(lack: CornersLack) -> Fault {

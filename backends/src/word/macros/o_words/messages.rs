@@ -3,6 +3,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Alarm, Piece};
+use ncc_ir::run_time::RunTimeWord;
 use ncc_ir::source::Span;
 
 use crate::common::Sink;
@@ -63,7 +64,7 @@ impl Writer {
         }
         if alarm.number.is_some() {
             // As straight blocks it can be no better.
-            let what = "an alarm with a number";
+            let what = RunTimeWord::AlarmNumber;
             return Err(if self.computes() {
                 cannot_compute(what)
             } else {
