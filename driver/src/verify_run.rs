@@ -29,6 +29,7 @@ use ncc_exec::verify::{self, Comparison, Pair};
 use ncc_frontends::Batch;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::lack::ModesLack;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
@@ -453,12 +454,11 @@ impl Verifier {
     fn read_back(&mut self, inherited: &Modes) -> Result<(), Stop> {
         let own = self.batch.assumed;
         if self.as_called && own.or(*inherited) != *inherited {
-            let what = match (own.units, inherited.units) {
-                (Some(_), None) => "units that a subprogram says behind its first label alone",
-                _ => "what its caller has in force, where this control begins otherwise",
+            let lack = match (own.units, inherited.units) {
+                (Some(_), None) => ModesLack::UnitsAfterLabel,
+                _ => ModesLack::CallersModes,
             };
-            let what = what.into();
-            return Err(Stop::Source(Diagnostic::new(Fault::TargetLacks { what }, self.last)));
+            return Err(Stop::Source(Diagnostic::new(Fault::lacks(lack), self.last)));
         }
         for run in self.runs.iter_mut().chain(&mut self.others) {
             // What the text itself takes for granted goes before what it inherits.

@@ -2,39 +2,14 @@
 //! others do not. What every control refuses or does in a way of its own is refused by execution
 //! (`exec/compensation.rs`).
 
+pub mod kind;
+
+pub use kind::Kind;
+
 use crate::canon::AdviceKind;
 use crate::program::{FrameSlot, Op};
 
-/// A kind of statement that some controls refuse there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// How corners are taken.
-    Path,
-    /// Where cycles leave the tool.
-    ReturnLevel,
-    /// A work offset, the active one too.
-    WorkOffset,
-    /// A tool length offset, the active one too.
-    Length,
-    /// A local shift, or its end.
-    LocalShift,
-    /// The operator's switches.
-    Overrides,
-}
-
 impl Kind {
-    /// What it is, in the words of a message.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Kind::Path => "a path mode",
-            Kind::ReturnLevel => "a return level of cycles",
-            Kind::WorkOffset => "a work offset",
-            Kind::Length => "a tool length offset",
-            Kind::LocalShift => "a local shift",
-            Kind::Overrides => "a code of the operator's override switches",
-        }
-    }
-
     /// The kind of a statement, if it has one.
     pub fn from_op(op: &Op) -> Option<Kind> {
         match op {

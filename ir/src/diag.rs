@@ -5,10 +5,15 @@
 
 use crate::behaviour::{Behaviour, Kept};
 use crate::canon::Axis;
+use crate::compensated::kind::{CompensationRefusal, Kind};
 use crate::expr::num::Num;
+use crate::expr::value::Wrong;
 use crate::geometry::offset_path::Unreachable;
+use crate::lack::Lack;
 use crate::program::numbered::Numbered;
+use crate::run_time::RunTime;
 use crate::source::Span;
+use crate::unexecuted::{NoCorner, Unexecuted};
 
 /// What was found, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +64,15 @@ pub enum FileNeeds {
     ToolNumber,
     /// Calls, labels or loops of the output.
     Control,
+}
+
+/// Why an expression has no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoValue {
+    /// A function or an operator has none.
+    Wrong(Wrong),
+    /// No element has this index.
+    Index,
 }
 
 /// What becomes of the question of a macro whether it is given an argument, where every call gives it.
@@ -177,6 +191,21 @@ macro_rules! faults {
                 match self { $( Fault::$name { .. } => $code, )* }
             }
 
+            /// The fault of what a target lacks.
+            pub fn lacks(lack: impl Into<Lack>) -> Fault {
+                Fault::TargetLacks { lack: lack.into() }
+            }
+
+            /// The fault of what ncc does not execute.
+            pub fn not_executed(what: impl Into<Unexecuted>) -> Fault {
+                Fault::NotExecuted { what: what.into() }
+            }
+
+            /// The fault of what a target cannot compute when the program runs.
+            pub fn computes(what: impl Into<RunTime>) -> Fault {
+                Fault::Computes { what: what.into() }
+            }
+
             /// How grave it is.
             pub const fn gravity(&self) -> Gravity {
                 match self { $( Fault::$name { .. } => $gravity, )* }
@@ -282,7 +311,7 @@ faults! {
     /// A cycle in a procedure that does not say what it depends on.
     EntryFactNeeded { fact: ModeName } = 225, Error;
     /// A statement that only the text form can carry, and that is not executed.
-    NotExecuted { what: Box<str> } = 226, Error;
+    NotExecuted { what: Unexecuted } = 226, Error;
     /// A program that does not come to an end.
     NoEnd { steps: u64 } = 227, Error;
     /// The user has stopped ncc while it executed the program.
@@ -295,15 +324,15 @@ faults! {
     /// A move in step with a spindle that has no speed.
     NoSpeed = 230, Error;
     /// An expression that is worth nothing.
-    NoValue { what: Box<str> } = 231, Error;
+    NoValue { why: NoValue } = 231, Error;
     /// A variable is read that the program has not set.
     VariableUnset { name: Box<str> } = 232, Error;
     /// What is computed when the program runs, where no target is given variables, expressions or jumps.
-    Computes { what: Box<str> } = 233, Error;
+    Computes { what: RunTime } = 233, Error;
     /// A loop that is never left: a turn of it changes nothing by which the program goes.
     Endless = 234, Error;
     /// Its control refuses it while cutter radius compensation is on.
-    RefusedCompensated { what: Box<str> } = 235, Error;
+    RefusedCompensated { what: CompensationRefusal } = 235, Error;
     /// A program that begins again takes a mode for granted at its start that is another at its end.
     BeginsOtherwise { fact: ModeName } = 238, Error;
 
@@ -313,7 +342,7 @@ faults! {
     /// A contour along which the tool cannot go without cutting into it.
     ContourUnreachable { why: Unreachable } = 241, Error;
     /// A corner that cannot be rounded or chamfered.
-    NoCorner { what: Box<str> } = 250, Error;
+    NoCorner { why: NoCorner } = 250, Error;
 
     // NC03xx: assumptions.
     /// The program relies on a state at power-on that it never says.
@@ -486,7 +515,7 @@ faults! {
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.
-    TargetLacks { what: Box<str> } = 501, Error;
+    TargetLacks { lack: Lack } = 501, Error;
     /// A second work offset for a control that has one.
     SecondWorkOffset { first: u16, second: u16 } = 502, Error;
     /// The arc is gone after rounding to the target's digits.
@@ -519,7 +548,7 @@ faults! {
     /// The radii of an arc at start and end differ by more than the target's control accepts; nanos of a millimetre.
     ArcRadiiDiffer { radii: [i64; 2], allowed: i64 } = 520, Error;
     /// The target's control refuses it while cutter radius compensation is on.
-    CompensatedThere { what: Box<str> } = 521, Error;
+    CompensatedThere { kind: Kind } = 521, Error;
 
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.

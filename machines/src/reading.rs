@@ -11,6 +11,7 @@ use ncc_dialects::{
     BLOCK_WITHOUT_WAY, BREAK_LIFT, CallRow, Dialect, FIRST_TOOL, PECK_CLEARANCE, Role, WAITING_TOOL,
 };
 use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::lack::{Lack, ToolsLack, WordsLack};
 use ncc_ir::program::numbered::Numbered;
 
 /// One of the two machines of a translation.
@@ -175,9 +176,12 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
             other => (side, Place::Confirmed(slug(other))),
         },
         Fault::UnknownCode { code } if is_m_code(code) => (Side::From, Place::Code(code.to_string())),
-        Fault::TargetLacks { what } => match what.strip_prefix(TOOL) {
-            Some(name) => (Side::To, Place::Number(Numbered::Tool, name.to_owned())),
-            None => (Side::To, Place::Function(what.strip_prefix(FUNCTION)?.to_owned())),
+        Fault::TargetLacks { lack } => match lack {
+            Lack::Tools(ToolsLack::Name { name }) => {
+                (Side::To, Place::Number(Numbered::Tool, name.to_string()))
+            }
+            Lack::Words(WordsLack::MachineFunction { name }) => (Side::To, Place::Function(name.to_string())),
+            _ => return None,
         },
         Fault::AssumedNoEffect { code } => (side, Place::Confirmed(code.to_string())),
         Fault::AssumedRow { code, .. } => (side, Place::Confirmed(row_key(code))),
@@ -212,12 +216,6 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         _ => return None,
     })
 }
-
-/// What a writer says before the name of a function of the machine that it has no code for.
-const FUNCTION: &str = "the machine function ";
-
-/// What a writer says before the name of a tool that it has no number for.
-const TOOL: &str = "a tool called ";
 
 fn is_m_code(code: &str) -> bool {
     code.strip_prefix('M').is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))

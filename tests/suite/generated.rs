@@ -253,7 +253,7 @@ impl Judge {
                     .iter()
                     .filter(|d| job.refuses(d))
                     .filter_map(|d| match &d.fault {
-                        ncc_ir::diag::Fault::Computes { what } => Some(what.to_string()),
+                        ncc_ir::diag::Fault::Computes { what } => Some(format!("{what:?}")),
                         _ => None,
                     })
                     .collect();

@@ -39,13 +39,13 @@ enum Must {
 
 /// All of the programs.
 const PROGRAMS: [(&str, Must); 51] = [
-    ("ccomp-lathe-comp", Must::RefusedByName("the length of a tool")),
+    ("ccomp-lathe-comp", Must::RefusedByName("Lengths(NotInTable)")),
     ("ccomp-mill-line-arc-entry", Must::Equal),
     ("interp-bad--a-in-canned-cycle", Must::Refused("rotary axis in a canned cycle")),
     ("interp-bad--bad-arc.big.imperial.center-format", Must::Refused("ArcEndOffCircle")),
     ("interp-bad--bad-arc.medium.imperial.center-format", Must::Refused("ArcEndOffCircle")),
     ("interp-bad--bad-arc.small.imperial.center-format", Must::Refused("ArcEndOffCircle")),
-    ("interp-bad--ccomp-arcexit", Must::Refused("an arc that leaves")),
+    ("interp-bad--ccomp-arcexit", Must::Refused("ArcLeadOut")),
     ("interp-bad--exists-1", Must::Refused("Syntax")),
     ("interp-bad--exists-3", Must::Refused("EXISTS[###2]")),
     ("interp-bad--exists-5", Must::Refused("UnexpectedCharacter")),
@@ -75,7 +75,7 @@ const PROGRAMS: [(&str, Must); 51] = [
     ("interp-good--good-arc.medium.metric.center-format", Must::Equal),
     ("interp-good--good-arc.small.metric.center-format", Must::Equal),
     // Feeds by the time of moves that are other ones beside a contour.
-    ("interp-inverse-time-with-comp", Must::RefusedByName("SET_FEED_MODE under cutter radius compensation")),
+    ("interp-inverse-time-with-comp", Must::RefusedByName("Compensation(FeedModeListed)")),
     ("interp-m98m99-02-variables", Must::Equal),
     ("interp-m98m99-04-M98-but-no-sub", Must::Refused("CallUnknown")),
     (

@@ -6,6 +6,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, POW10, Unit};
 use ncc_ir::geometry::arc_solver::MOST_SHORT;
 use ncc_ir::geometry::{self, ArcFault};
+use ncc_ir::lack::WordsLack;
 use ncc_ir::program::{Arc, Centre, Coord, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -39,7 +40,7 @@ pub(super) fn feed_mode(f: FeedMode) -> &'static [u8] {
 
 /// A literal; the canonical stream has no expressions.
 pub(super) fn literal(e: &Expr) -> Result<Num, Fault> {
-    e.literal().ok_or(Fault::TargetLacks { what: "an expression".into() })
+    e.literal().ok_or(Fault::lacks(WordsLack::Expression))
 }
 
 /// A whole number that is no less than zero.
@@ -75,7 +76,7 @@ pub(super) fn centre(at: &Tracker, arc: &Arc, axes: [Axis; 2]) -> Result<[Nanos;
         Centre::Radius(radius) => {
             let [Some(x), Some(y)] = start else { return Err(unknown(start)) };
             let [Some(to_x), Some(to_y)] = end else { return Err(unknown(end)) };
-            let radius = at.nanos(radius).ok_or(Fault::TargetLacks { what: "an expression".into() })?;
+            let radius = at.nanos(radius).ok_or(Fault::lacks(WordsLack::Expression))?;
             geometry::centre_by_radius([x, y], [to_x, to_y], radius, arc.turn, MOST_SHORT).map_err(|fault| {
                 match fault {
                     ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
@@ -85,7 +86,7 @@ pub(super) fn centre(at: &Tracker, arc: &Arc, axes: [Axis; 2]) -> Result<[Nanos;
             })
         }
         Centre::Point { .. } => at.centre(arc).ok_or_else(|| match start {
-            [Some(_), Some(_)] => Fault::TargetLacks { what: "an expression".into() },
+            [Some(_), Some(_)] => Fault::lacks(WordsLack::Expression),
             [None, _] | [_, None] => unknown(start),
         }),
     }

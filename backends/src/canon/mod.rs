@@ -20,11 +20,11 @@ use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, Spindl
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::lack::{FlowLack, WordsLack};
 use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use crate::common::fault::PACKED;
 use crate::common::packed::{each_blocks, packed};
 use crate::common::quoted::{quote, write_whole};
 use crate::origin::Trace;
@@ -120,7 +120,7 @@ impl Writer {
     /// Refuses a subprogram: the canonical stream has none.
     pub fn procedure(&mut self, p: &Procedure, _out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let place = p.body.first().map_or(Span::default(), |s| s.span);
-        diags.push(Diagnostic::new(Fault::TargetLacks { what: "a subprogram".into() }, place));
+        diags.push(Diagnostic::new(Fault::lacks(FlowLack::Subprogram), place));
     }
 
     /// Ends the text.
@@ -220,7 +220,7 @@ impl Writer {
                 }
                 return Ok(());
             }
-            Op::Lines(_) => return Err(here(Fault::TargetLacks { what: PACKED.into() })),
+            Op::Lines(_) => return Err(here(Fault::lacks(WordsLack::Packed))),
             Op::Blank => {
                 out.extend_from_slice(self.eol);
                 return Ok(());
@@ -509,5 +509,5 @@ fn after<T: PartialEq>(in_force: &mut Option<T>, value: T, s: &Stmt) {
 }
 
 fn cannot(op: &Op) -> Fault {
-    Fault::TargetLacks { what: op.name().into() }
+    Fault::lacks(WordsLack::Function { function: op.name() })
 }

@@ -30,6 +30,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::geometry::offset_path::Rules;
+use ncc_ir::lack::{CompensationLack, FlowLack, Lack, WordsLack};
 use ncc_ir::program::valid::leads_nowhere;
 use ncc_ir::program::{Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;
@@ -243,7 +244,7 @@ impl Printer<'_> {
                 let found = self.program.procedures.iter().skip(1).find(|p| p.name == call.name);
                 let procedure = match found {
                     Some(procedure) if depth < DEPTH && call.arguments.is_empty() => procedure,
-                    Some(_) | None => return Err(refuse(cannot("this call"))),
+                    Some(_) | None => return Err(refuse(cannot(FlowLack::ThisCall))),
                 };
                 for _ in 0..call.times {
                     self.body(&procedure.body, depth + 1)?;
@@ -261,7 +262,7 @@ impl Printer<'_> {
     fn statement(&mut self, stmt: &Stmt) -> Result<(), Fault> {
         if self.beside && overtakes(&stmt.op) {
             // It would be printed before the move that waits for the next one.
-            return Err(cannot(&format!("{} under cutter radius compensation", stmt.op.name())));
+            return Err(cannot(CompensationLack::Listed { function: stmt.op.name() }));
         }
         match &stmt.op {
             // A comment is the block's.
@@ -372,7 +373,10 @@ impl Printer<'_> {
             Op::OrientSpindle(angle) => self.orient(angle.as_ref(), stmt)?,
             Op::UseToolLengthOffset(entry) => self.tool_offsets(entry)?,
             Op::UseToolEdge { .. } => {
-                let entry = self.exec.length_entry().ok_or_else(|| cannot(stmt.op.name()))?;
+                let entry = self
+                    .exec
+                    .length_entry()
+                    .ok_or_else(|| cannot(WordsLack::Function { function: stmt.op.name() }))?;
                 self.tool_offsets(&Expr::int(i64::from(entry)))?;
             }
             Op::UseToolLength(length) => match &**length {
@@ -406,7 +410,7 @@ impl Printer<'_> {
                 self.call("PROGRAM_STOP()");
             }
             Op::OptionalProgramStop => self.call("OPTIONAL_PROGRAM_STOP()"),
-            Op::BeginAgain => return Err(cannot("a program that begins again")),
+            Op::BeginAgain => return Err(cannot(FlowLack::ProgramBeginsAgain)),
             Op::ProgramEnd => {
                 let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
                 self.end(code.is_some_and(|code| code.eq_ignore_ascii_case(b"M30")));
@@ -438,7 +442,7 @@ impl Printer<'_> {
             | Op::NextTurn
             | Op::Control(_)
             | Op::Goto(_)
-            | Op::Label(_) => return Err(cannot(stmt.op.name())),
+            | Op::Label(_) => return Err(cannot(WordsLack::Function { function: stmt.op.name() })),
         }
         Ok(())
     }
@@ -557,10 +561,10 @@ fn last_comment(source: &[u8], at: usize) -> Option<&[u8]> {
 }
 
 fn literal(value: &Expr) -> Result<f64, Fault> {
-    let n = value.literal().ok_or_else(|| cannot("an expression"))?;
+    let n = value.literal().ok_or_else(|| cannot(WordsLack::Expression))?;
     Ok(n.mantissa as f64 / 10f64.powi(i32::from(n.scale)))
 }
 
-fn cannot(what: &str) -> Fault {
-    Fault::TargetLacks { what: what.into() }
+fn cannot(lack: impl Into<Lack>) -> Fault {
+    Fault::lacks(lack)
 }

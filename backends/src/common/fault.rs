@@ -2,20 +2,19 @@
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::{Lack, WordsLack};
+use ncc_ir::run_time::RunTime;
 
 use super::number::{self, Unwritable};
 
-/// Moves that are packed, which the writer of all dialects unpacks for those of each.
-pub(crate) const PACKED: &str = "moves that are packed";
-
 /// A fault for what there is no word for.
-pub(crate) fn cannot(what: impl Into<Box<str>>) -> Fault {
-    Fault::TargetLacks { what: what.into() }
+pub(crate) fn cannot(lack: impl Into<Lack>) -> Fault {
+    Fault::lacks(lack)
 }
 
 /// The fault of what the control cannot compute.
-pub(crate) fn cannot_compute(what: impl Into<Box<str>>) -> Fault {
-    Fault::Computes { what: what.into() }
+pub(crate) fn cannot_compute(what: impl Into<RunTime>) -> Fault {
+    Fault::computes(what)
 }
 
 /// The fault of a number that cannot be written.
@@ -23,7 +22,7 @@ pub(crate) fn unwritable(why: Unwritable, letter: u8, n: Num) -> Fault {
     let word = number::spell(letter, n);
     match why {
         Unwritable::Range => Fault::TargetRange { word },
-        Unwritable::NotWhole => cannot(format!("{word}, which is not a whole number")),
-        Unwritable::Fineness => cannot(format!("{word}, which is too fine in a unit that is not known")),
+        Unwritable::NotWhole => cannot(WordsLack::NotWhole { word }),
+        Unwritable::Fineness => cannot(WordsLack::TooFine { word }),
     }
 }

@@ -9,6 +9,7 @@ use ncc_ir::computed::computed_entry::{ComputedEntry, Place};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::system::System;
+use ncc_ir::lack::TablesLack;
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -34,7 +35,7 @@ impl Writer {
     }
 
     fn entry_setting(&mut self, entry: &ComputedEntry, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let none = || cannot("a place of the control's tables by its number");
+        let none = || cannot(TablesLack::PlaceByNumber);
         if let Op::Assign(to, value) = &entry.op {
             return self.assign(to, value, span, sink);
         }
@@ -61,7 +62,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<String, Fault> {
-        let none = || cannot("a place of the control's tables by its number");
+        let none = || cannot(TablesLack::PlaceByNumber);
         let says = |name: &str| name.contains('#');
         let mut rows = self.dialect.system.iter().filter(|row| says(&row.name));
         let row = rows.find(|row| row.says().any(|(own, _)| own == place.first)).ok_or_else(none)?;

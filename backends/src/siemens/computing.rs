@@ -10,7 +10,9 @@ use std::collections::{BTreeSet, HashMap};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::{FlowLack, HolesLack};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::run_time::RunTimeFlow;
 use ncc_ir::source::Span;
 use ncc_passes::support::mode_analysis::has_bare_holes;
 
@@ -103,7 +105,7 @@ impl Writer {
         };
         if self.alone && left {
             // There, whether a caller goes on with it is not said in any manual that could be read.
-            return Err(cannot("a cycle that is left in force for a caller that is not in the text"));
+            return Err(cannot(HolesLack::LeftForUnknownCaller));
         }
         let left = self.computing.program && self.standing.modal == super::Modal::On;
         self.without_cycle(left, sink)
@@ -161,7 +163,7 @@ impl Writer {
             return self.entry_of_number(&entry, stmt, sink);
         }
         if stmt.skip.is_some() {
-            return Err(cannot("blocks that can be skipped together"));
+            return Err(cannot(FlowLack::SkippedTogether));
         }
         let within = |is: fn(&Op) -> bool| control.bodies().any(|body| any(body, is));
         let changes = if within(|op| matches!(op, Op::Goto(_))) {
@@ -214,14 +216,14 @@ impl Writer {
                 self.inner(body, changes, stmt, sink);
                 self.closes("ENDFOR", sink)
             }
-            Control::Repeat { .. } => Err(cannot("a repetition that is not made a known number of times")),
+            Control::Repeat { .. } => Err(cannot(FlowLack::RepetitionUnknown)),
         }
     }
 
     fn opens(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         let most = self.dialect.formula.loops;
         if self.computing.deep >= most.into() {
-            return Err(cannot_compute(format!("a structure within {most} others")));
+            return Err(cannot_compute(RunTimeFlow::StructureDepth { most }));
         }
         self.behind_label(sink);
         self.alone(text, sink)?;

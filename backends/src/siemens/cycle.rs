@@ -10,6 +10,7 @@ use ncc_ir::caps::CycleForm;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node};
+use ncc_ir::lack::{HolesLack, ThreadsLack, WordsLack};
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, Shift, Tap, clearance_by_depth};
 use ncc_ir::program::{Coord, Op, Pitch, Point, Stmt};
 use ncc_ir::source::Span;
@@ -59,7 +60,8 @@ impl Arguments {
     /// The call has no such parameter.
     pub(super) fn put(&mut self, role: Role, value: String) -> Result<(), Fault> {
         let place = self.row.place(role);
-        let place = place.ok_or_else(|| cannot(format!("this of {}", self.row.name)))?;
+        let place =
+            place.ok_or_else(|| cannot(HolesLack::CycleArgument { cycle: (*self.row.name).into() }))?;
         self.values[place] = Some(value);
         Ok(())
     }
@@ -80,7 +82,7 @@ impl Arguments {
 impl Writer {
     pub(super) fn call_modal(&self) -> Result<&'static str, Fault> {
         let row = self.dialect.name_for(NameMeaning::CallModal);
-        Ok(&row.ok_or_else(|| cannot("a cycle for the blocks that follow"))?.name)
+        Ok(&row.ok_or_else(|| cannot(HolesLack::ModalCall))?.name)
     }
 
     /// The letter and the form of a parameter's numbers.
@@ -169,7 +171,7 @@ impl Writer {
             CycleKind::BoreStop(_) => CallKind::BoreStop,
         };
         if !CycleForm::Stated.says(kind) {
-            return Err(cannot(format!("the cycle {} in this form", kind.name())));
+            return Err(cannot(HolesLack::CycleForm { kind: kind.name() }));
         }
         // Of several, the one that says what there is to say and no more.
         let fits = |row: &&CallRow| match kind {
@@ -181,7 +183,7 @@ impl Writer {
             _ => true,
         };
         let mut rows = self.dialect.call.iter().filter(|row| row.kind == call);
-        rows.find(fits).ok_or_else(|| cannot(format!("the cycle {}", kind.name())))
+        rows.find(fits).ok_or_else(|| cannot(HolesLack::Cycle { kind: kind.name() }))
     }
 
     /// The call of a cycle.
@@ -193,7 +195,7 @@ impl Writer {
         self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
         let mut ahead = self.words.tracker.clone();
         ahead.apply(&stmt.op);
-        let planes = ahead.cycle.ok_or_else(|| cannot("a cycle that is not known"))?;
+        let planes = ahead.cycle.ok_or_else(|| cannot(HolesLack::CycleUnknown))?;
         let mut to = Arguments::new(row);
         self.planes(&planes, &mut to, span, sink)?;
         match &cycle.kind {
@@ -228,7 +230,7 @@ impl Writer {
             }
             CycleKind::DrillDwell { dwell } => self.argument(&mut to, Role::Dwell, dwell, span, sink)?,
             CycleKind::DrillPeck { less: Some(_), .. } | CycleKind::DrillBreak { less: Some(_), .. } => {
-                return Err(cannot("pecks that decrease"));
+                return Err(cannot(HolesLack::DecreasingPecks));
             }
             CycleKind::DrillPeck { peck, first, less: None, clearance, pause, settle, dwell } => {
                 self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;
@@ -243,7 +245,7 @@ impl Writer {
             }
             CycleKind::DrillBreak { peck, first, less: None, lift, lift_at_feed, pause, dwell } => {
                 if !lift_at_feed {
-                    return Err(cannot("a chip-breaking cycle that lifts in rapid"));
+                    return Err(cannot(HolesLack::RapidLift));
                 }
                 self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;
                 self.pauses(pause.as_ref(), dwell.as_ref(), &mut to, span, sink)?;
@@ -261,7 +263,7 @@ impl Writer {
                 }
                 let in_force = || self.standing.feed.map(Expr::Num);
                 let feed = cycle.feed.clone().or_else(in_force);
-                let feed = feed.ok_or_else(|| cannot("a boring cycle whose feed is not known"))?;
+                let feed = feed.ok_or_else(|| cannot(HolesLack::BoringFeedUnknown))?;
                 self.argument(&mut to, Role::FeedIn, &feed, span, sink)?;
                 self.argument(&mut to, Role::FeedOut, feed_out.as_ref().unwrap_or(&feed), span, sink)?;
             }
@@ -280,19 +282,19 @@ impl Writer {
             to.put(Role::Encoder, if tap.pitch == Pitch::Feed { "1" } else { "0" }.into())?;
         } else {
             let speed = self.standing.speed.filter(|speed| !speed.is_zero());
-            let speed = speed.ok_or_else(|| cannot("a rigid tap whose speed is not known"))?;
+            let speed = speed.ok_or_else(|| cannot(ThreadsLack::RigidSpeedUnknown))?;
             self.argument(to, Role::Speed, &Expr::Num(speed), span, sink)?;
             self.argument(to, Role::SpeedOut, &Expr::Num(speed), span, sink)?;
         }
         let Pitch::Stated(pitch) = &tap.pitch else { return Ok(()) };
-        let pitch = pitch.literal().ok_or_else(|| cannot("a computed pitch"))?.trimmed();
+        let pitch = pitch.literal().ok_or_else(|| cannot(ThreadsLack::ComputedPitch))?.trimmed();
         // Without a unit of its own a pitch counts in the machine's basic system.
         let inch = match (self.words.active.units, pitch.unit) {
             (_, Unit::Inch) | (Some(Units::Inch), Unit::Entry) => true,
             (_, Unit::Mm) | (Some(Units::Mm), Unit::Entry) => false,
             _ => {
                 self.words.check_unit(pitch, span)?;
-                return Err(cannot("a pitch of which the unit is not known"));
+                return Err(cannot(ThreadsLack::PitchUnitUnknown));
             }
         };
         if inch {
@@ -329,10 +331,10 @@ impl Writer {
                 let initial = planes.initial.ok_or(unknown)?;
                 (self.length(initial, &self.parameter(to.row, Role::ReturnPlane))?, Some(initial))
             }
-            (None, Fact::Entry) => return Err(cannot("a cycle whose return level is the caller's")),
+            (None, Fact::Entry) => return Err(cannot(HolesLack::CallersReturnLevel)),
         };
         if level.zip(planes.retract).is_some_and(|(level, retract)| level < retract) {
-            return Err(cannot("a cycle that returns to below its retract plane"));
+            return Err(cannot(HolesLack::BelowRetractPlane));
         }
         let depth = self.level(&cycle.depth, planes.depth, axis, to.row, span, sink)?;
         to.put(Role::ReturnPlane, back)?;
@@ -412,10 +414,10 @@ impl Writer {
             let plane = more.filter(|_| distance == Some(Distance::Absolute));
             let plane = plane.and_then(|more| difference(&word.value, &Expr::Num(more)));
             let (Some(more), Some(plane)) = (more, plane) else {
-                return Err(cannot("a first peck that is not known"));
+                return Err(cannot(HolesLack::FirstPeckUnknown));
             };
             if more.mantissa < 0 {
-                return Err(cannot("a first peck that is shorter than the others"));
+                return Err(cannot(HolesLack::ShortFirstPeck));
             }
             for (role, value) in [(Role::SafetyDistance, more), (Role::ReferencePlane, plane)] {
                 self.argument(to, role, &Expr::Num(value), span, sink)?;
@@ -455,7 +457,7 @@ impl Writer {
             (None, None) => Ok(()),
             (Some(pause), Some(dwell)) if pause == dwell => Ok(()),
             (_, Some(dwell)) => self.argument(to, Role::LastDwell, dwell, span, sink),
-            (Some(_), None) => Err(cannot("a dwell after every peck but the last")),
+            (Some(_), None) => Err(cannot(HolesLack::DwellAfterPecks)),
         }
     }
 
@@ -489,10 +491,10 @@ impl Writer {
             Clearance::Stated(value) if value.literal().is_some_and(|n| n.mantissa > 0) => {
                 self.argument(to, role, value, span, sink)
             }
-            Clearance::Stated(Expr::Node(_)) => Err(cannot("a clearance of pecks that is computed")),
-            Clearance::Stated(Expr::Num(_)) => Err(cannot("a peck without clearance")),
-            Clearance::Parameter => Err(cannot("the clearance of a peck as a parameter of the machine")),
-            Clearance::FromReturn => Err(cannot("pecks that go down at feed all the way")),
+            Clearance::Stated(Expr::Node(_)) => Err(cannot(HolesLack::ComputedClearance)),
+            Clearance::Stated(Expr::Num(_)) => Err(cannot(HolesLack::NoClearance)),
+            Clearance::Parameter => Err(cannot(HolesLack::ParameterClearance)),
+            Clearance::FromReturn => Err(cannot(HolesLack::FeedDownPecks)),
         }
     }
 
@@ -500,21 +502,21 @@ impl Writer {
     pub(super) fn hole(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
         if self.standing.modal == Modal::Off {
-            return Err(cannot("a hole of a cycle that is not known"));
+            return Err(cannot(HolesLack::HoleOfUnknownCycle));
         }
         let plane = self.hole_plane();
         if plane.is_some_and(|p| to.get(p.axes().2).is_some()) {
-            return Err(cannot("a hole position along the drilling axis"));
+            return Err(cannot(HolesLack::AlongDrillingAxis));
         }
         let here;
         let to = match to.is_empty() {
             true => {
-                here = self.here(plane.ok_or_else(|| cannot("a hole in a plane that is not known"))?)?;
+                here = self.here(plane.ok_or_else(|| cannot(HolesLack::HolePlaneUnknown))?)?;
                 &here
             }
             false => to,
         };
-        let traverse = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
+        let traverse = self.words.codes.traverse.ok_or_else(|| cannot(WordsLack::RapidMove))?;
         let says = self.words.active.motion != Some(Motion::Traverse);
         let mut inserted = Inserted::default();
         self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
@@ -543,7 +545,7 @@ impl Writer {
         };
         let mut to = Point::default();
         for axis in [first, second] {
-            let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
+            let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot(WordsLack::Axis))?;
             let (value, distance) = match (self.words.axis_position(axis), unit) {
                 (Ok(nanos), Unit::Mm | Unit::Inch) => {
                     (number::from_nanos(nanos, &letter.format, unit), Distance::Absolute)

@@ -8,6 +8,7 @@ use ncc_ir::canon::{Axis, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
+use ncc_ir::lack::TablesLack;
 use ncc_ir::program::{Data, DataMode, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -50,7 +51,7 @@ impl Writer {
         match data {
             Data::Offset { offset, mode: DataMode::Set, words, turn: None } => {
                 let row = self.table(|row| row.kind == DataKind::Offset && *offset <= row.count);
-                let row = row.ok_or_else(|| cannot(format!("the zero of work offset {offset}")))?;
+                let row = row.ok_or_else(|| cannot(TablesLack::OffsetZero { offset: *offset }))?;
                 let mut texts = Vec::new();
                 for (axis, word) in Axis::ALL.into_iter().zip(words.iter()) {
                     let Some(word) = word else { continue };
@@ -69,15 +70,13 @@ impl Writer {
             Data::Tool { entry, which, added: false, kept, value } => {
                 let tracker = &self.words.tracker;
                 if *kept && (tracker.tool.is_some() || tracker.selected.is_some()) {
-                    return Err(cannot(
-                        "a value of a tool that may be in use, and stays as it was until called up",
-                    ));
+                    return Err(cannot(TablesLack::ToolMaybeInUse));
                 }
                 let row = self.table(|row| {
                     let own = row.values.first().is_some_and(|word| *which == word.of.into());
                     own && *entry <= u32::from(row.count)
                 });
-                let row = row.ok_or_else(|| cannot("this value in the control's tables"))?;
+                let row = row.ok_or_else(|| cannot(TablesLack::Value))?;
                 let name = row.name.replace('#', &entry.to_string());
                 let text = self.set(&name, Axis::Z, value, span, sink)?;
                 self.alone(&text, sink)
@@ -86,7 +85,7 @@ impl Writer {
             | Data::Tool { .. }
             | Data::Measured { .. }
             | Data::Position(_)
-            | Data::ToolInSpindle(_) => Err(cannot("this value in the control's tables")),
+            | Data::ToolInSpindle(_) => Err(cannot(TablesLack::Value)),
         }
     }
 
@@ -131,7 +130,7 @@ impl Writer {
                 | Op::Label(_)
         );
         if self.stale && counts {
-            return Err(cannot("the zero of a work offset that may be in force, and is not called up again"));
+            return Err(cannot(TablesLack::OffsetNotActivatedAgain));
         }
         Ok(())
     }
@@ -152,7 +151,7 @@ impl Writer {
         // Tables count in the control's own unit.
         let units = self.words.tracker.modes.units.or(self.words.assumed.units);
         if units == Some(Units::Inch) || units.is_none() && self.inches {
-            return Err(cannot("values of tables where lengths do not count in millimetres"));
+            return Err(cannot(TablesLack::NotMillimetres));
         }
         if let Expr::Node(_) = value {
             return Ok(format!("{name}{}", self.words.behind(value, None, span, sink)?));

@@ -3,6 +3,7 @@
 use ncc_dialects::{Dialect, FrameWord, Meaning, NameMeaning, NameRole, NameRow, Quantity};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::{FramesLack, MachineLack};
 use ncc_ir::program::{Frame, FrameStep};
 use ncc_ir::source::Span;
 
@@ -17,7 +18,7 @@ const LINEAR: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 impl Writer {
     fn frame_word(&self, added: bool, word: FrameWord) -> Result<&'static str, Fault> {
         let meaning = if added { NameMeaning::AddFrame(word) } else { NameMeaning::SetFrame(word) };
-        let row = self.dialect.name_for(meaning).ok_or_else(|| cannot("a frame"))?;
+        let row = self.dialect.name_for(meaning).ok_or_else(|| cannot(FramesLack::Frame))?;
         Ok(&row.name)
     }
 
@@ -44,7 +45,7 @@ impl Writer {
             }
             FrameStep::Rotate { plane, angle } => {
                 let row = self.dialect.name_with(NameRole::PlaneAngle);
-                let row = row.ok_or_else(|| cannot("a rotation"))?;
+                let row = row.ok_or_else(|| cannot(FramesLack::Rotation))?;
                 let mut inserted = Inserted::default();
                 self.words.need_plane(*plane, &mut inserted)?;
                 self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
@@ -84,8 +85,8 @@ impl Writer {
     pub(super) fn in_machine(&mut self, length: bool) -> Result<(), Fault> {
         if machine_row(self.dialect, length).is_none() {
             return Err(cannot(match length {
-                true => "a move in machine coordinates that is measured with the tool's length",
-                false => "machine coordinates without the tool's length",
+                true => MachineLack::WithToolLength,
+                false => MachineLack::CoordinatesWithoutLength,
             }));
         }
         self.raw = true;
@@ -95,7 +96,7 @@ impl Writer {
     /// The word of a move in machine coordinates: a control has one setting for the tool's length.
     pub(super) fn machine_word(&self) -> Result<&'static str, Fault> {
         let row = [true, false].into_iter().find_map(|length| machine_row(self.dialect, length));
-        Ok(&row.ok_or_else(|| cannot("machine coordinates"))?.name)
+        Ok(&row.ok_or_else(|| cannot(MachineLack::CoordinatesCode))?.name)
     }
 }
 

@@ -35,6 +35,7 @@ use ncc_ir::canon::{Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_ir::lack::{FeedsLack, ModesLack};
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -361,7 +362,7 @@ impl Writer {
         if basic != self.basic_feed {
             let meaning = Some(Meaning::UseLengthUnits(in_force));
             let row = self.dialect.code.iter().find(|r| r.means == meaning && r.feed_stays == basic);
-            let row = row.ok_or_else(|| cannot("a feed in this unit"))?;
+            let row = row.ok_or_else(|| cannot(FeedsLack::FeedUnit))?;
             self.words.admit(&Need::new(Rank::Setting), sink)?;
             self.words.block.text(Part::Mode, &row.code);
             self.basic_feed = basic;
@@ -429,7 +430,7 @@ impl Writer {
         let unit = match self.words.active.units {
             Some(Units::Mm) => Unit::Mm,
             Some(Units::Inch) => Unit::Inch,
-            None => return Err(cannot("a length in a unit that is not known")),
+            None => return Err(cannot(ModesLack::LengthUnitUnknown)),
         };
         self.near(nanos, letter, unit)
     }

@@ -4,6 +4,7 @@ use ncc_dialects::{NameMeaning, NameRole, NameRow, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Turn};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::{ArcsLack, MachineLack};
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Op, Point, Shape, Stmt, Turns};
 use ncc_ir::source::Span;
 
@@ -78,7 +79,7 @@ impl Writer {
                             written.push(self.centre_word(axis, word, *from, span, sink)?);
                         }
                         None if !outside && *from == CentreFrom::Zero => {
-                            return Err(cannot("a centre of which one word is missing"));
+                            return Err(cannot(ArcsLack::CentreWordMissing));
                         }
                         Some(_) | None => {}
                     }
@@ -121,7 +122,7 @@ impl Writer {
                     }
                 }
                 if point.axes[3..].iter().any(Option::is_some) {
-                    return Err(cannot("an intermediate point of a turning axis"));
+                    return Err(cannot(MachineLack::IntermediateRotary));
                 }
                 (None, Some(NameMeaning::ArcThrough), words)
             }
@@ -172,11 +173,11 @@ impl Writer {
     }
 
     fn arc_code(&self, turn: Turn) -> Result<Code, Fault> {
-        self.words.codes.arcs[turn as usize].ok_or_else(|| cannot("an arc"))
+        self.words.codes.arcs[turn as usize].ok_or_else(|| cannot(ArcsLack::Arc))
     }
 
     fn row(&self, row: Option<&'static NameRow>) -> Result<&'static NameRow, Fault> {
-        row.ok_or_else(|| cannot("an arc in this form"))
+        row.ok_or_else(|| cannot(ArcsLack::Form))
     }
 
     /// An address of several letters and its value.
@@ -246,7 +247,7 @@ impl Writer {
             let from = match coord.distance {
                 Fact::Known(Distance::Absolute) => CentreFrom::Zero,
                 Fact::Known(Distance::Incremental) => CentreFrom::Start,
-                Fact::Entry => return Err(cannot("a centre in a distance mode that is not known")),
+                Fact::Entry => return Err(cannot(ArcsLack::CentreModeUnknown)),
             };
             words.push(self.centre_word(axis, &coord.value, from, span, sink)?);
         }

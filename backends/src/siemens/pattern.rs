@@ -8,6 +8,7 @@ use ncc_ir::canon::{Axis, Distance, Plane};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::lack::{HolesLack, PatternsLack, WordsLack};
 use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Point, Stmt};
 use ncc_ir::source::Span;
@@ -33,7 +34,7 @@ impl Writer {
     pub(super) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
         if self.standing.modal == Modal::Off {
-            return Err(cannot("holes of a cycle that is not known"));
+            return Err(cannot(HolesLack::HolesOfUnknownCycle));
         }
         let kind = match pattern {
             Pattern::Circle { .. } => CallKind::Circle,
@@ -41,8 +42,8 @@ impl Writer {
             Pattern::Grid { .. } => CallKind::Grid,
             Pattern::List(_) => CallKind::List,
         };
-        let row = self.dialect.call_for(kind).ok_or_else(|| cannot("a pattern of holes"))?;
-        let plane = self.hole_plane().ok_or_else(|| cannot("holes in a plane that is not known"))?;
+        let row = self.dialect.call_for(kind).ok_or_else(|| cannot(PatternsLack::Pattern))?;
+        let plane = self.hole_plane().ok_or_else(|| cannot(HolesLack::PlaneOfHolesUnknown))?;
         let mut to = Arguments::new(row);
         let span = stmt.span;
         match pattern {
@@ -57,7 +58,7 @@ impl Writer {
             }
             Pattern::Grid { start, columns, rows, serpentine } => {
                 if !serpentine && columns.count > 1 && rows.count > 1 {
-                    return Err(cannot("a grid with all its rows in one direction"));
+                    return Err(cannot(PatternsLack::GridOneDirection));
                 }
                 self.corner(start.as_ref(), plane, &mut to, span, sink)?;
                 self.grid(columns, rows, plane, &mut to, span, sink)?;
@@ -124,7 +125,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let First::Polar { radius, angle } = first else {
-            return Err(cannot("a bolt circle by its first hole"));
+            return Err(cannot(PatternsLack::CircleByFirstHole));
         };
         self.argument(to, Role::Radius, radius, span, sink)?;
         self.argument(to, Role::Angle, angle, span, sink)?;
@@ -133,7 +134,7 @@ impl Writer {
             return self.argument(to, Role::Count, &Expr::int(count.into()), span, sink);
         };
         if n.is_zero() && count > 1 {
-            return Err(cannot("a bolt circle whose holes are in one place"));
+            return Err(cannot(PatternsLack::CircleInOnePlace));
         }
         // A full circle is shared out by the control: better than an angle that must be rounded.
         let letter = self.parameter(to.row, Role::Step);
@@ -162,7 +163,7 @@ impl Writer {
             _ => offset.clone(),
         };
         if offset.literal().is_some_and(|n| n.mantissa < 0) {
-            return Err(cannot("a line of holes that begins behind its start"));
+            return Err(cannot(PatternsLack::LineAwayFromStart));
         }
         self.angle(&way, to, span, sink)?;
         self.argument(to, Role::Offset, &offset, span, sink)?;
@@ -187,7 +188,7 @@ impl Writer {
         }
         let square = (along.angle + quarter) % TURN == across.angle;
         if !square && columns.count > 1 && rows.count > 1 {
-            return Err(cannot("a grid whose rows do not stand square to the left of its columns"));
+            return Err(cannot(PatternsLack::GridNotSquare));
         }
         self.angle(&along, to, span, sink)?;
         self.argument(to, Role::ColumnPitch, &along.pitch, span, sink)?;
@@ -202,13 +203,13 @@ impl Writer {
         let (mut angle, mut said) = match &row.along {
             Along::Angle(angle) => {
                 let nanos = angle.literal().and_then(|n| n.nanos(false));
-                (nanos.ok_or_else(|| cannot("a computed value"))?.rem_euclid(TURN), Some(angle.clone()))
+                (nanos.ok_or_else(|| cannot(WordsLack::ComputedValue))?.rem_euclid(TURN), Some(angle.clone()))
             }
             Along::Axis(axis) if axes.is_some_and(|a| a.0 == *axis) => (0, None),
             Along::Axis(axis) if axes.is_some_and(|a| a.1 == *axis) => (TURN / 4, None),
-            Along::Axis(_) => return Err(cannot("a row along another axis than those of the plane")),
+            Along::Axis(_) => return Err(cannot(PatternsLack::RowAxis)),
         };
-        let n = row.pitch.literal().ok_or_else(|| cannot("a computed value"))?;
+        let n = row.pitch.literal().ok_or_else(|| cannot(WordsLack::ComputedValue))?;
         let pitch = Expr::Num(Num { mantissa: n.mantissa.saturating_abs(), ..n });
         if n.mantissa < 0 {
             (angle, said) = ((angle + TURN / 2) % TURN, None);
@@ -244,7 +245,7 @@ impl Writer {
     ) -> Result<(), Fault> {
         let most = to.row.parameters.iter().filter(|p| p.role == Some(Role::PointFirst)).count();
         if points.is_empty() || points.len() > most {
-            return Err(cannot(format!("a list of more than {most} positions")));
+            return Err(cannot(PatternsLack::ListLength { most }));
         }
         let holes = self.words.tracker.positions(pattern);
         let (first, second, _) = plane.axes();

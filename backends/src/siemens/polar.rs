@@ -3,6 +3,7 @@
 use ncc_dialects::{Meaning, NameRole, Quantity};
 use ncc_ir::canon::{Axis, Distance, Motion};
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::{HolesLack, PolarLack};
 use ncc_ir::program::{Centre, Coord, Op, Polar, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
@@ -16,7 +17,7 @@ use crate::common::setting::Inserted;
 impl Writer {
     /// A pole, in a block of its own.
     pub(super) fn pole(&mut self, set: &SetPole, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let row = self.dialect.code_for(Meaning::SetPole(set.from)).ok_or_else(|| cannot("a pole"))?;
+        let row = self.dialect.code_for(Meaning::SetPole(set.from)).ok_or_else(|| cannot(PolarLack::Pole))?;
         let mut inserted = Inserted::default();
         self.words.need_plane(set.plane, &mut inserted)?;
         self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
@@ -24,7 +25,7 @@ impl Writer {
         match &set.at {
             PoleWords::Along(words) => {
                 let plane = set.plane.known().or(self.words.active.plane);
-                let plane = plane.ok_or_else(|| cannot("a pole in a plane that is not known"))?;
+                let plane = plane.ok_or_else(|| cannot(PolarLack::PolePlaneUnknown))?;
                 let (first, second, _) = plane.axes();
                 for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| *a == first || *a == second) {
                     let name = (axis.letter() as char).to_string();
@@ -49,15 +50,15 @@ impl Writer {
     pub(super) fn polar(&mut self, polar: &Polar, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.raw = false;
         let hole = matches!(polar.op, Op::Hole(_));
-        let to = ncc_ir::geometry::polar::end_of(&polar.op)
-            .ok_or_else(|| cannot("this function to a polar point"))?;
+        let to =
+            ncc_ir::geometry::polar::end_of(&polar.op).ok_or_else(|| cannot(PolarLack::FunctionToPoint))?;
         if hole {
             self.pay_call(sink)?;
             if self.standing.modal == Modal::Off {
-                return Err(cannot("a hole of a cycle that is not known"));
+                return Err(cannot(HolesLack::HoleOfUnknownCycle));
             }
             if !to.is_empty() {
-                return Err(cannot("a hole position outside the plane"));
+                return Err(cannot(PolarLack::HoleOutsidePlane));
             }
         } else {
             let feeds = !matches!(polar.op, Op::StraightTraverse(_));
@@ -87,9 +88,9 @@ impl Writer {
             // About the pole; a pass has seen to it.
             (Motion::Arc(arc.turn), codes.arcs[arc.turn as usize], arc.said)
         } else {
-            return Err(cannot("this function to a polar point"));
+            return Err(cannot(PolarLack::FunctionToPoint));
         };
-        let code = code.ok_or_else(|| cannot("this move"))?;
+        let code = code.ok_or_else(|| cannot(PolarLack::Move))?;
         let says = said || self.words.active.motion != Some(motion);
         self.arc_block(says.then_some(code), None, to, inserted, &words, span, sink)?;
         self.words.active.motion = Some(motion);
@@ -110,15 +111,15 @@ impl Writer {
         let qualifier = match (role, distance, self.words.active.distance) {
             (NameRole::PolarAngle, Some(Distance::Incremental), _) => Some("IC"),
             (NameRole::LineAngle, Some(Distance::Incremental), _) => {
-                return Err(cannot("an increment of a line's angle"));
+                return Err(cannot(PolarLack::AngleIncrement));
             }
             (NameRole::PolarRadius, Some(Distance::Incremental), _) | (_, None, _) => {
-                return Err(cannot("an increment of a polar radius"));
+                return Err(cannot(PolarLack::RadiusIncrement));
             }
             (NameRole::PolarRadius | NameRole::LineAngle, ..) | (_, _, Some(Distance::Absolute)) => None,
             (_, _, Some(Distance::Incremental) | None) => Some("AC"),
         };
-        let row = self.dialect.name_with(role).ok_or_else(|| cannot("a polar word"))?;
+        let row = self.dialect.name_with(role).ok_or_else(|| cannot(PolarLack::Word))?;
         let letter = self.letter(&row.name, row.quantity.unwrap_or(Quantity::Length));
         let value = self.words.number(&letter, &word.value, span, sink)?;
         Ok(match qualifier {

@@ -3,6 +3,10 @@
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity};
 use ncc_ir::canon::{AdviceKind, CornerShape, Units};
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::{
+    FeedsLack, FlowLack, FramesLack, HolesLack, LengthsLack, MachineLack, ModesLack, OperatorLack,
+    ThreadsLack, ToolsLack,
+};
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
@@ -64,7 +68,7 @@ impl Writer {
             | Op::ProgramEnd => self.words.statement(stmt, sink),
             Op::BeginAgain => {
                 let row = self.dialect.name_for(NameMeaning::Code(Meaning::BeginAgain));
-                let row = row.ok_or_else(|| cannot("a program that begins again"))?;
+                let row = row.ok_or_else(|| cannot(FlowLack::ProgramBeginsAgain))?;
                 self.alone(&row.name, sink)
             }
             Op::SetOriginOffsets(number) => {
@@ -82,7 +86,7 @@ impl Writer {
             }
             Op::SynchronisedFeed(m) => {
                 if std::mem::replace(&mut self.raw, false) {
-                    return Err(cannot("a thread in machine coordinates"));
+                    return Err(cannot(ThreadsLack::MachineCoordinates));
                 }
                 self.before_move(&m.to, m.chuck, span, sink)?;
                 self.words.statement(stmt, sink)
@@ -151,14 +155,14 @@ impl Writer {
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
             Op::UseToolCentrePoint(on) => {
                 let row = self.dialect.name_for(NameMeaning::Code(Meaning::UseToolCentrePoint(*on)));
-                let row = row.ok_or_else(|| cannot("control of the tool's tip"))?;
+                let row = row.ok_or_else(|| cannot(ToolsLack::TipControl))?;
                 self.alone(&row.name, sink)
             }
             // It is said with the plane that it belongs to.
-            Op::OrientToolAxis(_) => Err(cannot("the tool's axis turned apart from its plane")),
+            Op::OrientToolAxis(_) => Err(cannot(FramesLack::AxisApartFromTilt)),
             Op::ClearFrame(FrameSlot::Tilt) => {
                 let row = self.dialect.name_for(NameMeaning::Code(Meaning::SetTilt));
-                let row = row.ok_or_else(|| cannot("the end of a tilted plane"))?;
+                let row = row.ok_or_else(|| cannot(FramesLack::TiltEnd))?;
                 self.alone(&format!("{}()", row.name), sink)
             }
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
@@ -171,11 +175,11 @@ impl Writer {
                 self.standing.speed = speed.literal();
                 self.words.statement(stmt, sink)
             }
-            Op::Probe(_) => Err(cannot("a probing move")),
-            Op::Detour(_) => Err(cannot("a rapid move by a detour")),
-            Op::GoToReference(_) => Err(cannot("a move to the reference point")),
+            Op::Probe(_) => Err(cannot(MachineLack::Probing)),
+            Op::Detour(_) => Err(cannot(MachineLack::Detour)),
+            Op::GoToReference(_) => Err(cannot(MachineLack::ReferencePoint)),
             Op::SetData(data) => self.data(data, span, sink),
-            Op::UseToolLength(_) => Err(cannot("a tool's length by its value")),
+            Op::UseToolLength(_) => Err(cannot(LengthsLack::ByValue)),
             Op::SetFeedRate(feed) => {
                 self.feed(feed, span, sink)?;
                 self.standing.feed = feed.literal();
@@ -197,7 +201,7 @@ impl Writer {
                 self.pay_call(sink)?;
                 let open = self.words.active.motion.is_none() && stmt.skip.is_none();
                 if self.cycled && self.standing.modal == Modal::Off && open {
-                    return Err(cannot("axis words whose motion is left open, behind a cycle"));
+                    return Err(cannot(HolesLack::OpenMotionAfterCycle));
                 }
                 self.words.statement(stmt, sink)
             }
@@ -212,13 +216,13 @@ impl Writer {
             Op::Label(name) => self.label(name, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
             Op::MessageOf(pieces) => self.message_of(pieces, span, sink),
-            Op::Output(_) => Err(cannot("text for a device")),
+            Op::Output(_) => Err(cannot(OperatorLack::DeviceText)),
             Op::Alarm(alarm) => self.alarm(alarm, span, sink),
             Op::Assign(to, value) => self.assign(to, value, span, sink),
             // With those of its block.
             Op::Declare(_) => self.declare(std::slice::from_ref(stmt), sink),
             Op::Goto(label) => self.go_to(label, span, sink),
-            Op::Leave | Op::NextTurn => Err(cannot("a loop that is left")),
+            Op::Leave | Op::NextTurn => Err(cannot(FlowLack::LoopLeft)),
         }
     }
 
@@ -237,15 +241,14 @@ impl Writer {
     /// The tolerance of the path, with the stage of machining as a number.
     fn path_tolerance(&mut self, advice: &Advice, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let row = self.dialect.name_for(NameMeaning::Code(Meaning::Advise(advice.kind, None)));
-        let row = row.ok_or_else(|| cannot("a tolerance of the path"))?;
+        let row = row.ok_or_else(|| cannot(ModesLack::PathTolerance))?;
         let stage = match advice.value_name() {
             "finishing" => 1,
             "semi-finishing" => 2,
             "roughing" => 3,
             _ => return self.alone(&format!("{}(0,0,1)", row.name), sink),
         };
-        let amount =
-            advice.amount.as_ref().ok_or_else(|| cannot("a tolerance of the path without its value"))?;
+        let amount = advice.amount.as_ref().ok_or_else(|| cannot(ModesLack::PathToleranceValue))?;
         let letter = self.letter("X", Quantity::Length);
         let amount = self.value(&letter, amount, span, sink)?;
         self.alone(&format!("{}({amount},{stage},1)", row.name), sink)
@@ -268,7 +271,7 @@ impl Writer {
 
     /// A dwell, which stands alone because its F is no feed.
     fn dwell(&mut self, seconds: &Expr, span: ncc_ir::source::Span, sink: &mut Sink) -> Result<(), Fault> {
-        let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot(FeedsLack::Dwell))?;
         let name = (dwell.word.letter as char).to_string();
         let word = self.lettered(&name, &dwell.word, seconds, span, sink)?;
         let code = String::from_utf8_lossy(code.text()).into_owned();
@@ -276,12 +279,12 @@ impl Writer {
     }
 
     fn message(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
-        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot("a message"))?;
+        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot(OperatorLack::Message))?;
         if text.contains('"') || text.chars().any(char::is_control) {
-            return Err(cannot("a message with a quotation mark"));
+            return Err(cannot(OperatorLack::MessageQuotation));
         }
         if text.chars().count() > LONGEST_MESSAGE {
-            return Err(cannot("a message of more than 200 characters"));
+            return Err(cannot(OperatorLack::MessageLength));
         }
         let text = if text.is_empty() { String::new() } else { format!("\"{text}\"") };
         self.alone(&format!("{}({text})", row.name), sink)

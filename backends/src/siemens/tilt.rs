@@ -8,6 +8,7 @@ use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::{FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use ncc_ir::source::Span;
 use ncc_passes::retract;
@@ -63,8 +64,8 @@ impl Writer {
             self.words.start(sink);
         }
         let row = self.dialect.name_for(NameMeaning::Code(Meaning::SetTilt));
-        let row = row.ok_or_else(|| cannot("a tilted plane"))?;
-        let mode = mode_of(tilt.about).ok_or_else(|| cannot("a tilted plane by turns about these axes"))?;
+        let row = row.ok_or_else(|| cannot(FramesLack::TiltedPlane))?;
+        let mode = mode_of(tilt.about).ok_or_else(|| cannot(FramesLack::TiltAxes))?;
         let zero = Expr::Num(Num::int(0, Unit::Mm));
         let length = self.letter("X", Quantity::Length);
         let angle = self.letter("A", Quantity::Angle);

@@ -7,6 +7,7 @@ use ncc_dialects::Role;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::{LengthsLack, ToolsLack};
 use ncc_ir::program::{Point, Stmt};
 use ncc_ir::source::Span;
 
@@ -25,7 +26,7 @@ impl Writer {
     pub(super) fn tool_by_name(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
         let row = self.dialect.address.iter().find(|row| row.role == Role::Tool && row.named);
         let plain = !name.is_empty() && !name.chars().any(|c| c == '"' || c.is_control());
-        let row = row.filter(|_| plain).ok_or_else(|| cannot(format!("a tool called {name}")))?;
+        let row = row.filter(|_| plain).ok_or_else(|| cannot(ToolsLack::Name { name: name.into() }))?;
         self.words.admit(&Need::new(Rank::Tool).letter(row.letter as u8), sink)?;
         self.words.block.text(Part::Tail, &format!("{}=\"{name}\"", row.letter));
         Ok(())
@@ -63,7 +64,7 @@ impl Writer {
 
     fn edge_word(&mut self, edge: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let row = self.dialect.address.iter().find(|row| row.role == Role::ToolEdge);
-        let row = row.ok_or_else(|| cannot("an edge of a tool"))?;
+        let row = row.ok_or_else(|| cannot(ToolsLack::Edge))?;
         let letter = self.letter(&row.letter.to_string(), row.quantity);
         let edge = self.words.number(&letter, edge, span, sink)?;
         if !(0..=9).contains(&edge.mantissa) {
@@ -85,7 +86,7 @@ impl Writer {
                 self.tell_edge(tool, span, sink);
                 self.edge_word(&Expr::int(1), span, sink)
             }
-            _ => Err(cannot("an entry of the length table that is not the tool's own")),
+            _ => Err(cannot(LengthsLack::NotOwnEntry)),
         }
     }
 
@@ -109,7 +110,7 @@ impl Writer {
                 self.tell_edge(tool, span, sink);
                 Ok(())
             }
-            _ => Err(cannot("a tool change that keeps the length of another tool")),
+            _ => Err(cannot(ToolsLack::ChangeKeepsLength)),
         }
     }
 

@@ -3,6 +3,7 @@
 use ncc_dialects::NameMeaning;
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::{FlowLack, WordsLack};
 use ncc_ir::program::{Call, Control, Op, Procedure, RepeatBlocks, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -81,7 +82,7 @@ impl Writer {
         }
         // There, the codes of the program's end lead back to what has called it.
         for end in p.body.iter().filter(|s| matches!(s.op, Op::ProgramEnd | Op::BeginAgain)) {
-            sink.report(cannot("the program's end in a subprogram"), end.span);
+            sink.report(cannot(FlowLack::ProgramEndInSubprogram), end.span);
         }
         self.body(&p.body, &mut sink);
         let silent = |s: &&Stmt| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
@@ -112,7 +113,7 @@ impl Writer {
     pub(super) fn call(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let arguments = self.arguments(call, span, sink)?;
         let times = match call.times {
-            0 => return Err(cannot("a call that is made no times")),
+            0 => return Err(cannot(FlowLack::CallNoTimes)),
             1 => String::new(),
             2..=MOST_TIMES => format!(" P{}", call.times),
             _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
@@ -138,7 +139,7 @@ impl Writer {
         if self.words.active.motion == Some(Motion::Traverse) {
             return Ok(());
         }
-        let code = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
+        let code = self.words.codes.traverse.ok_or_else(|| cannot(WordsLack::RapidMove))?;
         self.words.admit(&Need::new(Rank::Motion).code(Some(code)), sink)?;
         self.words.block.code(Part::Motion, &code);
         self.words.active.motion = Some(Motion::Traverse);
@@ -175,7 +176,7 @@ impl Writer {
             Some(times) => match times.whole_number().and_then(|n| u32::try_from(n).ok()) {
                 Some(0) => return Ok(()),
                 Some(times) => count(times)?,
-                None => return Err(cannot("a repetition that is not made a known number of times")),
+                None => return Err(cannot(FlowLack::RepetitionUnknown)),
             },
         };
         self.restate_feed(span, sink)?;
@@ -197,7 +198,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let row = self.dialect.name_for(which);
-        let row = row.ok_or_else(|| cannot("a repetition of blocks"))?;
+        let row = row.ok_or_else(|| cannot(FlowLack::Repetition))?;
         self.alone(&format!("{} {from}{to}{count}", row.name), sink)?;
         self.forget();
         Ok(())
@@ -215,7 +216,7 @@ impl Writer {
         };
         let times = times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let times = times.filter(|n| *n > 0 && stmt.skip.is_none());
-        let times = times.ok_or_else(|| cannot("a repetition that is not made a known number of times"))?;
+        let times = times.ok_or_else(|| cannot(FlowLack::RepetitionUnknown))?;
         let name = loop {
             self.repeats += 1;
             let name = format!("AGAIN_{}", self.repeats);

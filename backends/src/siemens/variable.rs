@@ -13,9 +13,11 @@ use ncc_ir::computed::assigned_variables::AssignedVariables;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::types::Types;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
+use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::arguments;
 use ncc_ir::program::cycle::Cycle;
 use ncc_ir::program::{Alarm, Attribute, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
+use ncc_ir::run_time::{RunTimeFlow, RunTimeValue, RunTimeWord};
 use ncc_ir::source::Span;
 
 use super::statement::LONGEST_MESSAGE;
@@ -198,7 +200,7 @@ impl Writer {
                 Var::Common(name) => ("VAR ", self.words.variables.get(name)),
                 Var::Retentive(_) | Var::System(_) => ("", None),
             };
-            let written = written.ok_or_else(|| cannot_compute("a parameter that all programs see"))?;
+            let written = written.ok_or_else(|| cannot_compute(RunTimeFlow::ParameterCommon))?;
             all.push(format!("{var}{} {written}", word(self.variables.types.of_var(parameter))));
         }
         Ok(Some(format!("PROC {name}({}){attributes}", all.join(", "))))
@@ -231,12 +233,12 @@ impl Writer {
         // One that is left out behind the others is zero (PGA, calls with parameters); a variable of the caller's is not.
         let left_out = takes.get(call.arguments.len()..);
         if left_out.is_none_or(|left_out| left_out.iter().any(|parameter| parameter.reference.is_some())) {
-            return Err(cannot_compute("a call with other arguments than its program has parameters"));
+            return Err(cannot_compute(RunTimeFlow::CallOtherArguments));
         }
         let by_reference = takes.iter().any(|parameter| parameter.reference.is_some());
         let changed = |value: &Expr| common(value) && (by_reference || !self.variables.changed.keeps(value));
         if call.times > 1 && call.arguments.iter().any(changed) {
-            let what = "a call that is made several times, with values that the called program may change";
+            let what = RunTimeFlow::CallChangesValues;
             return Err(cannot_compute(what));
         }
         let mut arguments = Vec::with_capacity(takes.len());
@@ -249,11 +251,9 @@ impl Writer {
                     let to = to.ok_or_else(|| {
                         cannot_compute(match value {
                             Expr::Node(node) if matches!(**node, Node::Element(_)) => {
-                                "an array of the caller's as a parameter"
+                                RunTimeFlow::ParameterArray
                             }
-                            _ => {
-                                "a parameter that is the caller's own variable, and is given none of its type"
-                            }
+                            _ => RunTimeFlow::ParameterOtherType,
                         })
                     })?;
                     self.variables.back.push((to, Expr::Node(Box::new(Node::Var(kept)))));
@@ -277,7 +277,7 @@ impl Writer {
                 None if types.are_whole(value) => value,
                 None if value.literal().is_some_and(|n| n.whole_number().is_some()) => value,
                 None => {
-                    return Err(cannot_compute("a value that is not whole, in a variable of whole numbers"));
+                    return Err(cannot_compute(RunTimeValue::NotWholeInInteger));
                 }
             },
             Type::Bool => {
@@ -287,7 +287,7 @@ impl Writer {
                 match not_zero(value) {
                     Some(number) => number,
                     None if types.type_of(value) == Type::Bool => value,
-                    None => return Err(cannot_compute("a number in a variable of truth values")),
+                    None => return Err(cannot_compute(RunTimeValue::NumberInTruth)),
                 }
             }
         };
@@ -310,7 +310,7 @@ impl Writer {
             return Ok(());
         }
         if self.standing.modal != Modal::Off && self.variables.cycle.iter().any(|expr| expr.reads(to)) {
-            return Err(cannot_compute("an assignment to what the cycle in force was computed from"));
+            return Err(cannot_compute(RunTimeWord::CycleSourceAssigned));
         }
         let kind = match to {
             Target::Var(var) => self.variables.types.of_var(var),
@@ -333,10 +333,10 @@ impl Writer {
         for stmt in rest {
             let Op::Declare(declare) = &stmt.op else { continue };
             if self.variables.executed {
-                return Err(cannot_compute("a variable that is made known behind blocks that are executed"));
+                return Err(cannot_compute(RunTimeValue::DeclarationAfterBlocks));
             }
             if stmt.skip.is_some() {
-                return Err(cannot_compute("a variable that is made known in a block that can be skipped"));
+                return Err(cannot_compute(RunTimeValue::DeclarationSkipped));
             }
             let one = self.definition(declare, stmt.span, sink)?;
             text = if text.is_empty() {
@@ -353,7 +353,7 @@ impl Writer {
             Var::Local(name) => self.words.variables.get(name).cloned(),
             Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
         };
-        let name = name.ok_or_else(|| cannot_compute("a variable that all programs see, made known"))?;
+        let name = name.ok_or_else(|| cannot_compute(RunTimeValue::DeclarationCommon))?;
         let sizes: Vec<String> = declare.sizes.iter().map(u32::to_string).collect();
         let sizes = if sizes.is_empty() { String::new() } else { format!("[{}]", sizes.join(",")) };
         let mut values = Vec::with_capacity(declare.initial.len());
@@ -368,7 +368,7 @@ impl Writer {
             [] => String::new(),
             [value] if declare.sizes.is_empty() => format!("={value}"),
             _ if declare.sizes.is_empty() => {
-                return Err(cannot_compute("several first values of one variable"));
+                return Err(cannot_compute(RunTimeValue::SeveralFirstValues));
             }
             [first, rest @ ..] if rest.len() + 1 == total && total > 1 && rest.iter().all(|v| v == first) => {
                 format!("=REP({first})")
@@ -380,14 +380,14 @@ impl Writer {
 
     /// A message with values in it.
     pub(super) fn message_of(&mut self, pieces: &[Piece], span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot("a message"))?;
+        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot(OperatorLack::Message))?;
         let mut texts = Vec::with_capacity(pieces.len() + 1);
         let mut long = 0;
         for piece in pieces {
             match piece {
                 Piece::Text(text) => {
                     if text.contains('"') || text.chars().any(char::is_control) {
-                        return Err(cannot("a message with a quotation mark"));
+                        return Err(cannot(OperatorLack::MessageQuotation));
                     }
                     long += text.chars().count();
                     texts.push(format!("\"{text}\""));
@@ -399,7 +399,7 @@ impl Writer {
                         Type::Bool => false,
                     };
                     if !fits {
-                        return Err(cannot_compute("a value with these digits in a message"));
+                        return Err(cannot_compute(RunTimeWord::MessageDigits));
                     }
                     if texts.is_empty() {
                         texts.push("\"\"".into());
@@ -409,7 +409,7 @@ impl Writer {
             }
         }
         if long > LONGEST_MESSAGE {
-            return Err(cannot("a message of more than 200 characters"));
+            return Err(cannot(OperatorLack::MessageLength));
         }
         self.alone(&format!("{}({})", row.name, texts.join("<<")), sink)
     }
@@ -418,11 +418,9 @@ impl Writer {
     pub(super) fn alarm(&mut self, alarm: &Alarm, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let number = alarm.number.as_ref().and_then(|n| n.literal()).and_then(|n| n.whole_number());
         let number = number.filter(|number| matches!(number, 61_000..=61_999 | 65_000..=66_999));
-        let number = number.ok_or_else(|| {
-            cannot_compute("an alarm whose number is not among 61000 to 61999 and 65000 to 66999")
-        })?;
+        let number = number.ok_or_else(|| cannot_compute(RunTimeWord::AlarmRange))?;
         if alarm.text.contains('"') || alarm.text.chars().any(char::is_control) {
-            return Err(cannot("an alarm with a quotation mark"));
+            return Err(cannot(OperatorLack::AlarmQuotation));
         }
         if !std::mem::replace(&mut self.variables.told_alarm, true) {
             let parameter = "alarms 61000 to 61999 and 65000 to 66999".into();
@@ -440,10 +438,10 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let Control::For { variable, from, to, step, .. } = control else {
-            return Err(cannot_compute("a loop of another kind"));
+            return Err(cannot_compute(RunTimeFlow::LoopOtherKind));
         };
         if !is(step, 1) {
-            return Err(cannot_compute("a loop that counts otherwise than by ones"));
+            return Err(cannot_compute(RunTimeFlow::LoopCountsOtherwise));
         }
         let from = self.of_type(Type::Int, from, span, sink)?;
         let to = self.words.expression(to, span, sink)?;

@@ -14,6 +14,7 @@ use ncc_dialects::{BY_HAND, FILE_PER_TOOL, TOOL_CHANGE};
 use ncc_ir::canon::{Axis, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::ToolsLack;
 use ncc_ir::source::Span;
 
 use super::Writer;
@@ -30,16 +31,16 @@ impl Writer {
         self.words.rely(TOOL_CHANGE, span, sink);
         // Of a file per tool, this block is where one ends and the next begins.
         if ![BY_HAND, FILE_PER_TOOL].contains(&self.words.settings.get(TOOL_CHANGE)) {
-            return Err(cannot("a tool change by hand, which the option tool_change refuses"));
+            return Err(cannot(ToolsLack::ChangeByHand));
         }
         let tool = self.words.tracker.selected.filter(|tool| *tool >= 0);
-        let tool = tool.ok_or_else(|| cannot("a tool change by hand to a tool that is not known"))?;
+        let tool = tool.ok_or_else(|| cannot(ToolsLack::ChangeByHandUnknown))?;
         let (codes, z) = (&self.words.codes, self.words.codes.axes[Axis::Z as usize]);
         let all = [codes.spindle_stop, codes.coolant_off, codes.machine[0], codes.traverse, codes.stop];
         let ([Some(off), Some(dry), Some(machine), Some(rapid), Some(stop)], Some(z), Some(letter)) =
             (all, z, codes.tool)
         else {
-            return Err(cannot("a tool change"));
+            return Err(cannot(ToolsLack::Change));
         };
         let number = self.words.number(&letter, &Expr::int(tool), span, sink)?;
         let zero = self.words.number(&z, &Expr::int(0), span, sink)?;

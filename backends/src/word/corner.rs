@@ -4,6 +4,7 @@ use ncc_ir::canon::CornerShape;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::{CornersLack, WordsLack};
 use ncc_ir::source::Span;
 
 use super::Writer;
@@ -20,10 +21,10 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let none = || cannot("a rounded or chamfered corner");
+        let none = || cannot(CornersLack::Corner);
         let word = self.dialect.corner.word(shape).ok_or_else(none)?;
         let axis = self.words.codes.axes[0].ok_or_else(none)?;
-        let n = size.literal().ok_or_else(|| cannot("a computed value"))?;
+        let n = size.literal().ok_or_else(|| cannot(WordsLack::ComputedValue))?;
         let sign = if word.negative { -1 } else { 1 };
         let n = Num { mantissa: n.mantissa * sign, ..n };
         let letter = Letter { letter: word.letter as u8, format: axis.format };

@@ -11,6 +11,7 @@ use ncc_ir::canon::{Axis, Fact, FeedMode, Motion, Plane, ReturnLevel};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::expr::{Expr, Target};
+use ncc_ir::lack::{FeedsLack, HolesLack, ThreadsLack, WordsLack};
 use ncc_ir::program::arguments::reads;
 use ncc_ir::program::cycle::{Cycle, CycleKind, Shift};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
@@ -77,7 +78,7 @@ impl Writer {
         let with_hole = self.dialect.cycles.hole_on_definition;
         let holds_another = |before: &Held| !before.in_text && before.skip != stmt.skip;
         if with_hole && stmt.skip.is_some() && self.held.as_ref().is_some_and(holds_another) {
-            return Err(cannot("a skippable cycle behind one without a hole"));
+            return Err(cannot(HolesLack::SkippedAfterCycleWithoutHole));
         }
         match self.held.take() {
             Some(before) if before.in_text && self.words.active.motion == Some(Motion::Cycle) => {
@@ -113,7 +114,7 @@ impl Writer {
         match self.held.take() {
             Some(held) if !held.in_text || !in_force || (with_call && to.to.is_empty()) => {
                 if held.skip.is_some() && held.skip != stmt.skip {
-                    return Err(cannot("a cycle whose call can be skipped and its holes cannot"));
+                    return Err(cannot(HolesLack::SkippedCallOnly));
                 }
                 let at = with_call.then_some(&to.to);
                 self.call_up(held, at, to.said, stmt, sink)?;
@@ -123,7 +124,7 @@ impl Writer {
             }
             Some(held) => self.held = Some(held),
             None if in_force => {}
-            None => return Err(cannot("a hole of a cycle that is not known")),
+            None => return Err(cannot(HolesLack::HoleOfUnknownCycle)),
         }
         if to.to.is_empty() {
             let to = self.stand_words()?;
@@ -136,7 +137,7 @@ impl Writer {
         if self.dialect.cycles.no_rotary
             && [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| to.get(axis).is_some())
         {
-            return Err(cannot("a rotary axis in a canned cycle"));
+            return Err(cannot(HolesLack::RotaryAxis));
         }
         let mut inserted = Inserted::default();
         self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
@@ -152,16 +153,16 @@ impl Writer {
         let distance = self.words.active.distance;
         let absolute = Some(ncc_ir::canon::Distance::Absolute);
         if distance != absolute {
-            return Err(cannot("a hole where the tool stands, in incremental coordinates"));
+            return Err(cannot(HolesLack::IncrementalHoleHere));
         }
         let unit = match self.words.active.units {
             Some(ncc_ir::canon::Units::Inch) => Unit::Inch,
             Some(ncc_ir::canon::Units::Mm) => Unit::Mm,
-            None => return Err(cannot("a position in a unit that is not known")),
+            None => return Err(cannot(HolesLack::PositionUnitUnknown)),
         };
         let mut to = Point::default();
         for axis in [first, second] {
-            let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
+            let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot(WordsLack::Axis))?;
             let n = number::from_nanos(self.words.axis_position(axis)?, &letter.format, unit);
             to.set(axis, Coord { value: Expr::Num(n), distance: distance.into() });
         }
@@ -172,7 +173,7 @@ impl Writer {
         let held = self.held.take().filter(|h| !h.in_text);
         let dropped = held.is_some() && self.dialect.cycles.hole_on_definition;
         if let Some(feed) = held.and_then(|h| h.cycle.feed) {
-            let letter = self.words.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
+            let letter = self.words.codes.feed_word.ok_or_else(|| cannot(FeedsLack::Feed))?;
             let value = self.words.value(&letter, &feed, span, sink)?;
             self.words.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
             self.words.block.word(Part::Feed, letter.letter, value);
@@ -182,7 +183,7 @@ impl Writer {
         if dropped && other_motion {
             return Ok(());
         }
-        let code = self.words.setting(Setting::NoCycle)?.ok_or_else(|| cannot("the end of a cycle"))?;
+        let code = self.words.setting(Setting::NoCycle)?.ok_or_else(|| cannot(HolesLack::CycleEnd))?;
         self.words.admit(&Need::new(Rank::CycleEnd).code(Some(code)), sink)?;
         self.words.block.code(Part::Mode, &code);
         self.words.now_in_force(Setting::NoCycle);
@@ -198,7 +199,7 @@ impl Writer {
         if !by_code(&held.cycle) || held.before.as_deref().is_some_and(by_code) {
             return Ok(());
         }
-        let code = self.words.codes.rigid_tapping.ok_or_else(|| cannot("rigid tapping"))?;
+        let code = self.words.codes.rigid_tapping.ok_or_else(|| cannot(ThreadsLack::RigidTapping))?;
         let number = self.words.block.number.take();
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
@@ -218,7 +219,7 @@ impl Writer {
             && self.words.active.feed_mode == Some(FeedMode::PerRevolution);
         match (feed.filter(|_| by_feed), self.words.codes.feed_word) {
             (Some(feed), Some(letter)) if number::shape(feed, &letter.format).is_ok_and(|s| s.rounded) => {
-                Err(cannot("a pitch with so many digits"))
+                Err(cannot(ThreadsLack::PitchDigits))
             }
             _ => Ok(()),
         }
@@ -230,7 +231,7 @@ impl Writer {
             return Ok(());
         }
         if self.dialect.cycles.repeat.is_none() || self.dialect.cycles.repeat_once {
-            return Err(cannot("a cycle that is called up without a hole"));
+            return Err(cannot(HolesLack::CycleWithoutHole));
         }
         let Some(held) = self.held.take() else { return Ok(()) };
         let (number, split) = (self.words.block.number.take(), self.words.split);
@@ -270,7 +271,7 @@ impl Writer {
             let depth = words.depth_letter;
             let along = |axis: &Axis| at.get(*axis).is_some() && axis.letter() == depth;
             if Axis::ALL.iter().any(along) {
-                return Err(cannot("a hole position along the drilling axis"));
+                return Err(cannot(HolesLack::AlongDrillingAxis));
             }
             need = self.words.point_need(need, at)?;
         }
@@ -335,14 +336,14 @@ impl Writer {
             let text = String::from_utf8_lossy(row.code.text());
             let one_plane = self.dialect.cycle_row(&text).is_some_and(|row| row.one_plane);
             if !self.dialect.cycles.any_plane || one_plane {
-                return Err(cannot("a cycle along another axis than Z"));
+                return Err(cannot(HolesLack::NotAlongZ));
             }
             row.depth.letter = normal;
         }
         if self.dialect.cycles.no_rotary
             && at.is_some_and(|to| [Axis::A, Axis::B, Axis::C].into_iter().any(|a| to.get(a).is_some()))
         {
-            return Err(cannot("a rotary axis in a canned cycle"));
+            return Err(cannot(HolesLack::RotaryAxis));
         }
         let (peck, dwell) = match &cycle.kind {
             CycleKind::Drill => (None, None),
@@ -354,7 +355,7 @@ impl Writer {
             CycleKind::Tap(tap) => (None, tap.dwell.as_ref().or(tap.back.as_ref())),
             CycleKind::FineBore(bore) => match &bore.shift {
                 Shift::Parameter(amount) => (Some(amount), bore.dwell.as_ref()),
-                Shift::Stated(_) => return Err(cannot("fine boring with a stated shift")),
+                Shift::Stated(_) => return Err(cannot(HolesLack::StatedShift)),
             },
             CycleKind::BoreStop(bore) => (None, bore.dwell.as_ref()),
         };
@@ -393,7 +394,7 @@ impl Writer {
         let stated = before.and(held.feed.as_ref());
         let feed = match (cycle.feed.as_ref().filter(|f| Some(*f) != stated), self.words.codes.feed_word) {
             (Some(feed), Some(letter)) => Some((letter.letter, self.words.value(&letter, feed, span, sink)?)),
-            (Some(_), None) => return Err(cannot("a feed")),
+            (Some(_), None) => return Err(cannot(FeedsLack::Feed)),
             (None, _) => None,
         };
         let same_depth = before.is_some_and(|b| b.depth == cycle.depth);
@@ -446,9 +447,7 @@ impl Writer {
         }
         let shrinks = less.is_some();
         if self.pecks_left.is_some_and(|left| left != shrinks) {
-            return Err(cannot(
-                "pecks that decrease, and pecks of one depth, without the end of a cycle between",
-            ));
+            return Err(cannot(HolesLack::PeckKindsWithoutCycleEnd));
         }
         let words = match (first, less, row.shrinking, row.peck) {
             (Some(first), Some(less), Some(letters), _) => {
@@ -456,7 +455,7 @@ impl Writer {
             }
             (None, None, _, Some(letter)) => vec![(letter, peck)],
             (None, None, _, None) => return Ok(Vec::new()),
-            _ => return Err(cannot("pecks of different depths")),
+            _ => return Err(cannot(HolesLack::PecksDiffer)),
         };
         self.pecks_left = Some(shrinks);
         let mut written = Vec::with_capacity(words.len());
@@ -471,11 +470,9 @@ impl Writer {
         let fixed = self.dialect.cycles.return_level.map(ReturnLevel::from);
         match (level, fixed) {
             (Fact::Known(level), Some(fixed)) if level == fixed => Ok(None),
-            (Fact::Known(_), Some(_)) => Err(cannot("a cycle that returns to the other level")),
-            (Fact::Entry, Some(_)) => Err(cannot("a cycle whose return level is the caller's")),
-            (Fact::Entry, None) if self.words.active.our_level => {
-                Err(cannot("a cycle whose return level is not known"))
-            }
+            (Fact::Known(_), Some(_)) => Err(cannot(HolesLack::OtherReturnLevel)),
+            (Fact::Entry, Some(_)) => Err(cannot(HolesLack::CallersReturnLevel)),
+            (Fact::Entry, None) if self.words.active.our_level => Err(cannot(HolesLack::ReturnLevelUnknown)),
             (Fact::Entry, None) => Ok(None),
             (Fact::Known(level), None)
                 if self.words.active.level == Some(level)

@@ -6,6 +6,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
+use ncc_ir::lack::{FramesLack, LengthsLack, TablesLack};
 use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
 
@@ -33,13 +34,12 @@ impl Writer {
         match data {
             Data::Position(place) => {
                 let code = self.words.codes.store_position[usize::from(*place == 2)];
-                let code = code.ok_or_else(|| cannot("storing where the axes stand"))?;
+                let code = code.ok_or_else(|| cannot(TablesLack::AxesPosition))?;
                 self.alone(code, Vec::new(), sink)
             }
             Data::ToolInSpindle(tool) => {
                 let code = self.words.codes.tool_number.filter(|_| tool.literal().is_some());
-                let (code, letter) =
-                    code.ok_or_else(|| cannot("setting the number of the tool in the spindle"))?;
+                let (code, letter) = code.ok_or_else(|| cannot(TablesLack::ToolInSpindle))?;
                 let value = self.words.value(&letter, tool, span, sink)?;
                 self.alone(code, vec![(letter.letter, value)], sink)
             }
@@ -52,11 +52,11 @@ impl Writer {
                     let row = table.row;
                     row.kind == kind && offset.checked_sub(row.first).is_some_and(|n| n < row.count)
                 };
-                let what = || cannot(format!("the zero of work offset {offset}"));
+                let what = || cannot(TablesLack::OffsetZero { offset: *offset });
                 let table = tables.iter().find(has).ok_or_else(what)?.clone();
                 let mut own = self.words.along(&words[..])?;
                 if let Some(turn) = turn {
-                    let letter = table.turn.ok_or_else(|| cannot("rotation of a work offset"))?;
+                    let letter = table.turn.ok_or_else(|| cannot(FramesLack::OffsetRotation))?;
                     own.push((letter, turn.clone()));
                 }
                 let entry = u32::from(offset - table.row.first) + 1;
@@ -69,8 +69,7 @@ impl Writer {
                         && row.in_offset == offset.unwrap_or(0)
                         && *entry <= u32::from(row.count)
                 };
-                let table =
-                    tables.iter().find(has).ok_or_else(|| cannot("a tool measured where the axes stand"))?;
+                let table = tables.iter().find(has).ok_or_else(|| cannot(TablesLack::MeasuredTool))?;
                 let own = self.words.along(&words[..])?;
                 self.stored(&table.clone(), &entry.to_string(), false, &own, span, sink)
             }
@@ -80,11 +79,11 @@ impl Writer {
                     (*entry <= u32::from(table.row.count)).then(|| (table.clone(), letter))
                 };
                 let found = tables.iter().find_map(has);
-                let (table, letter) = found.ok_or_else(|| cannot("this value in the control's tables"))?;
+                let (table, letter) = found.ok_or_else(|| cannot(TablesLack::Value))?;
                 let radius = matches!(which, ToolValue::Radius | ToolValue::RadiusWear);
                 let mut value = value.clone();
                 if radius && self.words.settings.get(RADIUS_DATA) == "diameter" {
-                    value = twice(&value).ok_or_else(|| cannot("this diameter"))?;
+                    value = twice(&value).ok_or_else(|| cannot(TablesLack::Diameter))?;
                 }
                 if radius {
                     self.words.rely(RADIUS_DATA, span, sink);
@@ -174,7 +173,7 @@ impl Writer {
             ToolLength::AddedEntry(entry) => (added, self.words.codes.entry, entry),
             ToolLength::Offsets { added: adds, words } => {
                 let code = if *adds { added } else { stated };
-                let code = code.ok_or_else(|| cannot("a tool's offsets by their values"))?;
+                let code = code.ok_or_else(|| cannot(LengthsLack::OffsetsByValue))?;
                 let own = self.words.along(&words[..])?;
                 let mut said = Vec::with_capacity(own.len());
                 for (letter, value) in &own {
@@ -183,7 +182,7 @@ impl Writer {
                 return self.alone(code, said, sink);
             }
         };
-        let (code, letter) = code.zip(letter).ok_or_else(|| cannot("a tool's length by its value"))?;
+        let (code, letter) = code.zip(letter).ok_or_else(|| cannot(LengthsLack::ByValue))?;
         let value = self.words.value(&letter, value, span, sink)?;
         self.alone(code, vec![(letter.letter, value)], sink)
     }
@@ -224,7 +223,7 @@ impl Writer {
             let coords: Vec<Coord> = own.iter().map(counted).collect();
             self.words.need_distance(coords.iter(), &mut inserted)?;
         } else if added {
-            return Err(cannot("a value added to one in the control's tables"));
+            return Err(cannot(TablesLack::AddedValue));
         }
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);

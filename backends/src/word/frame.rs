@@ -1,6 +1,7 @@
 //! The frame of a program: what stands before the first block, between procedures and at the end.
 
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::{CompensationLack, FlowLack, OperatorLack};
 use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -74,9 +75,9 @@ impl Writer {
         self.words.no_event(&mut sink);
         let span = p.body.first().map_or(Span::default(), |s| s.span);
         let number = match self.dialect.program.number.filter(|_| self.dialect.program.subprograms) {
-            None => Err(cannot("a subprogram")),
+            None => Err(cannot(FlowLack::Subprogram)),
             Some(_) if !p.parameters.is_empty() && !self.dialect.program.macro_b => {
-                Err(cannot("a subprogram with parameters"))
+                Err(cannot(FlowLack::SubprogramParameters))
             }
             Some(_) if self.has_name(&p.name) => Ok(None),
             Some(letter) => self.program_number(&p.name).map(|number| Some((letter, number))),
@@ -84,7 +85,7 @@ impl Writer {
         let number = match number {
             // A number in its way ends nothing (LinuxCNC's interpreter, run).
             Ok(_) if self.dialect.program.o_words && !self.main_ends => {
-                Err(cannot("programs behind one that does not end"))
+                Err(cannot(FlowLack::ProgramsAfterOpenEnd))
             }
             number => number,
         };
@@ -117,11 +118,11 @@ impl Writer {
         self.words.no_event(&mut sink);
         if self.stop_text.take().is_some() {
             // No stop has come behind it that could say it.
-            sink.report(cannot("a message to the operator"), Span::default());
+            sink.report(cannot(OperatorLack::OperatorMessage), Span::default());
         }
         if self.dialect.program.o_words && !self.main_ends && self.words.tracker.compensated {
             // The last move is made when the program says its end (LinuxCNC's interpreter, run).
-            sink.report(cannot("the end of the text under cutter radius compensation"), Span::default());
+            sink.report(cannot(CompensationLack::EndOfText), Span::default());
         }
         self.words.finish(&mut sink);
     }

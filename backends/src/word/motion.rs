@@ -13,6 +13,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::geometry;
 use ncc_ir::geometry::arc_solver::MOST_SHORT;
+use ncc_ir::lack::{ArcsLack, MachineLack, WordsLack};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 
@@ -35,7 +36,7 @@ impl Writer {
             point => (point, None),
         };
         let row = self.words.codes.references.iter().find(|(own, ..)| *own == point);
-        let (_, code, letter) = *row.ok_or_else(|| cannot("a move to this point of the machine"))?;
+        let (_, code, letter) = *row.ok_or_else(|| cannot(MachineLack::FurtherPoint))?;
         let mut via = to.via.clone();
         // To a stored position all axes go without a word of any.
         let stored = matches!(to.point, ReferencePoint::Stored(_)) && via.is_empty();
@@ -74,10 +75,10 @@ impl Writer {
             return self.words.straight(&line, false, span, sink);
         }
         let motion = Motion::Arc(arc.turn);
-        let code = self.words.codes.arcs[arc.turn as usize].ok_or_else(|| cannot("an arc"))?;
+        let code = self.words.codes.arcs[arc.turn as usize].ok_or_else(|| cannot(ArcsLack::Arc))?;
         let turns = match (arc.turns.is_none(), self.words.codes.turns) {
             (true, _) => None,
-            (false, None) => return Err(cannot("an arc of more than one turn")),
+            (false, None) => return Err(cannot(ArcsLack::SeveralTurns)),
             (false, Some(letter)) => {
                 Some((letter.letter, self.words.value(&letter, &arc.turns.all(), span, sink)?))
             }
@@ -86,7 +87,7 @@ impl Writer {
         self.words.need_distance(arc.to.axes.iter().flatten(), &mut inserted)?;
         self.words.need_plane(arc.plane, &mut inserted)?;
         if !self.dialect.arc.helix && self.leaves_plane(arc) {
-            return Err(cannot("an arc with a third axis"));
+            return Err(cannot(ArcsLack::ThirdAxis));
         }
         let start = self.words.residue;
         let full = self.words.becomes_full(arc);
@@ -131,7 +132,7 @@ impl Writer {
         let (Some(distance), Some(letter)) =
             (self.words.active.distance, self.words.codes.axes[first as usize])
         else {
-            return Err(cannot("a full circle where the distance mode is not known"));
+            return Err(cannot(ArcsLack::CircleModeUnknown));
         };
         let value = match (distance, self.words.active.units) {
             (Distance::Incremental, _) => Num::int(0, Unit::Entry),
@@ -139,7 +140,7 @@ impl Writer {
                 let unit = if units == Units::Inch { Unit::Inch } else { Unit::Mm };
                 number::from_nanos(self.words.axis_position(first)?, &letter.format, unit)
             }
-            (Distance::Absolute, None) => return Err(cannot("a full circle in a unit that is not known")),
+            (Distance::Absolute, None) => return Err(cannot(ArcsLack::CircleUnitUnknown)),
         };
         let mut arc = arc.clone();
         arc.to.set(first, Coord { value: Expr::Num(value), distance: Fact::Known(distance) });
@@ -206,13 +207,13 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<CentreWords, Fault> {
         let plane = arc.plane.known().or(self.words.active.plane);
-        let plane = plane.ok_or_else(|| cannot("an arc in a plane that is not known"))?;
+        let plane = plane.ok_or_else(|| cannot(ArcsLack::PlaneUnknown))?;
         let (first, second, _) = plane.axes();
         let absolute = self.dialect.arc.centre_absolute;
         let unit = match self.words.active.units {
             Some(Units::Mm) => Unit::Mm,
             Some(Units::Inch) => Unit::Inch,
-            None => return Err(cannot("an arc's centre in a unit that is not known")),
+            None => return Err(cannot(ArcsLack::CentreUnitUnknown)),
         };
         let centre = match &arc.centre {
             // Both from the start: a centre word becomes a difference or a sum, exactly.
@@ -234,7 +235,7 @@ impl Writer {
                         (CentreFrom::Zero, Some(word)) => word.checked_sub(self.words.axis_position(axis)?),
                         (CentreFrom::Zero, None) => Some(0),
                     }
-                    .ok_or_else(|| cannot("a centre this far away"))?;
+                    .ok_or_else(|| cannot(ArcsLack::CentreTooFar))?;
                 }
                 along
             }
@@ -268,9 +269,10 @@ impl Writer {
 
     /// A length in nanos.
     pub(crate) fn length(&mut self, value: &ncc_ir::expr::Expr, span: Span) -> Result<Nanos, Fault> {
-        let n = value.literal().ok_or_else(|| cannot("a computed value"))?;
+        let n = value.literal().ok_or_else(|| cannot(WordsLack::ComputedValue))?;
         self.words.check_unit(n, span)?;
         let inch = self.words.active.units == Some(Units::Inch);
-        n.nanos(inch).ok_or_else(|| cannot(number::spell(b' ', n).trim_start()))
+        n.nanos(inch)
+            .ok_or_else(|| cannot(WordsLack::Number { word: number::spell(b' ', n).trim_start().into() }))
     }
 }

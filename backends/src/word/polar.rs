@@ -5,6 +5,7 @@
 
 use ncc_ir::diag::Fault;
 use ncc_ir::geometry::polar;
+use ncc_ir::lack::PolarLack;
 use ncc_ir::program::{Op, Polar, Stmt};
 
 use super::Writer;
@@ -18,13 +19,12 @@ impl Writer {
     /// # Errors
     /// The dialect has no such mode, or the point is not one of it.
     pub(crate) fn polar(&mut self, polar: &Polar, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        let on = self.words.codes.polar[1].ok_or_else(|| cannot("a point by radius and angle"))?;
+        let on = self.words.codes.polar[1].ok_or_else(|| cannot(PolarLack::Point))?;
         if stmt.skip.is_some() {
-            return Err(cannot("a point by radius and angle in a block that can be skipped"));
+            return Err(cannot(PolarLack::PointSkipped));
         }
         let plane = polar.plane.known().or(self.words.active.plane);
-        let plane =
-            plane.ok_or_else(|| cannot("a point by radius and angle in a plane that is not known"))?;
+        let plane = plane.ok_or_else(|| cannot(PolarLack::PointPlaneUnknown))?;
         let mut inserted = crate::common::setting::Inserted::default();
         self.words.need_plane(polar.plane, &mut inserted)?;
         self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
@@ -35,7 +35,7 @@ impl Writer {
         }
         let (first, second, _) = plane.axes();
         let mut op = polar.op.clone();
-        let to = polar::end(&mut op).ok_or_else(|| cannot("this function to a polar point"))?;
+        let to = polar::end(&mut op).ok_or_else(|| cannot(PolarLack::FunctionToPoint))?;
         for (axis, word) in [(first, &polar.radius), (second, &polar.angle)] {
             if let Some(word) = word {
                 to.set(axis, word.clone());
@@ -51,7 +51,7 @@ impl Writer {
         } else if let Op::Hole(to) = &op {
             self.hole(to, stmt, sink)
         } else {
-            Err(cannot("this function to a polar point"))
+            Err(cannot(PolarLack::FunctionToPoint))
         }
     }
 
@@ -60,7 +60,7 @@ impl Writer {
         if !self.polar || !polar::leaves_points(&stmt.op, self.words.active.plane) {
             return Ok(());
         }
-        let off = self.words.codes.polar[0].ok_or_else(|| cannot("the end of points by radius and angle"))?;
+        let off = self.words.codes.polar[0].ok_or_else(|| cannot(PolarLack::PointsEnd))?;
         // A block that is skipped must not say it.
         let skip = self.words.block.skip.take();
         self.words.admit(&Need::new(Rank::Setting).code(Some(off)), sink)?;

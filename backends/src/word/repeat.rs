@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use ncc_dialects::REPEAT_COUNT;
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
@@ -106,11 +107,11 @@ impl Writer {
     pub(crate) fn label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
         let mut known = self.labels.all.iter().enumerate().filter(|(_, label)| *label.name == *name);
         let (Some((at, label)), None) = (known.next(), known.next()) else {
-            return Err(cannot("a label"));
+            return Err(cannot(FlowLack::Label));
         };
         let (begins, ends) = (label.begins, label.ends);
         if self.held.as_ref().is_some_and(|held| !held.in_text) {
-            return Err(cannot("repeated blocks that begin or end within a cycle's own block"));
+            return Err(cannot(FlowLack::RepetitionInCycleBlock));
         }
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
@@ -182,9 +183,9 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let letters = self.dialect.repeat.letters().ok_or_else(|| cannot("a repetition of blocks"))?;
+        let letters = self.dialect.repeat.letters().ok_or_else(|| cannot(FlowLack::Repetition))?;
         let times = repeat.times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
-        let times = times.ok_or_else(|| cannot("a computed repetition"))?;
+        let times = times.ok_or_else(|| cannot(FlowLack::RepetitionComputed))?;
         if times == 0 {
             return Ok(());
         }
@@ -192,7 +193,7 @@ impl Writer {
         let from = named(&repeat.from).map(|label| label.numbers[0]);
         let to = repeat.to.as_ref().and_then(named).and_then(|label| label.end);
         let (Some(from), Some(to), None) = (from, to, self.words.numbers.waiting) else {
-            return Err(cannot("a repetition of these blocks"));
+            return Err(cannot(FlowLack::RepetitionOfThese));
         };
         let total = self.words.settings.get(REPEAT_COUNT) == "total";
         let times = times.saturating_add(u32::from(total));

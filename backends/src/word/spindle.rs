@@ -5,6 +5,7 @@
 use ncc_ir::canon::{Spindle, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::SpindleLack;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
 
@@ -28,10 +29,10 @@ impl Writer {
             return Ok(());
         }
         let known = self.words.codes.surface_limit.and_then(|_| limit.literal());
-        let limit = known.ok_or_else(|| cannot("a limit of the spindle speed"))?;
+        let limit = known.ok_or_else(|| cannot(SpindleLack::SpeedLimit))?;
         // It is said with the surface speed that follows.
         if self.words.surfaces.unlimited || self.words.active.spindle_mode == Some(SpindleMode::Surface) {
-            return Err(cannot("a limit of the spindle behind the surface speed that it is for"));
+            return Err(cannot(SpindleLack::LimitAfterSurfaceSpeed));
         }
         self.words.surfaces.limited = true;
         self.words.surfaces.unsaid = Some(span);
@@ -64,7 +65,7 @@ impl Writer {
         if (starts || turns && !sets)
             && let Some(span) = self.words.surfaces.unsaid.take()
         {
-            sink.report(cannot("a limit of the spindle under a speed in turns"), span);
+            sink.report(cannot(SpindleLack::LimitUnderTurns), span);
         }
     }
 }

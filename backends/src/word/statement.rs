@@ -5,7 +5,12 @@ mod call;
 use ncc_dialects::{COMPUTED_DWELL, DWELL_UNIT, Meaning};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
+use ncc_ir::lack::{
+    ArcsLack, FeedsLack, FlowLack, FramesLack, HolesLack, LengthsLack, MachineLack, OperatorLack, PolarLack,
+    ToolsLack, WordsLack,
+};
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::run_time::{RunTimeFlow, RunTimeValue};
 use ncc_ir::source::Span;
 
 use super::Writer;
@@ -77,26 +82,26 @@ impl Writer {
                 None if self.sets_no_effect(name) => self.statement_alone(name, sink),
                 Some(_) | None => self.words.statement(stmt, sink),
             },
-            Op::TurnRotaryAxes(_) => Err(cannot("which way round a rotary axis goes")),
-            Op::ExactStop if self.held.is_some() => Err(cannot("an exact stop in a block of a cycle")),
+            Op::TurnRotaryAxes(_) => Err(cannot(WordsLack::RotaryDirection)),
+            Op::ExactStop if self.held.is_some() => Err(cannot(HolesLack::ExactStopInCycle)),
             Op::ExactStop => self.words.statement(stmt, sink),
             Op::Corner { shape, size } => self.ask_corner(*shape, size, span, sink),
             Op::LimitSpindleSpeed(limit) => self.speed_limit(limit, span, sink),
-            Op::SelectToolByName(name) => Err(cannot(format!("a tool called {name}"))),
-            Op::SetFrame(_) => Err(cannot("a frame")),
+            Op::SelectToolByName(name) => Err(cannot(ToolsLack::Name { name: (**name).into() })),
+            Op::SetFrame(_) => Err(cannot(FramesLack::Frame)),
             Op::UseMachineCoordinates { length } => {
                 let code = codes.machine[usize::from(*length)];
-                self.words.machine = Some(code.ok_or_else(|| cannot("machine coordinates"))?);
+                self.words.machine = Some(code.ok_or_else(|| cannot(MachineLack::CoordinatesCode))?);
                 Ok(())
             }
             Op::Probe(probe) => {
                 let found = codes.probes.iter().find(|(own, _)| own == probe);
-                self.words.probe = Some(found.ok_or_else(|| cannot("a probing move"))?.1);
+                self.words.probe = Some(found.ok_or_else(|| cannot(MachineLack::Probing))?.1);
                 Ok(())
             }
             Op::Detour(detour) => {
                 let code = codes.detours[*detour as usize];
-                self.words.detour = Some(code.ok_or_else(|| cannot("a rapid move by a detour"))?);
+                self.words.detour = Some(code.ok_or_else(|| cannot(MachineLack::Detour))?);
                 Ok(())
             }
             // It is said with the length that follows.
@@ -104,18 +109,18 @@ impl Writer {
                 self.tip = *on;
                 Ok(())
             }
-            Op::UseToolCentrePoint(_) => Err(cannot("control of the tool's tip")),
+            Op::UseToolCentrePoint(_) => Err(cannot(ToolsLack::TipControl)),
             Op::OrientToolAxis(None) => self.words.upright(span, sink),
-            Op::OrientToolAxis(Some(_)) => Err(cannot("the way in which the tool's axis is turned")),
+            Op::OrientToolAxis(Some(_)) => Err(cannot(FramesLack::AxisTurning)),
             Op::GoToReference(reference) => self.reference(reference, span, sink),
             Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolLength(length) => self.stated_length(length, span, sink),
             Op::UseToolEdge { edge, .. } => self.own_length(edge, span, sink),
-            Op::ArcForm(_) => Err(cannot("an arc in this form")),
+            Op::ArcForm(_) => Err(cannot(ArcsLack::Form)),
             Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
             // The mode of polar words is about program zero alone; a pass has seen to it.
             Op::SetPole(_) if codes.polar[1].is_some() => Ok(()),
-            Op::SetPole(_) => Err(cannot("a pole")),
+            Op::SetPole(_) => Err(cannot(PolarLack::Pole)),
             Op::Polar(polar) => self.polar(polar, stmt, sink),
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::ChangeTool if self.dialect.can.change_by_hand => self.change_by_hand(span, sink),
@@ -135,7 +140,7 @@ impl Writer {
             Op::EndCycle => self.end_cycle(span, sink),
             Op::ProgramStop if self.stop_text.is_some() => self.stop_with_text(stmt, sink),
             Op::ProgramStop => self.words.statement(stmt, sink),
-            Op::BeginAgain => self.words.m_code(Rank::Stop, codes.again, "a program that begins again", sink),
+            Op::BeginAgain => self.words.m_code(Rank::Stop, codes.again, FlowLack::ProgramBeginsAgain, sink),
             Op::Message(text) if self.dialect.caps.modes.stop_messages => {
                 self.stop_text = Some(text.clone());
                 Ok(())
@@ -150,11 +155,11 @@ impl Writer {
             Op::Alarm(alarm) if self.has_o_words() => self.o_alarm(alarm, sink),
             Op::Leave if self.has_o_words() => self.o_leave(false, stmt, sink),
             Op::NextTurn if self.has_o_words() => self.o_leave(true, stmt, sink),
-            Op::MessageOf(_) => Err(cannot("a message with values in it")),
+            Op::MessageOf(_) => Err(cannot(OperatorLack::MessageValues)),
             Op::Output(output) => self.output(output, stmt, sink),
             Op::Alarm(alarm) => self.alarm(alarm, stmt, sink),
-            Op::Declare(_) => Err(cannot_compute("a variable that is made known")),
-            Op::Leave | Op::NextTurn => Err(cannot_compute("a loop that is left")),
+            Op::Declare(_) => Err(cannot_compute(RunTimeValue::Declaration)),
+            Op::Leave | Op::NextTurn => Err(cannot_compute(RunTimeFlow::LoopLeft)),
             Op::Assign(to, value) => self.assign(to, value, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
             Op::Goto(label) => self.go_to(label, stmt, sink),
@@ -166,7 +171,7 @@ impl Writer {
     /// A message: a comment of its own form, in a line of its own.
     fn message(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         if self.dialect.comment.message.is_empty() {
-            return Err(cannot("a message to the operator"));
+            return Err(cannot(OperatorLack::OperatorMessage));
         }
         let waits = !self.words.block.is_empty() || !self.words.block.comment.is_empty();
         if waits {
@@ -175,7 +180,7 @@ impl Writer {
         }
         let changed = self.words.comments.message(text, &mut self.words.block.comment);
         self.words.flush(false, sink);
-        if changed { Err(cannot("a message with these characters")) } else { Ok(()) }
+        if changed { Err(cannot(OperatorLack::MessageCharacters)) } else { Ok(()) }
     }
 
     fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
@@ -208,7 +213,7 @@ impl Writer {
             return Ok(());
         }
         let letter = self.words.codes.corrector.filter(|_| self.options.corrector_counts);
-        let letter = letter.ok_or_else(|| cannot("a length offset"))?;
+        let letter = letter.ok_or_else(|| cannot(LengthsLack::Offset))?;
         let value = self.words.value(&letter, entry, span, sink)?;
         self.words.rely("o_word", span, sink);
         let sure = self.dialect.address_row(letter.letter).is_none_or(|row| row.zero_sure);
@@ -226,7 +231,7 @@ impl Writer {
     fn own_length(&mut self, edge: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.words.codes.length.filter(|_| self.words.codes.own_length && !self.tip);
         let code = code.filter(|_| edge.literal().and_then(|n| n.whole_number()) == Some(1));
-        let code = code.ok_or_else(|| cannot("an edge of a tool"))?;
+        let code = code.ok_or_else(|| cannot(ToolsLack::Edge))?;
         self.words.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
         self.words.block.code(Part::Offset, &code);
         self.words.offset_waits = self.dialect.can.offset_with_z.then_some(span);
@@ -234,7 +239,7 @@ impl Writer {
     }
 
     fn dwell(&mut self, seconds: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot(FeedsLack::Dwell))?;
         self.words.rely(DWELL_UNIT, span, sink);
         // What is computed is rounded as its own word does it.
         let computed = milliseconds(seconds).is_some() && !dwell.milliseconds;
@@ -265,7 +270,7 @@ impl Writer {
         }
         let Some(n) = seconds.literal() else {
             let value = milliseconds(seconds);
-            let value = value.ok_or_else(|| cannot_compute("computed seconds in a word of milliseconds"))?;
+            let value = value.ok_or_else(|| cannot_compute(RunTimeValue::Milliseconds))?;
             return self.words.computed(&dwell.word, value, span, sink);
         };
         let letter = dwell.word.letter;

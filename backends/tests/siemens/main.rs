@@ -9,7 +9,9 @@ mod structure;
 
 use ncc_dialects::{Settings, builtin};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::Lack;
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
+use ncc_ir::run_time::RunTime;
 
 use build::*;
 use ncc_backends::siemens::Writer;
@@ -47,20 +49,20 @@ pub(crate) fn told(stmts: &[Stmt]) -> (String, Vec<Fault>) {
 }
 
 /// Asserts that statements are refused because there is no word for them.
-pub(crate) fn refused(stmts: &[Stmt]) -> String {
+pub(crate) fn refused(stmts: &[Stmt]) -> Lack {
     let (text, diags) = text(stmts);
-    let what = diags.iter().find_map(|d| match &d.fault {
-        Fault::TargetLacks { what } => Some(what.to_string()),
+    let lack = diags.iter().find_map(|d| match &d.fault {
+        Fault::TargetLacks { lack } => Some(lack.clone()),
         _ => None,
     });
-    what.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))
+    lack.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))
 }
 
 /// What of a program that computes is refused.
-pub(crate) fn not_computed(stmts: &[Stmt]) -> String {
+pub(crate) fn not_computed(stmts: &[Stmt]) -> RunTime {
     let (text, diags) = text(stmts);
     let what = diags.iter().find_map(|d| match &d.fault {
-        Fault::Computes { what } => Some(what.to_string()),
+        Fault::Computes { what } => Some(what.clone()),
         _ => None,
     });
     what.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))

@@ -3,6 +3,7 @@
 use crate::*;
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn, Units};
 use ncc_ir::expr::num::Unit;
+use ncc_ir::lack::{LengthsLack, ToolsLack};
 use ncc_ir::program::{
     Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameSlot, FrameStep, Op, Point, Shape,
 };
@@ -165,7 +166,7 @@ fn a_length_that_the_tool_change_would_lose_is_said_before_z() {
     assert_eq!(diags, []);
     assert!(text.ends_with("T1 M6\nG0 X1\nG0 Z5 D0\n"), "{text}");
     let stmts = blocks(vec![tool("1"), vec![rapid("Z5.")]]);
-    assert_eq!(refused(&stmts), "a tool change that keeps the length of another tool");
+    assert_eq!(refused(&stmts), ToolsLack::ChangeKeepsLength.into());
 }
 
 #[test]
@@ -176,8 +177,7 @@ fn an_entry_of_the_table_is_the_tools_first_edge() {
     assert_eq!(faults, [Fault::AssumedEdge { tool: 7 }]);
     let other = Op::UseToolLengthOffset(count("8"));
     let (_, faults) = told(&blocks(vec![tool("7"), vec![other], vec![rapid("Z5.")]]));
-    let what = "an entry of the length table that is not the tool's own";
-    assert_eq!(faults, [Fault::TargetLacks { what: what.into() }], "told once");
+    assert_eq!(faults, [Fault::lacks(LengthsLack::NotOwnEntry)], "told once");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use crate::*;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::cycle::CycleKind;
 use ncc_ir::program::{Call, Control, Move, Op, RepeatBlocks};
+use ncc_ir::run_time::RunTimeFlow;
 
 fn call(name: &str, times: u32) -> Op {
     Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new(), shared: false }))
@@ -71,7 +72,7 @@ fn labels_and_repetitions() {
     };
     assert_eq!(text(&lines(vec![rapid("X0."), counted(1)])).0, "G0 X0\nFOR R1=1 TO 2\nENDFOR\n");
     let by_twos = not_computed(&lines(vec![rapid("X0."), counted(2)]));
-    assert_eq!(by_twos, "a loop that counts otherwise than by ones");
+    assert_eq!(by_twos, RunTimeFlow::LoopCountsOtherwise.into());
 }
 
 #[test]

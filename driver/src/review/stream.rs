@@ -28,6 +28,7 @@ use ncc_ir::expr::system::System;
 use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::FlowUnexecuted;
 use ncc_machines::reading::Told;
 
 use crate::job::Job;
@@ -501,8 +502,7 @@ impl<'r> Run<'r> {
 
 /// Machines that answer differently go different ways from here on.
 fn other_way(at: Span) -> Diagnostic {
-    let what = "a way that depends on the machine's own values".into();
-    Diagnostic::new(Fault::NotExecuted { what }, at)
+    Diagnostic::new(Fault::not_executed(FlowUnexecuted::MachineDecides), at)
 }
 
 /// Notes what a statement has, and those inside of it.

@@ -10,6 +10,7 @@ use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
 use crate::render::messages::words::unreachable;
+use crate::render::reasons::{lacks, unexecuted};
 use crate::render::spelled;
 
 /// Of the program and its control: what the front-end took for granted.
@@ -79,7 +80,12 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
                 let why = unreachable(*why);
                 lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
             }
-            Fault::TargetLacks { what } | Fault::NotExecuted { what } => {
+            Fault::TargetLacks { lack } => {
+                let lack = lacks::text(lack);
+                lines.push(format!("from line {line} on timed along the programmed contour: {lack}"));
+            }
+            Fault::NotExecuted { what } => {
+                let what = unexecuted::text(what);
                 lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
             }
             _ => lines.push(format!("from line {line} on timed along the programmed contour")),

@@ -8,8 +8,10 @@ use ncc_ir::computed::computes::{Handed, LETTERS};
 use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Var};
+use ncc_ir::lack::{FlowLack, HolesLack};
 use ncc_ir::program::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_ir::program::{Op, Program, Stmt, Text, Type};
+use ncc_ir::run_time::RunTimeFlow;
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 use ncc_passes::values::variables::questions;
@@ -33,8 +35,7 @@ impl Translation<'_> {
         let ends = to.program.macro_b || files(to) && files(self.job.from.dialect);
         // What has been written already has stated modes, which would be the caller's from there on.
         if !ends && !named && !to.can.everything || self.written > 0 {
-            let what = "the return of a subprogram without its main program".into();
-            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::lacks(FlowLack::ReturnWithoutMain), at)], Told::Writer);
             return true;
         }
         self.verify_here();
@@ -50,8 +51,7 @@ impl Translation<'_> {
         }
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {
-            let what = "a cycle that is left in force for a caller that is not in the text".into();
-            self.take(vec![Diagnostic::new(Fault::TargetLacks { what }, at)], Told::Writer);
+            self.take(vec![Diagnostic::new(Fault::lacks(HolesLack::LeftForUnknownCaller), at)], Told::Writer);
             return true;
         }
         let moves_end_cycles = self.handed() == Some(Handed::Names)
@@ -119,8 +119,8 @@ impl Translation<'_> {
         let mut told = Vec::new();
         for (place, (_, var, at)) in (1..).zip(own) {
             if self.job.given.may_be_vacant(&var.name()) {
-                let what = format!("the argument {}, which --args leaves without a value", var.name());
-                told.push(Diagnostic::new(Fault::Computes { what: what.into() }, at));
+                let what = RunTimeFlow::ArgumentEmpty { name: var.name().into() };
+                told.push(Diagnostic::new(Fault::computes(what), at));
                 continue;
             }
             let needed = |check| {
@@ -173,8 +173,7 @@ impl Translation<'_> {
             let number = own.name().parse::<u32>();
             let fault = match number {
                 Ok(number) if LETTERS.iter().all(|(_, own)| *own != number) => {
-                    let what = format!("the argument {number}, which no letter gives").into();
-                    Fault::Computes { what }
+                    Fault::computes(RunTimeFlow::ArgumentLetter { number })
                 }
                 _ => {
                     let name = if number.is_ok() { format!("#{}", own.name()) } else { own.name().into() };

@@ -7,10 +7,9 @@
 use std::io;
 
 use ncc_dialects::{BLOCK_SKIP, BLOCK_WITHOUT_WAY, LOOKED_OVER};
-use ncc_exec::NOWHERE;
 use ncc_ir::diag::{Fault, Gravity};
+use ncc_ir::lack::{CompensationLack, FlowLack, Lack};
 use ncc_passes::PASSES;
-use ncc_passes::flow::flatten::SWITCHED;
 use ncc_passes::watch::unwatched;
 
 use super::translation::{FLATTEN, Translation};
@@ -45,15 +44,15 @@ pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option
     let mut try_with = |job: &Job| {
         source.rewind()?;
         let outcome = unwatched(|| super::translate(job, source))?;
-        let refused = |what: &str| {
-            let is = |fault: &Fault| matches!(fault, Fault::TargetLacks { what: own } if **own == *what);
+        let refused = |lack: Lack| {
+            let is = |fault: &Fault| matches!(fault, Fault::TargetLacks { lack: own } if *own == lack);
             outcome.diagnostics.iter().any(|d| is(&d.fault))
         };
         let goes_through = outcome.release.is_ok() && outcome.verified.is_some();
         Ok::<_, io::Error>(match goes_through {
             true => Tried::GoesThrough,
-            false if refused(SWITCHED) => Tried::Switch,
-            false if refused(NOWHERE) => Tried::WithoutWay,
+            false if refused(FlowLack::SkippedDecision.into()) => Tried::Switch,
+            false if refused(CompensationLack::WithoutMotion.into()) => Tried::WithoutWay,
             false => Tried::Refused,
         })
     };

@@ -11,6 +11,7 @@ use ncc_exec::{Event, Kind, by_control};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::source::Span;
 
 use super::verifier::Stop;
@@ -41,9 +42,7 @@ pub(super) fn closed_by_rounding(difference: &Difference) -> Option<Fault> {
     };
     let (source, target) = (arc(&difference.source)?, arc(&difference.target)?);
     let same = (source.0, source.1) == (target.0, target.1) && difference.aspect == Aspect::Arc;
-    (same && !source.2 && target.2).then(|| Fault::TargetLacks {
-        what: "an arc so short that its start and end round to one point".into(),
-    })
+    (same && !source.2 && target.2).then(|| Fault::lacks(ArcsLack::ShortAfterRounding))
 }
 
 /// What the target's control alone has done by itself, if two events differ by that.

@@ -7,12 +7,13 @@
 //! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
 
 use ncc_dialects::Settings;
-use ncc_exec::{Event, Exec, NOWHERE, STILL, by_control, touched};
+use ncc_exec::{Event, Exec, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::lack::{CompensationLack, Lack};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -129,9 +130,9 @@ fn reader_of_text(to: Settings) -> Reader {
 pub fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
     let at = next.map_or(last, |event| event.span);
     match &fault.fault {
-        Fault::TargetLacks { what } if [NOWHERE, STILL].contains(&&**what) => {
-            Stop::Source(Diagnostic::new(fault.fault.clone(), at))
-        }
+        Fault::TargetLacks {
+            lack: Lack::Compensation(CompensationLack::WithoutMotion | CompensationLack::TwoWithoutMotion),
+        } => Stop::Source(Diagnostic::new(fault.fault.clone(), at)),
         _ => unreadable(fault, last),
     }
 }

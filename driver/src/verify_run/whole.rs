@@ -9,10 +9,12 @@ mod values;
 use ncc_exec::verify::Pair;
 use ncc_exec::{Event, Exec, Kind, Progress, Runner};
 use ncc_ir::canon::Modes;
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::diag::{Diagnostic, Fault, NoValue};
 use ncc_ir::expr::value::Wrong;
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::valid::{anything, not_called};
 use ncc_ir::program::{Procedure, Program};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 use ncc_passes::values::assumption_check::{
     TargetNumerics, assumed_places, compares_nearly, computes_numbers, other_reading,
@@ -104,10 +106,7 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
         Fault::ArcEndOffCircle { radii, allowed } => {
             Some(Fault::ArcRadiiDiffer { radii: *radii, allowed: *allowed })
         }
-        Fault::ArcRadiusTooSmall => {
-            let what = "a computed radius below half the distance from start to end".into();
-            Some(Fault::TargetLacks { what })
-        }
+        Fault::ArcRadiusTooSmall => Some(Fault::lacks(ArcsLack::ComputedRadiusShort)),
         _ => None,
     }
 }
@@ -398,8 +397,8 @@ impl Verifier {
             .into_iter()
             .take(MOST_PLACES)
             .find(|at| other_reading(source, taken, there, at.start).is_some_and(|other| same(&other)));
-        let what = taken[0].violation().into();
-        Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, at.unwrap_or(self.last))))
+        let what = taken[0].violation();
+        Err(Ended::NotSo(Diagnostic::new(Fault::computes(what), at.unwrap_or(self.last))))
     }
 
     fn there(&self, given: &Given) -> TargetNumerics<'_> {
@@ -452,13 +451,13 @@ impl Verifier {
                     break Err(Ended::Source(Diagnostic::new(fault, runners[0].here())));
                 }
                 // The source's control reads nothing there.
-                Err(Diagnostic { fault: Fault::NoValue { what }, .. })
-                    if *what == *Wrong::NothingGiven.words() && computes_numbers(sides[0]) =>
-                {
-                    let what =
-                        "a variable whose number is computed, and which may have no value where it is read";
+                Err(Diagnostic {
+                    fault: Fault::NoValue { why: NoValue::Wrong(Wrong::NothingGiven) },
+                    ..
+                }) if computes_numbers(sides[0]) => {
+                    let what = RunTimeValue::ComputedNumberMaybeEmpty;
                     let at = runners[0].here();
-                    break Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what: what.into() }, at)));
+                    break Err(Ended::NotSo(Diagnostic::new(Fault::computes(what), at)));
                 }
                 Err(fault) => {
                     let place = run.source_events.get(run.target_events.len());

@@ -13,6 +13,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Op, Point, ReferencePoint, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::{CompensationUnexecuted, CycleUnexecuted};
 
 impl Exec {
     /// Whether the control does something besides the name of a code; notes that it was asked.
@@ -154,10 +155,10 @@ impl Exec {
     /// A cycle or a compensation that would go on into the first blocks.
     fn begin_again(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         if self.cycle.is_some() {
-            return self.not_executed("a program that begins again while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::BeginsAgainInCycle, span);
         }
         if self.state.compensation.side.is_some() {
-            return self.not_executed("a program that begins again under cutter radius compensation", span);
+            return self.not_executed(CompensationUnexecuted::BeginsAgain, span);
         }
         self.emit(Kind::BeginAgain, span, out)?;
         self.begins_again(span);
@@ -248,7 +249,7 @@ impl Exec {
             return Ok(());
         }
         if self.cycle.is_some() {
-            return self.not_executed("a tool change while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::ToolChangeInCycle, span);
         }
         let mut machine = self.machine();
         machine[Z] = self.world.reference(ReferencePoint::Home)[Z];

@@ -13,6 +13,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Coord, Data, DataMode, Detour, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::{CycleUnexecuted, FrameUnexecuted, MoveUnexecuted};
 
 impl Exec {
     #[cold]
@@ -23,7 +24,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if self.cycle.is_some() {
-            return self.not_executed("a return to a point of the machine while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::ReturnInCycle, span);
         }
         if !to.via.is_empty() {
             self.set_axes(&to.via, span)?;
@@ -63,19 +64,17 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let Some(detour) = self.detour.take() else { return Ok(()) };
         if feed || self.raw.is_some() || self.probing.is_some() || self.state.tilted {
-            let what = "a detour of anything but a rapid move in the program's coordinates";
-            return self.not_executed(what, span);
+            return self.not_executed(MoveUnexecuted::DetourNotRapid, span);
         }
         if self.cycle.is_some() {
-            return self.not_executed("a rapid move by a detour while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::DetourInCycle, span);
         }
         let named: [bool; AXES] = std::array::from_fn(|axis| to.axes[axis].is_some());
         match detour {
             Detour::Intermediate => {
                 let counts = |word: &Coord| word.distance.or(self.modes.distance) == Distance::Incremental;
                 if to.axes.iter().flatten().any(counts) {
-                    let what = "incremental words of a return by the intermediate point";
-                    return self.not_executed(what, span);
+                    return self.not_executed(MoveUnexecuted::IncrementalReturn, span);
                 }
                 if named[self.along] {
                     self.take_up_length();
@@ -83,16 +82,14 @@ impl Exec {
                 let axes = || named.iter().enumerate().filter(|(_, named)| **named).map(|(axis, _)| axis);
                 for axis in axes() {
                     let Some([at, _]) = self.intermediate[axis] else {
-                        let what = "a return by an intermediate point that nothing has said";
-                        return self.not_executed(what, span);
+                        return self.not_executed(MoveUnexecuted::IntermediatePointUnset, span);
                     };
                     self.position[axis] = at;
                 }
                 let machine = self.machine();
                 if axes().any(|axis| self.intermediate[axis].is_some_and(|[_, place]| place != machine[axis]))
                 {
-                    let what = "a return by a point that other coordinates have said";
-                    return self.not_executed(what, span);
+                    return self.not_executed(MoveUnexecuted::OtherCoordinatesPoint, span);
                 }
                 self.emit_move(false, span, out)?;
                 let own = self.modes.motion;
@@ -127,7 +124,7 @@ impl Exec {
     pub(super) fn has_own_code(&self, span: Span) -> Result<bool, Diagnostic> {
         let own_code = self.raw.is_some() || self.probing.is_some();
         if own_code && self.cycle.is_some() {
-            self.not_executed("a move of the machine, or a probing one, while a cycle is in force", span)?;
+            self.not_executed(CycleUnexecuted::MachineMoveInCycle, span)?;
         }
         Ok(own_code)
     }
@@ -137,11 +134,11 @@ impl Exec {
     pub(super) fn probe(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let Some(probe) = self.probing.take() else { return Ok(()) };
         if !feed || self.raw.is_some() {
-            return self.not_executed("probing by rapid", span);
+            return self.not_executed(MoveUnexecuted::RapidProbing, span);
         }
         let (from, to) = (self.last, self.machine());
         if same_point(&from, &to) {
-            return self.not_executed("probing that goes nowhere", span);
+            return self.not_executed(MoveUnexecuted::ProbingNowhere, span);
         }
         let share = i128::from(self.world.touched());
         self.last = std::array::from_fn(|axis| {
@@ -174,7 +171,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if self.cycle.is_some() && !matches!(data, Data::Position(_) | Data::ToolInSpindle(_)) {
-            return self.not_executed("data input while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::DataInCycle, span);
         }
         let stored = match data {
             Data::Position(place) => {
@@ -195,7 +192,7 @@ impl Exec {
                 let turned = self.world.work_turn(*offset);
                 let is_turned = turned != 0 || self.offset_turned;
                 if *mode == DataMode::Here && (self.modes.shifted || self.chain.is_some() || is_turned) {
-                    return self.not_executed("a work offset set by the position under a frame", span);
+                    return self.not_executed(FrameUnexecuted::OffsetByPosition, span);
                 }
                 for (axis, word) in words.iter().enumerate() {
                     let Some(word) = word else { continue };

@@ -20,6 +20,7 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::kinds::{drilling, moves, polar};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ToolUnexecuted;
 
 /// What waits for the end of the block at hand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,7 +130,7 @@ impl Exec {
             Motion::Traverse => false,
             Motion::Feed => true,
             Motion::Arc(_) | Motion::Cycle => {
-                return self.not_executed("a tool length that moves its axis under an arc or a cycle", span);
+                return self.not_executed(ToolUnexecuted::LengthUnderArc, span);
             }
         };
         self.take_up_moving();
@@ -150,8 +151,7 @@ impl Exec {
     /// The tool goes beside a contour, in a cycle or in a tilted plane.
     fn check_length_move(&self, span: Span) -> Result<(), Diagnostic> {
         if self.cycle.is_some() || self.contour.watched || self.corner.is_some() || self.is_tilted() {
-            let what = "a tool length that moves its axis in a cycle, a contour or a tilted plane";
-            return self.not_executed(what, span);
+            return self.not_executed(ToolUnexecuted::LengthInCycle, span);
         }
         Ok(())
     }

@@ -38,7 +38,7 @@ pub use frames::tilt::TiltedPlane;
 pub use motion_modes::named_tool;
 pub use moves::arcs::same::are_arcs;
 pub use moves::centre_path::AsProgrammed;
-pub use moves::compensation::{Compensation, NOWHERE, STILL};
+pub use moves::compensation::Compensation;
 pub use moves::fine::Increments;
 pub use moves::holes::same::are_holes;
 pub use moves::lines::valued::ValuedLines;
@@ -65,6 +65,7 @@ use ncc_ir::geometry::polar::Pole;
 use ncc_ir::program::kinds::variables;
 use ncc_ir::program::{Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::{FlowUnexecuted, Unexecuted};
 
 const Z: usize = Axis::Z as usize;
 
@@ -557,18 +558,18 @@ impl Exec {
                 self.stop(stmt, out)?
             }
             Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_) => self.message(stmt, out)?,
-            Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
-            Op::Return => return self.not_executed("a return of the main program", span),
-            Op::RepeatBlocks(_) => return self.not_executed("a repetition in the midst of a stream", span),
-            variables!() => return self.not_executed("a variable", span),
-            Op::Control(_) => return self.not_executed("control of the program's flow", span),
-            Op::Goto(_) | Op::Leave | Op::NextTurn => return self.not_executed("a jump", span),
+            Op::Call(_) => return self.not_executed(FlowUnexecuted::CallInStream, span),
+            Op::Return => return self.not_executed(FlowUnexecuted::MainReturn, span),
+            Op::RepeatBlocks(_) => return self.not_executed(FlowUnexecuted::RepetitionInStream, span),
+            variables!() => return self.not_executed(FlowUnexecuted::Variable, span),
+            Op::Control(_) => return self.not_executed(FlowUnexecuted::Control, span),
+            Op::Goto(_) | Op::Leave | Op::NextTurn => return self.not_executed(FlowUnexecuted::Jump, span),
         }
         Ok(())
     }
 
-    fn not_executed(&self, what: &str, span: Span) -> Result<(), Diagnostic> {
-        self.fault(Fault::NotExecuted { what: what.into() }, span)
+    fn not_executed(&self, what: impl Into<Unexecuted>, span: Span) -> Result<(), Diagnostic> {
+        self.fault(Fault::not_executed(what), span)
     }
 
     fn plane_of(&self, plane: Fact<Plane>) -> Plane {

@@ -9,6 +9,7 @@ use ncc_ir::expr::value::Value;
 use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Op, Output, Piece, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ValueUnexecuted;
 
 /// A value as it stands in a text.
 fn write(value: Value, digits: u8, short: bool, places: u8, out: &mut String) {
@@ -151,8 +152,7 @@ impl Exec {
             Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,
             Op::MessageOf(pieces) => {
                 let Some(text) = self.shown.text(pieces) else {
-                    let what = "a value in a message".into();
-                    return self.fault(Fault::NotExecuted { what }, span);
+                    return self.fault(Fault::not_executed(ValueUnexecuted::MessageValue), span);
                 };
                 self.emit(Kind::Message(text), span, out)?;
             }
@@ -164,8 +164,7 @@ impl Exec {
                     Output::Line(pieces) => match self.shown.text(pieces) {
                         Some(text) => Written::Line(text),
                         None => {
-                            let what = "a value in what is written".into();
-                            return self.fault(Fault::NotExecuted { what }, span);
+                            return self.fault(Fault::not_executed(ValueUnexecuted::WrittenValue), span);
                         }
                     },
                 };

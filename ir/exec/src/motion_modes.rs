@@ -12,6 +12,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::kinds::{moves, polar};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::MoveUnexecuted;
 
 impl Exec {
     /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
@@ -90,7 +91,7 @@ impl Exec {
             let moves =
                 matches!(stmt.op, moves!() | polar!() | Op::Position(_) | Op::Hole(_) | Op::Pattern(_));
             if moves || matches!(stmt.op, Op::UseMachineCoordinates { .. } | Op::GoToReference(_)) {
-                return self.not_executed("a way round of a rotary axis in anything but a line", stmt.span);
+                return self.not_executed(MoveUnexecuted::RotaryDirectionOfArc, stmt.span);
             }
             return self.step_by_stop(stmt, out);
         };
@@ -99,17 +100,17 @@ impl Exec {
         for (place, (axis, way)) in [Axis::A, Axis::B, Axis::C].into_iter().zip(ways).enumerate() {
             let Some(way) = way else { continue };
             let Some(word) = to.get(axis) else {
-                return self.not_executed("a way round of an axis that does not move", stmt.span);
+                return self.not_executed(MoveUnexecuted::RotaryDirectionUnmoved, stmt.span);
             };
             if word.distance.or(self.modes.distance) != Distance::Absolute {
-                return self.not_executed("a way round to an angle from where the axis stands", stmt.span);
+                return self.not_executed(MoveUnexecuted::RotaryDirectionIncrement, stmt.span);
             }
             let (from, to) = (self.position[axis as usize], self.value(&word.value, stmt.span)?);
             if !(0..360 * ONE).contains(&to) {
                 return self.fault(Fault::OutOfRange { word: "angle of one turn".into() }, stmt.span);
             }
             let sense = match way.turn(from, to) {
-                None => return self.not_executed("the shortest way of half a turn", stmt.span),
+                None => return self.not_executed(MoveUnexecuted::RotaryHalfTurn, stmt.span),
                 Some(_) if way.is_direct(from, to) => 0,
                 Some(turn) => 1 + u8::from(turn < 0),
             };

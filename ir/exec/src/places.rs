@@ -5,6 +5,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ToolUnexecuted;
 
 use crate::event::by_control;
 use crate::moves::arcs::Heading;
@@ -108,7 +109,7 @@ impl Exec {
         if let Some(word) = &to.axes[self.along] {
             if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {
                 // Whether the way grows by the difference is a setting on some controls, told on none.
-                return self.not_executed("an incremental way along Z on which a length is taken up", span);
+                return self.not_executed(ToolUnexecuted::IncrementTakesLength, span);
             }
             self.take_up_length();
             self.at_place = false;

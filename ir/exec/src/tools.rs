@@ -15,6 +15,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ToolUnexecuted;
 
 impl Exec {
     /// Offsets of the tool in force, in the machine's directions.
@@ -149,8 +150,7 @@ impl Exec {
             return Ok(());
         }
         if self.cycle.is_some() || self.contour.watched || self.corner.is_some() || self.is_tilted() {
-            let what = "another offset of the tool along X or Y in a cycle, a contour or a tilted plane";
-            return self.not_executed(what, span);
+            return self.not_executed(ToolUnexecuted::OffsetInCycle, span);
         }
         let here = self.machine();
         self.aside = aside;
@@ -190,7 +190,7 @@ impl Exec {
         // A radius is taken up with its edge.
         let edge = is_edge_of(entry, self.waiting.unwrap_or(self.modes.length));
         if edge && matches!(which, ToolValue::Radius | ToolValue::RadiusWear) {
-            self.not_executed("another radius for the tool that is in use", span)?;
+            self.not_executed(ToolUnexecuted::RadiusInUse, span)?;
         }
         if which.is_offset() {
             self.hold_entry(entry, kept, span)?;
@@ -219,7 +219,7 @@ impl Exec {
         let counts = |length: Length| length == Length::Entry(entry) || is_edge_of(entry, length);
         let length = Length::Value(self.world.tool_length(entry));
         if !kept && counts(self.waiting.unwrap_or(self.modes.length)) {
-            return self.not_executed("another length for the tool that is in use", span);
+            return self.not_executed(ToolUnexecuted::LengthInUse, span);
         }
         if counts(self.modes.length) {
             self.modes.length = length;
@@ -243,8 +243,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if self.is_tilted() || self.contour.watched || self.turns_frames() {
-            return self
-                .not_executed("a tool measured in a frame that turns or scales, or beside a contour", span);
+            return self.not_executed(ToolUnexecuted::MeasuredInFrame, span);
         }
         if entry == 0 {
             return self.fault(Fault::OutOfRange { word: "entry".into() }, span);

@@ -10,6 +10,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Unit};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ValueUnexecuted;
 
 use crate::{Exec, MOST_BITS};
 
@@ -22,7 +23,7 @@ impl Exec {
         }
         match value {
             Expr::Num(_) => self.fault(Fault::OutOfRange { word: "value".into() }, span),
-            Expr::Node(_) => self.fault(Fault::NotExecuted { what: "an expression".into() }, span),
+            Expr::Node(_) => self.fault(Fault::not_executed(ValueUnexecuted::Expression), span),
         }
     }
 

@@ -31,19 +31,6 @@ pub enum Wrong {
     NothingGiven,
 }
 
-impl Wrong {
-    /// In words.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Wrong::DivisionByZero => "a division by zero",
-            Wrong::NotDefined => "a function of a number for which it is not defined",
-            Wrong::TooLarge => "a number that is too large",
-            Wrong::Arguments => "a function of another number of arguments",
-            Wrong::NothingGiven => "a variable that has no value here",
-        }
-    }
-}
-
 impl Value {
     /// As an operand.
     #[inline]

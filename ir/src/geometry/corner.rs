@@ -9,6 +9,7 @@ use crate::diag::Fault;
 use crate::expr::num::{Nanos, ONE};
 use crate::geometry;
 use crate::program::Op;
+use crate::unexecuted::{CornerUnexecuted, NoCorner};
 
 /// A move of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,27 +47,13 @@ pub enum CornerFault {
 }
 
 impl CornerFault {
-    /// Whether no control makes it; else controls do not agree about it.
-    pub const fn is_wrong(self) -> bool {
-        match self {
-            CornerFault::Back | CornerFault::TooLarge => true,
-            CornerFault::Slight | CornerFault::ChamferAtArc => false,
-        }
-    }
-
-    /// What is told of it.
+    /// Its fault: no control makes the corner, or controls do not agree about it.
     pub fn fault(self) -> Fault {
-        let what = self.words().into();
-        if self.is_wrong() { Fault::NoCorner { what } } else { Fault::NotExecuted { what } }
-    }
-
-    /// In words.
-    pub const fn words(self) -> &'static str {
         match self {
-            CornerFault::Back => "a corner at which the way turns back",
-            CornerFault::Slight => "a corner of less than a degree",
-            CornerFault::TooLarge => "a corner that takes more than its moves have",
-            CornerFault::ChamferAtArc => "a chamfer beside an arc",
+            CornerFault::Back => Fault::NoCorner { why: NoCorner::TurnsBack },
+            CornerFault::TooLarge => Fault::NoCorner { why: NoCorner::TooLarge },
+            CornerFault::Slight => Fault::not_executed(CornerUnexecuted::Slight),
+            CornerFault::ChamferAtArc => Fault::not_executed(CornerUnexecuted::ChamferAtArc),
         }
     }
 }

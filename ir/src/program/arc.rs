@@ -7,6 +7,7 @@ use crate::canon::{Fact, Plane, Turn};
 use crate::diag::Fault;
 use crate::expr::num::{Num, Unit};
 use crate::expr::{Binary, Expr, Node};
+use crate::run_time::RunTimeValue;
 
 /// An arc or helix.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +58,7 @@ impl Turns {
     pub fn count(&self) -> Result<u32, Fault> {
         self.number().ok_or_else(|| match &self.0 {
             Expr::Num(_) => Fault::OutOfRange { word: "number of turns".into() },
-            Expr::Node(_) => Fault::Computes { what: "an arc with a computed number of turns".into() },
+            Expr::Node(_) => Fault::computes(RunTimeValue::ComputedTurns),
         })
     }
 

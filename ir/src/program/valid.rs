@@ -2,6 +2,7 @@
 //!
 //! Not here: what only execution can find, such as calls without an end.
 
+use crate::run_time::{RunTime, RunTimeFlow, RunTimeValue, RunTimeWord};
 use std::collections::{HashMap, HashSet};
 
 use crate::computed::computes::Computes;
@@ -26,32 +27,32 @@ pub fn anything(program: &Program) -> Option<Diagnostic> {
     found.or_else(|| {
         let with_parameters = program.procedures.iter().find(|p| !p.parameters.is_empty())?;
         let at = with_parameters.body.first()?.span;
-        Some(Diagnostic::new(Fault::Computes { what: "a subprogram with parameters".into() }, at))
+        Some(Diagnostic::new(Fault::computes(RunTimeFlow::Subprogram), at))
     })
 }
 
 fn computes(body: &[Stmt]) -> Option<Diagnostic> {
     body.iter().find_map(|stmt| {
-        let what = match &stmt.op {
-            Op::Assign(..) => "an assignment",
-            Op::Declare(_) => "a variable that is made known",
-            Op::Leave | Op::NextTurn => "a loop that is left",
-            Op::MessageOf(_) => "a message with values in it",
+        let what: RunTime = match &stmt.op {
+            Op::Assign(..) => RunTimeValue::Assignment.into(),
+            Op::Declare(_) => RunTimeValue::Declaration.into(),
+            Op::Leave | Op::NextTurn => RunTimeFlow::LoopLeft.into(),
+            Op::MessageOf(_) => RunTimeWord::MessageValues.into(),
             Op::Control(control) => match &**control {
-                Control::If { .. } => "a decision",
+                Control::If { .. } => RunTimeFlow::Decision.into(),
                 Control::Repeat { times, body } if times.literal().is_some() => return computes(body),
                 Control::Repeat { .. }
                 | Control::Loop { .. }
                 | Control::While { .. }
                 | Control::Until { .. }
-                | Control::For { .. } => "a loop",
+                | Control::For { .. } => RunTimeFlow::Loop.into(),
             },
-            Op::Goto(_) => "a jump",
-            Op::Call(call) if !call.arguments.is_empty() => "a call with arguments",
-            op if arguments::computed(op) => "a word with a variable or an expression",
+            Op::Goto(_) => RunTimeFlow::Jump.into(),
+            Op::Call(call) if !call.arguments.is_empty() => RunTimeFlow::CallArguments.into(),
+            op if arguments::computed(op) => RunTimeValue::WordWithExpression.into(),
             _ => return None,
         };
-        Some(Diagnostic::new(Fault::Computes { what: what.into() }, stmt.span))
+        Some(Diagnostic::new(Fault::computes(what), stmt.span))
     })
 }
 

@@ -5,21 +5,22 @@ use std::fmt::Write;
 use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::Fault;
 use ncc_ir::geometry::{self, ArcFault};
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::{Arc, Centre};
 
 use super::{Printer, cannot};
 
 impl Printer<'_> {
     pub(super) fn arc(&mut self, arc: &Arc) -> Result<(), Fault> {
-        let plane = self.at.plane(arc.plane).ok_or_else(|| cannot("an arc without a plane"))?;
+        let plane = self.at.plane(arc.plane).ok_or_else(|| cannot(ArcsLack::NoPlane))?;
         let (first, second, normal) = plane.axes();
         let (here, to) = (self.here()?, self.target(&arc.to)?);
         let start = [here[first as usize], here[second as usize]];
         let end = [to[first as usize], to[second as usize]];
         let centre = match &arc.centre {
-            Centre::Point { .. } => self.at.centre(arc).ok_or_else(|| cannot("this centre"))?,
+            Centre::Point { .. } => self.at.centre(arc).ok_or_else(|| cannot(ArcsLack::CentreUnknown))?,
             Centre::Radius(radius) => {
-                let radius = self.at.nanos(radius).ok_or_else(|| cannot("this radius"))?;
+                let radius = self.at.nanos(radius).ok_or_else(|| cannot(ArcsLack::RadiusUnknown))?;
                 geometry::centre_by_radius(start, end, radius, arc.turn, self.arcs.short(self.inch()))
                     .map_err(|fault| match fault {
                         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,

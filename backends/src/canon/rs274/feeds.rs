@@ -6,6 +6,7 @@ use std::fmt::Write;
 use ncc_ir::canon::{AXES, FeedMode, SpindleMode};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::{Op, Stmt};
 
 use super::{Printer, cannot, literal};
@@ -87,7 +88,7 @@ impl Printer<'_> {
         }
         if self.beside {
             // The way of the tool's centre is another, and settled late.
-            return Err(cannot("SET_FEED_MODE under cutter radius compensation"));
+            return Err(cannot(CompensationLack::FeedModeListed));
         }
         let often = self.feed.ok_or(Fault::NoFeed)?;
         let _ = writeln!(self.out, "SET_FEED_RATE({:.4})", (way * often).max(LEAST));

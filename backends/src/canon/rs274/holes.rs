@@ -5,6 +5,7 @@ use std::fmt::Write;
 use ncc_ir::canon::{AXES, PathMode, ReturnLevel, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::lack::{HolesLack, ThreadsLack};
 use ncc_ir::program::cycle::{BoreStop, Clearance, CycleKind};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::track::ActiveCycle;
@@ -19,7 +20,7 @@ impl Printer<'_> {
     pub(super) fn holes(&mut self, holes: &[&Stmt]) -> Result<(), Diagnostic> {
         let Some(first) = holes.first() else { return Ok(()) };
         let refuse = |fault| Diagnostic::new(fault, first.span);
-        let unknown = || refuse(cannot("a cycle whose planes are not known"));
+        let unknown = || refuse(cannot(HolesLack::PlanesUnknown));
         let in_force = self.at.cycle.clone().ok_or_else(|| refuse(Fault::NoCycle))?;
         let plane = self.at.plane(in_force.cycle.plane).ok_or_else(unknown)?;
         let normal = plane.axes().2 as usize;
@@ -69,7 +70,7 @@ impl Printer<'_> {
         retract: Nanos,
         clear: Nanos,
     ) -> Result<(), Fault> {
-        let depth = in_force.depth.ok_or_else(|| cannot("a cycle whose planes are not known"))?;
+        let depth = in_force.depth.ok_or_else(|| cannot(HolesLack::PlanesUnknown))?;
         let go = |printer: &mut Self, name: &str, level: Nanos| {
             let mut at = to;
             at[normal] = level;
@@ -87,10 +88,10 @@ impl Printer<'_> {
                 go(self, rapid, clear);
             }
             CycleKind::DrillPeck { clearance: Clearance::FromReturn, .. } => {
-                return Err(cannot("pecks that go down at feed all the way"));
+                return Err(cannot(HolesLack::FeedDownPecks));
             }
             CycleKind::DrillPeck { peck, .. } => {
-                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;
+                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot(HolesLack::Peck))?;
                 let mut bottom = retract - peck;
                 while bottom > depth {
                     go(self, feed, bottom);
@@ -102,7 +103,7 @@ impl Printer<'_> {
                 go(self, rapid, clear);
             }
             CycleKind::DrillBreak { peck, .. } => {
-                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;
+                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot(HolesLack::Peck))?;
                 let mut bottom = retract - peck;
                 while bottom > depth {
                     go(self, feed, bottom);
@@ -137,7 +138,7 @@ impl Printer<'_> {
                     Turn::Counterclockwise => (Turning::Counterclockwise, Turning::Clockwise),
                 };
                 if self.turning != way {
-                    return Err(cannot("tapping without the spindle turning so"));
+                    return Err(cannot(ThreadsLack::SpindleDirection));
                 }
                 self.call("DISABLE_FEED_OVERRIDE()");
                 self.call("DISABLE_SPEED_OVERRIDE(0)");
@@ -153,7 +154,7 @@ impl Printer<'_> {
                 self.call("ENABLE_SPEED_OVERRIDE(0)");
             }
             CycleKind::BoreStop(_) | CycleKind::Tap(_) | CycleKind::FineBore(_) => {
-                return Err(cannot(in_force.cycle.kind.name()));
+                return Err(cannot(HolesLack::Kind { kind: in_force.cycle.kind.name() }));
             }
         }
         Ok(())

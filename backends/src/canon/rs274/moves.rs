@@ -6,6 +6,7 @@ use std::fmt::Write;
 use ncc_exec::Kind;
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::WordsLack;
 use ncc_ir::program::{Pitch, Reference, Synchronised};
 
 use super::{Printer, cannot, literal};
@@ -25,9 +26,11 @@ impl Printer<'_> {
 
     /// One thread, or in and out again.
     pub(super) fn thread(&mut self, thread: &Synchronised) -> Result<(), Fault> {
-        let Pitch::Stated(pitch) = &thread.pitch else { return Err(cannot("SYNCHRONISED_FEED")) };
+        let Pitch::Stated(pitch) = &thread.pitch else {
+            return Err(cannot(WordsLack::Function { function: "SYNCHRONISED_FEED" }));
+        };
         if thread.chuck || thread.turn.is_some() {
-            return Err(cannot("SYNCHRONISED_FEED"));
+            return Err(cannot(WordsLack::Function { function: "SYNCHRONISED_FEED" }));
         }
         let _ = writeln!(self.out, "START_SPEED_FEED_SYNC({:.6},0)", literal(pitch)?);
         if thread.back {
@@ -57,7 +60,9 @@ impl Printer<'_> {
                 self.rate_of_line()?;
                 self.straight("STRAIGHT_FEED", self.exec.position());
             }
-            Motion::Arc(_) | Motion::Cycle => return Err(cannot("POSITION")),
+            Motion::Arc(_) | Motion::Cycle => {
+                return Err(cannot(WordsLack::Function { function: "POSITION" }));
+            }
         }
         Ok(())
     }

@@ -9,6 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::ONE;
 use ncc_ir::expr::system::System;
+use ncc_ir::lack::{LengthsLack, TablesLack};
 use ncc_ir::program::{Data, Op, Stmt};
 
 use super::{Printer, cannot};
@@ -39,7 +40,7 @@ impl Printer<'_> {
         let entry = entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let stated = |entry| entry == 0 || self.exec.stated_entry(entry).is_some();
         if !entry.is_some_and(stated) {
-            return Err(cannot("the length of a tool that the program has not put into the table"));
+            return Err(cannot(LengthsLack::NotInTable));
         }
         let unit = if self.inch() { 25.4 } else { 1.0 };
         let [x, y, z] = self.exec.called_up().map(|nanos| nanos as f64 / ONE as f64 / unit);
@@ -59,8 +60,7 @@ impl Printer<'_> {
             }
         });
         let Some((entry, span)) = last else { return Ok(()) };
-        let unknown =
-            || Diagnostic::new(cannot("values of a tool of which the program has not said all"), span);
+        let unknown = || Diagnostic::new(cannot(TablesLack::ToolNotWhole), span);
         let offsets = self.exec.stated_entry(entry).ok_or_else(unknown)?;
         let [x, y, z] = offsets.map(|nanos| nanos as f64 / ONE as f64 / 25.4);
         let rest = "0.0000 0.0000 0.0000 0.0000 0.0000 0.0000";

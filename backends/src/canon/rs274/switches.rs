@@ -5,6 +5,7 @@ use std::fmt::Write;
 use ncc_ir::canon::AdviceKind;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::WordsLack;
 use ncc_ir::program::{Advice, Stmt};
 
 use super::{Printer, cannot, literal};
@@ -33,7 +34,7 @@ impl Printer<'_> {
             | AdviceKind::ReadAhead
             | AdviceKind::ChipConveyor
             | AdviceKind::Door
-            | AdviceKind::Screen => return Err(cannot("ADVISE")),
+            | AdviceKind::Screen => return Err(cannot(WordsLack::Function { function: "ADVISE" })),
         };
         let able = if advice.value_name() == "on" { "ENABLE" } else { "DISABLE" };
         let _ = writeln!(self.out, "{able}_{what}({spindle})");

@@ -15,6 +15,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::program::Text;
+use ncc_ir::run_time::RunTimeValue;
 
 use crate::common::fault::cannot_compute;
 use comparisons::{exactly, flipped, holds_or_not, nearly, within};
@@ -100,7 +101,7 @@ impl Spelling<'_> {
     fn element(&self, element: &Element, depth: u8, out: &mut String) -> Result<(), Fault> {
         match &element.of {
             Many::Array { var, .. } if self.rules.index.is_some() => self.variable(var, out)?,
-            Many::Array { .. } => return Err(cannot_compute("an array")),
+            Many::Array { .. } => return Err(cannot_compute(RunTimeValue::Array)),
             Many::Numbered(_) => {
                 out.push_str(&self.rules.variable);
                 out.push_str(&self.rules.prefix);
@@ -111,7 +112,7 @@ impl Spelling<'_> {
         let Some([open, close]) = &self.rules.index else {
             return match &element.at[..] {
                 [number] => within.bracketed(self.without_rounding(number), depth, out),
-                _ => Err(cannot_compute("a variable of several numbers")),
+                _ => Err(cannot_compute(RunTimeValue::SeveralNumbers)),
             };
         };
         out.push_str(open);
@@ -151,7 +152,7 @@ impl Spelling<'_> {
             all.map(|(_, spelt)| spelt).min_by_key(|spelt| !matches!(spelt, VariableName::Bracketed(_)));
         found
             .map(|spelt| spelt.to_string())
-            .ok_or_else(|| cannot_compute(format!("the system variable {system}")))
+            .ok_or_else(|| cannot_compute(RunTimeValue::AskedVariable { asked: system.clone() }))
     }
 
     /// What is looked at as a whole number, without the rounding that the control does by itself.
@@ -163,7 +164,7 @@ impl Spelling<'_> {
     /// An expression in brackets.
     pub(crate) fn bracketed(&self, e: &Expr, depth: u8, out: &mut String) -> Result<(), Fault> {
         if depth >= self.rules.brackets {
-            return Err(cannot_compute("brackets within so many others"));
+            return Err(cannot_compute(RunTimeValue::BracketDepth));
         }
         out.push_str(&self.rules.open);
         self.expr(e, LOOSEST, true, depth + 1, out)?;
@@ -182,7 +183,7 @@ impl Spelling<'_> {
     ) -> Result<(), Fault> {
         let node = match e {
             Expr::Num(n) if n.unit != Unit::One => {
-                return Err(cannot_compute("a literal with a unit of its own in an expression"));
+                return Err(cannot_compute(RunTimeValue::LiteralUnit));
             }
             Expr::Num(n) if n.mantissa < 0 && !first => return self.bracketed(e, depth, out),
             Expr::Num(n) => {
@@ -214,7 +215,7 @@ impl Spelling<'_> {
         match node {
             Node::Vacant => {
                 let word = self.rules.vacant.as_ref();
-                out.push_str(word.ok_or_else(|| cannot_compute("no value at all"))?);
+                out.push_str(word.ok_or_else(|| cannot_compute(RunTimeValue::NoValue))?);
                 Ok(())
             }
             Node::Var(var) => self.variable(var, out),
@@ -233,7 +234,7 @@ impl Spelling<'_> {
             Node::Unary(Unary::Negate, a) => self.negative(e, a, first, depth, out),
             Node::Unary(Unary::Not, a) => {
                 let word = self.rules.not.as_ref();
-                let word = word.ok_or_else(|| cannot_compute("the opposite of a condition"))?;
+                let word = word.ok_or_else(|| cannot_compute(RunTimeValue::Opposite))?;
                 if !first {
                     return self.bracketed(e, depth, out);
                 }
@@ -254,14 +255,15 @@ impl Spelling<'_> {
             }
             Node::Call(Function::Given, arguments) if self.rules.exists.is_some() => match &arguments[..] {
                 [a] => self.expr(a, least, first, depth, out),
-                _ => Err(cannot_compute("this function")),
+                _ => Err(cannot_compute(RunTimeValue::ThisFunction)),
             },
             Node::Call(Function::Remainder, arguments) => match (&self.rules.remainder, &arguments[..]) {
                 (Some(word), [a, b]) => {
-                    let own = self.tie(Binary::Modulo).ok_or_else(|| cannot_compute("this operator"))?;
+                    let own =
+                        self.tie(Binary::Modulo).ok_or_else(|| cannot_compute(RunTimeValue::ThisOperator))?;
                     self.joined(word, own, [a, b], least, first, depth, out)
                 }
-                _ => Err(cannot_compute("this function")),
+                _ => Err(cannot_compute(RunTimeValue::ThisFunction)),
             },
             Node::Call(function, arguments) => match (self.rules.by_bits(*function), &arguments[..]) {
                 (Some(operator), [a, b]) => self.operation(operator, [a, b], least, first, depth, out),
@@ -273,10 +275,10 @@ impl Spelling<'_> {
     /// Whether a variable with a name has a value.
     fn exists(&self, of: &Node, out: &mut String) -> Result<(), Fault> {
         let (Some(word), Node::Var(var)) = (&self.rules.exists, of) else {
-            return Err(cannot_compute("whether a variable has a value"));
+            return Err(cannot_compute(RunTimeValue::HasValue));
         };
         if self.named(var).is_none() {
-            return Err(cannot_compute("whether a variable without a name has a value"));
+            return Err(cannot_compute(RunTimeValue::NamelessHasValue));
         }
         out.push_str(word);
         out.push_str(&self.rules.open);
@@ -288,8 +290,8 @@ impl Spelling<'_> {
     /// The opposite of a condition, which is a number here: zero, where it holds.
     fn opposite(&self, e: &Expr, least: Tie, depth: u8, out: &mut String) -> Result<(), Fault> {
         let word = self.rules.not_behind.as_ref();
-        let word = word.ok_or_else(|| cannot_compute("the opposite of a condition"))?;
-        let own = self.tie(Binary::Equal).ok_or_else(|| cannot_compute("this operator"))?;
+        let word = word.ok_or_else(|| cannot_compute(RunTimeValue::Opposite))?;
+        let own = self.tie(Binary::Equal).ok_or_else(|| cannot_compute(RunTimeValue::ThisOperator))?;
         if own > least {
             out.push_str(&self.rules.open);
             self.opposite(e, LOOSEST, depth + 1, out)?;
@@ -324,9 +326,9 @@ impl Spelling<'_> {
         depth: u8,
         out: &mut String,
     ) -> Result<(), Fault> {
-        let own = self.tie(operator).ok_or_else(|| cannot_compute("this operator"))?;
+        let own = self.tie(operator).ok_or_else(|| cannot_compute(RunTimeValue::ThisOperator))?;
         let word = self.rules.operator(operator);
-        let word = word.ok_or_else(|| cannot_compute("this operator"))?;
+        let word = word.ok_or_else(|| cannot_compute(RunTimeValue::ThisOperator))?;
         self.joined(word, own, [a, b], least, first, depth, out)
     }
 
@@ -344,7 +346,7 @@ impl Spelling<'_> {
     ) -> Result<(), Fault> {
         if own > least {
             if depth >= self.rules.brackets {
-                return Err(cannot_compute("brackets within so many others"));
+                return Err(cannot_compute(RunTimeValue::BracketDepth));
             }
             out.push_str(&self.rules.open);
             self.joined(word, own, [a, b], LOOSEST, true, depth + 1, out)?;
@@ -385,13 +387,13 @@ impl Spelling<'_> {
                 (Function::Round, std::slice::from_ref(a))
             }
             (Function::RoundTo, ..) => {
-                return Err(cannot_compute("rounding to some digits in an expression"));
+                return Err(cannot_compute(RunTimeValue::RoundingInExpression));
             }
             (Function::Round, _, Some(digits)) if digits > 0 => {
-                return Err(cannot_compute("rounding to a whole number in a word that is rounded to digits"));
+                return Err(cannot_compute(RunTimeValue::WholeInRoundedWord));
             }
             (Function::Asin | Function::Atan2, ..) if self.turn => {
-                return Err(cannot_compute("an arc's angle below zero"));
+                return Err(cannot_compute(RunTimeValue::NegativeArcAngle));
             }
             (function, arguments, _) => (function, arguments),
         };
@@ -415,7 +417,7 @@ impl Spelling<'_> {
             return Ok(());
         }
         let word = self.rules.function(function);
-        out.push_str(word.ok_or_else(|| cannot_compute("this function"))?);
+        out.push_str(word.ok_or_else(|| cannot_compute(RunTimeValue::ThisFunction))?);
         if self.rules.together {
             out.push_str(&self.rules.open);
             for (at, argument) in arguments.iter().enumerate() {
@@ -465,11 +467,15 @@ fn without_rounding(at: &Expr) -> &Expr {
 /// The number of a variable, which is its name behind the prefix.
 pub(crate) fn number_of(var: &Var, prefix: &str) -> Result<String, Fault> {
     match var {
-        Var::System(_) => Err(cannot_compute(format!("the system variable {}", var.name()))),
+        Var::System(asked) => Err(cannot_compute(RunTimeValue::AskedVariable { asked: asked.clone() })),
         Var::Local(name) | Var::Common(name) | Var::Retentive(name) => {
             let number = name.strip_prefix(prefix).unwrap_or_default();
             let plain = !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
-            if plain { Ok(number.to_string()) } else { Err(cannot_compute(format!("the variable {name}"))) }
+            if plain {
+                Ok(number.to_string())
+            } else {
+                Err(cannot_compute(RunTimeValue::Variable { name: (**name).into() }))
+            }
         }
     }
 }

@@ -7,6 +7,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, POW10, Unit};
 use ncc_ir::geometry;
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Move};
 use ncc_ir::source::Span;
 
@@ -43,7 +44,7 @@ impl Words {
 
     pub(crate) fn centre_letter(&self, axis: Axis) -> Result<Letter, Fault> {
         let letter = self.codes.centre.get(axis as usize).copied().flatten();
-        letter.ok_or_else(|| cannot("an arc's centre"))
+        letter.ok_or_else(|| cannot(ArcsLack::Centre))
     }
 
     /// The place of an axis at the end of an arc, by the words that are written.

@@ -2,7 +2,9 @@
 
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::{FlowLack, LengthsLack, WordsLack};
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 
 use super::Words;
 use crate::common::Sink;
@@ -43,8 +45,7 @@ impl Words {
         }
         let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
         if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
-            let what = "a block that can be skipped on a switch of its own".into();
-            return Err(Fault::TargetLacks { what });
+            return Err(Fault::lacks(FlowLack::OwnSkipSwitch));
         }
         Ok(self.active)
     }
@@ -82,7 +83,7 @@ impl Words {
     /// Makes room for a statement: in the block at hand, or else in a new one.
     pub(crate) fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.possible(need) {
-            return Err(Fault::TargetLacks { what: "these codes in one block".into() });
+            return Err(Fault::lacks(WordsLack::CodesInOneBlock));
         }
         if !self.block.fits(need) {
             let feed = self.block.feed_can_wait(need).then(|| self.block.take_feed());
@@ -111,7 +112,7 @@ impl Words {
         if let Some(span) = self.offset_waits.take()
             && !self.block.has(Axis::Z.letter())
         {
-            sink.report(cannot("a length offset in a block without Z"), span);
+            sink.report(cannot(LengthsLack::OffsetWithoutZ), span);
         }
         self.surface_with_speed(sink);
         let number = self.numbers.of_line(empty, self.block.number);
@@ -138,12 +139,12 @@ impl Words {
         to.append(&mut self.block.after);
         let most = self.dialect.block.longest;
         if most > 0 && length > most as usize {
-            let fault = cannot_compute(format!("a block of more than {most} characters"));
+            let fault = cannot_compute(RunTimeWord::BlockLength { most });
             sink.report(fault, self.block.at);
         }
         let most = self.dialect.block.longest_bare;
         if most > 0 && bare > most as usize {
-            sink.report(cannot(format!("a block of more than {most} characters")), self.block.at);
+            sink.report(cannot(WordsLack::BlockLength { most }), self.block.at);
         }
     }
 

@@ -4,6 +4,7 @@ use ncc_dialects::{ANGLE_RANGE, MACHINE_UNITS, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 use super::Words;
@@ -18,7 +19,7 @@ impl Words {
     /// How expressions are spelt, in a word that rounds to digits or elsewhere.
     pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'_>, Fault> {
         if self.dialect.formula.operators.is_empty() {
-            return Err(cannot_compute("a value that is computed"));
+            return Err(cannot_compute(RunTimeValue::Computed));
         }
         Ok(Spelling {
             rules: &self.dialect.formula,
@@ -36,7 +37,7 @@ impl Words {
     /// A condition is a decision's alone, where loops and decisions have no words of their own for blocks.
     fn no_condition(&self, e: &Expr) -> Result<(), Fault> {
         match self.dialect.program.macro_b && e.has(&decides) {
-            true => Err(cannot_compute("a condition as a value")),
+            true => Err(cannot_compute(RunTimeValue::ConditionAsValue)),
             false => Ok(()),
         }
     }
@@ -159,10 +160,10 @@ impl Words {
                 return Ok(self.block.formula(text));
             }
             (Some(_), _) => {
-                return Err(cannot_compute("a computed value that is rounded to other digits than its word"));
+                return Err(cannot_compute(RunTimeValue::OtherDigits));
             }
             (None, Some(_)) => {
-                return Err(cannot_compute("a computed value that is not rounded, in a word that rounds it"));
+                return Err(cannot_compute(RunTimeValue::NotRounded));
             }
         };
         let text = self.behind(inner, digits, span, sink)?;
@@ -190,7 +191,7 @@ fn compared(e: &mut Expr) -> Result<(), Fault> {
         return compared(a);
     }
     match e.parts().any(|part| part.has(&decides)) {
-        true => Err(cannot_compute("a condition as a value")),
+        true => Err(cannot_compute(RunTimeValue::ConditionAsValue)),
         false => Ok(()),
     }
 }

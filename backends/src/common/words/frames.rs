@@ -4,6 +4,7 @@ use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::{FramesLack, WordsLack};
 use ncc_ir::program::{Coord, FrameSlot, Slot};
 use ncc_ir::source::Span;
 
@@ -21,13 +22,13 @@ impl Words {
         match slot {
             Slot::Shift { origin, axes } => {
                 let code = if *origin { frames.origin } else { frames.local };
-                let code = code.ok_or_else(|| cannot("a shift"))?;
+                let code = code.ok_or_else(|| cannot(FramesLack::Shift))?;
                 self.filled(code, &self.along(&axes[..])?, &[], Inserted::default(), span, sink)
             }
             Slot::Rotation { plane, centre, angle } => {
-                let (code, letter) = frames.rotation.ok_or_else(|| cannot("a rotation"))?;
+                let (code, letter) = frames.rotation.ok_or_else(|| cannot(FramesLack::Rotation))?;
                 if angle.distance == Fact::Known(Distance::Incremental) {
-                    return Err(cannot("a rotation by an increment"));
+                    return Err(cannot(FramesLack::RotationByIncrement));
                 }
                 let mut inserted = Inserted::default();
                 self.need_plane(*plane, &mut inserted)?;
@@ -35,7 +36,7 @@ impl Words {
                 self.filled(code, &axes, &[(letter, angle.value.clone())], inserted, span, sink)
             }
             Slot::Scale { centre, factors } => {
-                let (code, all, each) = frames.scale.ok_or_else(|| cannot("factors"))?;
+                let (code, all, each) = frames.scale.ok_or_else(|| cannot(FramesLack::Scale))?;
                 let one = Expr::int(1);
                 let factors = [0, 1, 2].map(|i| factors[i].clone().unwrap_or_else(|| one.clone()));
                 let same = factors.iter().all(|f| *f == factors[0]) && centre.iter().all(Option::is_some);
@@ -47,13 +48,13 @@ impl Words {
                 self.filled(code, &axes, &own, Inserted::default(), span, sink)
             }
             Slot::Mirror(lines) => {
-                let code = frames.mirror.ok_or_else(|| cannot("a mirror"))?;
+                let code = frames.mirror.ok_or_else(|| cannot(FramesLack::Mirror))?;
                 self.filled(code, &self.along(&lines[..])?, &[], Inserted::default(), span, sink)
             }
             Slot::Tilt(tilt) => {
-                let (code, letters, about) = frames.tilt.ok_or_else(|| cannot("a tilted plane"))?;
+                let (code, letters, about) = frames.tilt.ok_or_else(|| cannot(FramesLack::TiltedPlane))?;
                 if tilt.about != about {
-                    return Err(cannot("a tilted plane by turns about these axes"));
+                    return Err(cannot(FramesLack::TiltAxes));
                 }
                 // All of its words are written.
                 let zero = Expr::Num(Num::int(0, ncc_ir::expr::num::Unit::Mm));
@@ -62,7 +63,7 @@ impl Words {
                 let own: Vec<_> = letters.into_iter().zip(tilt.angles.iter().cloned()).collect();
                 self.filled(code, &self.along(&origin)?, &own, Inserted::default(), span, sink)
             }
-            Slot::NoMirror(axes) => self.zeros(frames.no_mirror, *axes, "a mirror", span, sink),
+            Slot::NoMirror(axes) => self.zeros(frames.no_mirror, *axes, FramesLack::Mirror, span, sink),
         }
     }
 
@@ -73,21 +74,21 @@ impl Words {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let code = self.codes.frames.position.ok_or_else(|| cannot("coordinates of the present point"))?;
+        let code = self.codes.frames.position.ok_or_else(|| cannot(FramesLack::PresentPoint))?;
         self.filled(code, &self.along(axes)?, &[], Inserted::default(), span, sink)
     }
 
     /// Suspends the shift of the origin, or takes it up again.
     pub(crate) fn origin_shift(&mut self, on: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let what = if on { "an origin shift taken up again" } else { "an origin shift suspended" };
-        let code = self.codes.origin_shift[usize::from(on)].ok_or_else(|| cannot(what))?;
+        let lack = if on { FramesLack::ShiftResumed } else { FramesLack::ShiftSuspended };
+        let code = self.codes.origin_shift[usize::from(on)].ok_or_else(|| cannot(lack))?;
         self.filled(code, &[], &[], Inserted::default(), span, sink)
     }
 
     /// Turns the tool upright on a tilted plane.
     pub(crate) fn upright(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.frames.upright;
-        let code = code.ok_or_else(|| cannot("the tool's axis turned onto a tilted plane"))?;
+        let code = code.ok_or_else(|| cannot(FramesLack::AxisOntoTilt))?;
         self.filled(code, &[], &[], Inserted::default(), span, sink)
     }
 
@@ -95,14 +96,18 @@ impl Words {
     pub(crate) fn clear_slot(&mut self, slot: FrameSlot, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let frames = self.codes.frames;
         let code = match slot {
-            FrameSlot::Local => return self.zeros(frames.local, [true; 3], "a local shift", span, sink),
-            FrameSlot::Mirror => return self.zeros(frames.no_mirror, [true; 3], "a mirror", span, sink),
+            FrameSlot::Local => {
+                return self.zeros(frames.local, [true; 3], FramesLack::LocalShift, span, sink);
+            }
+            FrameSlot::Mirror => {
+                return self.zeros(frames.no_mirror, [true; 3], FramesLack::Mirror, span, sink);
+            }
             FrameSlot::Rotation => frames.no_rotation,
             FrameSlot::Scale => frames.no_scale,
             FrameSlot::Tilt if frames.tilt.is_some() => frames.no_rotation,
             FrameSlot::Shift | FrameSlot::Polar | FrameSlot::Tilt | FrameSlot::Chain => None,
         };
-        let code = code.ok_or_else(|| cannot("clearing this frame"))?;
+        let code = code.ok_or_else(|| cannot(FramesLack::Clear))?;
         self.filled(code, &[], &[], Inserted::default(), span, sink)
     }
 
@@ -110,11 +115,11 @@ impl Words {
         &mut self,
         code: Option<Code>,
         axes: [bool; 3],
-        what: &str,
+        lack: FramesLack,
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let code = code.ok_or_else(|| cannot(what))?;
+        let code = code.ok_or_else(|| cannot(lack))?;
         let zero = Expr::Num(Num::int(0, ncc_ir::expr::num::Unit::Mm));
         let words = axes.map(|named| named.then(|| zero.clone()));
         self.filled(code, &self.along(&words)?, &[], Inserted::default(), span, sink)
@@ -126,7 +131,7 @@ impl Words {
         for (axis, word) in Axis::ALL.into_iter().zip(words) {
             if let Some(word) = word {
                 let letter = self.codes.axes[axis as usize];
-                out.push((letter.ok_or_else(|| cannot("this axis"))?, word.clone()));
+                out.push((letter.ok_or_else(|| cannot(WordsLack::Axis))?, word.clone()));
             }
         }
         Ok(out)

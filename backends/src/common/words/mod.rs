@@ -28,6 +28,7 @@ use ncc_ir::canon::{AXES, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_ir::lack::ModesLack;
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -310,7 +311,7 @@ impl Words {
         if let Some((units, span)) = self.units_relied
             && self.units_stated[1 - units as usize]
         {
-            sink.report(cannot("lengths in a unit that the caller decides"), span);
+            sink.report(cannot(ModesLack::CallersUnit), span);
         }
     }
 }

@@ -4,6 +4,7 @@
 use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, SpindleMode, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::lack::{FeedsLack, FramesLack, HolesLack, Lack, ModesLack};
 use ncc_ir::program::Coord;
 use ncc_ir::source::Span;
 
@@ -14,8 +15,8 @@ use crate::common::codes::Code;
 use crate::common::fault::cannot;
 use crate::common::setting::{Inserted, Setting};
 
-fn said(code: Option<Code>, what: &str) -> Result<Option<Code>, Fault> {
-    code.map(Some).ok_or_else(|| cannot(what))
+fn said(code: Option<Code>, lack: impl Into<Lack>) -> Result<Option<Code>, Fault> {
+    code.map(Some).ok_or_else(|| cannot(lack))
 }
 
 impl Words {
@@ -24,21 +25,21 @@ impl Words {
     pub(crate) fn setting(&self, setting: Setting) -> Result<Option<Code>, Fault> {
         let codes = &self.codes;
         match setting {
-            Setting::Units(u) => said(codes.units[u as usize], "this unit of length"),
-            Setting::Distance(Distance::Absolute) => said(codes.distance[0], "absolute coordinates"),
-            Setting::Distance(Distance::Incremental) => said(codes.distance[1], "incremental coordinates"),
-            Setting::Plane(p) => said(codes.plane[p as usize], "this plane"),
+            Setting::Units(u) => said(codes.units[u as usize], ModesLack::Units),
+            Setting::Distance(Distance::Absolute) => said(codes.distance[0], ModesLack::Absolute),
+            Setting::Distance(Distance::Incremental) => said(codes.distance[1], ModesLack::Incremental),
+            Setting::Plane(p) => said(codes.plane[p as usize], ModesLack::Plane),
             Setting::FeedMode(f) if self.surface_joins_feed()? => {
-                let what = "this feed under a constant surface speed";
-                said(codes.spindle_mode(SpindleMode::Surface, Some(f)), what)
+                let lack = FeedsLack::UnderSurfaceSpeed;
+                said(codes.spindle_mode(SpindleMode::Surface, Some(f)), lack)
             }
             Setting::FeedMode(f) => match codes.feed_mode[f as usize] {
                 Some(code) => Ok(Some(code)),
                 None if self.only_feed_mode() == Some(f) => Ok(None),
                 None => Err(cannot(match f {
-                    FeedMode::PerMinute => "feed per minute",
-                    FeedMode::PerRevolution => "feed per revolution",
-                    FeedMode::InverseTime => "inverse-time feed",
+                    FeedMode::PerMinute => FeedsLack::PerMinute,
+                    FeedMode::PerRevolution => FeedsLack::PerRevolution,
+                    FeedMode::InverseTime => FeedsLack::InverseTime,
                 })),
             },
             Setting::Level(l) => match codes.level[l as usize] {
@@ -49,7 +50,7 @@ impl Words {
                 None if self.dialect.caps.holes.cycles.is_empty() => Ok(None),
                 // Where every call of a cycle states its plane, there is none.
                 None if self.dialect.states_return_planes() => Ok(None),
-                None => Err(cannot("the return level of cycles")),
+                None => Err(cannot(HolesLack::ReturnLevel)),
             },
             Setting::Origin(n) => {
                 let code = match usize::from(n).checked_sub(1) {
@@ -60,7 +61,7 @@ impl Words {
                     Some(code) => Ok(Some(code)),
                     // A control with one work offset has no word for it.
                     None if self.dialect.caps.frames.work_offsets == 0 => Ok(None),
-                    None => Err(cannot(format!("work offset {n}"))),
+                    None => Err(cannot(FramesLack::WorkOffset { offset: n })),
                 }
             }
             // Without a word for it, none can be on: no statement that is written sets one.
@@ -182,14 +183,14 @@ impl Words {
             match coord.distance {
                 Fact::Known(_) if qualifiers && (in_force || wanted.is_some()) => {}
                 Fact::Known(d) if wanted.is_some_and(|w| w != d) => {
-                    return Err(cannot("absolute and incremental words in one block"));
+                    return Err(cannot(ModesLack::MixedDistances));
                 }
                 Fact::Known(d) => wanted = Some(d),
                 Fact::Entry => inherits = true,
             }
         }
         if inherits && (self.active.our_distance || (wanted.is_some() && wanted != self.active.distance)) {
-            return Err(cannot("words in a distance mode that is not known"));
+            return Err(cannot(ModesLack::DistanceUnknown));
         }
         if let Some(d) = wanted.filter(|d| self.active.distance != Some(*d)) {
             inserted.distance = self.setting(Setting::Distance(d))?;
@@ -225,7 +226,7 @@ impl Words {
                 self.active.our_plane = true;
                 Ok(())
             }
-            Fact::Entry if self.active.our_plane => Err(cannot("a plane that is not known")),
+            Fact::Entry if self.active.our_plane => Err(cannot(ModesLack::PlaneUnknown)),
             Fact::Known(_) | Fact::Entry => Ok(()),
         }
     }
@@ -279,8 +280,8 @@ impl Words {
         };
         if !known && !n.is_zero() {
             return Err(match units {
-                Units::Mm => cannot("millimetres where they are not known to be in force"),
-                Units::Inch => cannot("inches where they are not known to be in force"),
+                Units::Mm => cannot(ModesLack::MillimetresUnknown),
+                Units::Inch => cannot(ModesLack::InchesUnknown),
             });
         }
         if self.active.units.is_none() {

@@ -9,7 +9,9 @@ use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_ir::lack::{MachineLack, WordsLack};
 use ncc_ir::program::{Coord, Move, Point};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 use super::{Words, rounded};
@@ -33,7 +35,7 @@ impl Words {
             true => (Motion::Traverse, self.codes.traverse),
             false => (Motion::Feed, self.codes.feed),
         };
-        let code = code.ok_or_else(|| cannot("a straight move"))?;
+        let code = code.ok_or_else(|| cannot(WordsLack::StraightMove))?;
         let probe = self.probe.take().filter(|_| !rapid);
         let detour = self.detour.take().filter(|_| rapid);
         let code = detour.or(probe.map(|probe| probe.code)).unwrap_or(code);
@@ -64,7 +66,7 @@ impl Words {
             let counts = self.active.feed_mode != Some(FeedMode::InverseTime);
             let (Some(feed), Some(letter)) = (self.active.feed.filter(|_| counts), self.codes.feed_word)
             else {
-                return Err(cannot("a probing move whose feed is not known"));
+                return Err(cannot(MachineLack::ProbingFeedUnknown));
             };
             let feed = self.value(&letter, &Expr::Num(feed), span, sink)?;
             self.block.word(Part::Feed, letter.letter, feed);
@@ -83,7 +85,7 @@ impl Words {
     /// Axis words that do whatever is in force.
     pub(crate) fn position(&mut self, to: &Move, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !self.dialect.caps.flow.inherits_motion {
-            return Err(cannot("a position that does what the caller has in force"));
+            return Err(cannot(WordsLack::CallersMotion));
         }
         let mut inserted = Inserted::default();
         self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
@@ -97,7 +99,7 @@ impl Words {
         for axis in Axis::ALL {
             if to.get(axis).is_some() {
                 let letter = self.codes.axes[axis as usize];
-                let letter = letter.ok_or_else(|| cannot(format!("the axis {}", axis.letter() as char)))?;
+                let letter = letter.ok_or_else(|| cannot(WordsLack::AxisWord { axis }))?;
                 need = need.letter(letter.letter);
             }
         }
@@ -129,7 +131,7 @@ impl Words {
                 None => None,
             };
             if let Some((qualifier, text)) = qualified {
-                let text = text.strip_prefix('=').ok_or_else(|| cannot("a computed value"))?;
+                let text = text.strip_prefix('=').ok_or_else(|| cannot(WordsLack::ComputedValue))?;
                 if coord.distance.known() != Some(Distance::Incremental) {
                     self.residue[axis as usize] = 0;
                 }
@@ -194,7 +196,8 @@ impl Words {
             (plain, left)
         } else {
             let due = n.nanos(false).and_then(|v| v.checked_add(before));
-            let due = due.ok_or_else(|| cannot(number::spell(letter.letter, n)))?;
+            let due =
+                due.ok_or_else(|| cannot(WordsLack::Number { word: number::spell(letter.letter, n) }))?;
             let near = number::from_nanos(due, &letter.format, n.unit);
             let shaped = number::shape(near, &letter.format).map_err(fault)?;
             // The digits of the source stay where the residue makes no difference to them.
@@ -204,7 +207,7 @@ impl Words {
         };
         // How often a block is executed decides what its rounding adds up to.
         if self.facts.kept && distance == Some(Distance::Incremental) && (before, residue) != (0, 0) {
-            return Err(cannot_compute("an incremental word that is finer than the digits of the control"));
+            return Err(cannot_compute(RunTimeValue::FineIncrement));
         }
         if shaped.rounded {
             rounded(letter.letter, n, shaped, span, sink);

@@ -5,6 +5,7 @@
 use ncc_ir::canon::SpindleMode;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::{FeedsLack, SpindleLack};
 use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
@@ -41,7 +42,7 @@ impl Words {
     pub(super) fn turns_code(&self) -> Result<Option<Code>, Fault> {
         let Some(code) = self.codes.spindle_mode(SpindleMode::Turns, self.active.feed_mode) else {
             return match self.surfaces.met {
-                true => Err(cannot("the end of a constant surface speed, with this feed")),
+                true => Err(cannot(SpindleLack::SurfaceSpeedEnd)),
                 false => Ok(None),
             };
         };
@@ -55,14 +56,14 @@ impl Words {
         match self.active.spindle_mode {
             _ if !self.surfaces.met || !self.codes.spindle_with_feed() => Ok(false),
             Some(mode) => Ok(mode == SpindleMode::Surface),
-            None => Err(cannot("what a feed counts where it is not known what a speed does")),
+            None => Err(cannot(FeedsLack::ModeUnderUnknownSpeed)),
         }
     }
 
     /// The speed of the block is a surface's.
     pub(super) fn surface_speed(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.spindle_mode(SpindleMode::Surface, self.active.feed_mode);
-        let code = code.ok_or_else(|| cannot("a constant surface speed"))?;
+        let code = code.ok_or_else(|| cannot(SpindleLack::SurfaceSpeed))?;
         let mut need = Need::new(Rank::Setting).code(Some(code));
         let limit = match self.codes.surface_limit {
             None => None,
@@ -73,7 +74,7 @@ impl Words {
                     Some((letter.letter, self.value(&letter, &Expr::Num(limit), stmt.span, sink)?))
                 }
                 None if self.surfaces.limited => {
-                    return Err(cannot("a limit that is not known to be in force"));
+                    return Err(cannot(SpindleLack::LimitUnknown));
                 }
                 None => {
                     self.surfaces.unlimited = true;
@@ -103,20 +104,19 @@ impl Words {
         if let Some(span) = self.surfaces.waits.take()
             && self.codes.speed.is_none_or(|speed| !self.block.has(speed.letter))
         {
-            sink.report(cannot("a constant surface speed without its speed in the block"), span);
+            sink.report(cannot(SpindleLack::SurfaceWithoutSpeed), span);
         }
     }
 
     /// A stop of the spindle, at the control's own angle or at another one.
     pub(super) fn orient(&mut self, angle: Option<&Expr>, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        const WHAT: &str = "a spindle stopped at an angle";
-        let code = self.codes.orient.ok_or_else(|| cannot(WHAT))?;
+        let code = self.codes.orient.ok_or_else(|| cannot(SpindleLack::OrientedStop))?;
         let words = self.codes.orient_words;
         let wait = words.and_then(|words| words.wait);
         let mut need = Need::new(Rank::SpindleOn).code(Some(code));
         let Some(angle) = angle else {
             if wait.is_some() {
-                return Err(cannot("a stop of the spindle at the control's own angle"));
+                return Err(cannot(SpindleLack::OwnAngle));
             }
             self.admit(&need, sink)?;
             self.block.code(Part::Tail, &code);
@@ -126,11 +126,11 @@ impl Words {
         let chosen = words.and_then(|words| words.option.as_deref()).map(|option| self.settings.get(option));
         if self.tracker.cycle.is_some() && self.dialect.cycles.retained_by_all() {
             // The cycles have the letter too; whether theirs changes with it, no source tells.
-            return Err(cannot("a spindle stopped at an angle while a cycle is in force"));
+            return Err(cannot(SpindleLack::OrientedStopInCycle));
         }
         let counts = |letter: u8| chosen.is_none_or(|chosen| chosen.as_bytes() == [letter]);
         let letter = self.codes.orient_angles.iter().find(|letter| counts(letter.letter)).copied();
-        let letter = letter.ok_or_else(|| cannot(WHAT))?;
+        let letter = letter.ok_or_else(|| cannot(SpindleLack::OrientedStop))?;
         let value = self.value(&letter, angle, span, sink)?;
         need = need.letter(letter.letter);
         if let Some(wait) = wait {

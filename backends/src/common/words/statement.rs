@@ -4,13 +4,16 @@ use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::{
+    CompensationLack, FeedsLack, FlowLack, FramesLack, HolesLack, Lack, ModesLack, SpindleLack, ToolsLack,
+    WordsLack,
+};
 use ncc_ir::program::{Advice, CutterRadius, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
 use super::Words;
 use crate::common::block::{Need, Part, Rank};
 use crate::common::codes::{AdviceCode, Code, Letter};
-use crate::common::fault::PACKED;
 use crate::common::fault::{cannot, unwritable};
 use crate::common::number::{Shaped, WordValue};
 use crate::common::setting::Setting;
@@ -30,7 +33,7 @@ impl Words {
                 Ok(())
             }
             Op::NoEffect(name) => self.no_effect(name, span, sink),
-            Op::Lines(_) => Err(cannot(PACKED)),
+            Op::Lines(_) => Err(cannot(WordsLack::Packed)),
             Op::Blank => {
                 self.flush(true, sink);
                 Ok(())
@@ -52,7 +55,7 @@ impl Words {
             | Op::SetSpindleMode(SpindleMode::Turns)
             | Op::StopCutterRadiusCompensation => match Setting::from_op(&stmt.op) {
                 Some(setting) => self.write_setting(setting, sink),
-                None => Err(cannot("clearing this frame")),
+                None => Err(cannot(FramesLack::Clear)),
             },
             Op::StartCutterRadiusCompensation { side, radius } => {
                 self.compensation(*side, radius, span, sink)
@@ -66,10 +69,10 @@ impl Words {
             Op::UseOriginShift(on) => self.origin_shift(*on, span, sink),
             Op::SynchronisedFeed(m) => self.thread(m, span, sink),
             Op::SetSpindleSpeed(speed) => {
-                self.number_word(Rank::Speed, self.codes.speed, speed, "a spindle speed", span, sink)
+                self.number_word(Rank::Speed, self.codes.speed, speed, SpindleLack::Speed, span, sink)
             }
             Op::SelectTool(tool) => {
-                self.number_word(Rank::Tool, self.codes.tool, tool, "a tool number", span, sink)
+                self.number_word(Rank::Tool, self.codes.tool, tool, ToolsLack::Number, span, sink)
             }
             Op::StraightTraverse(to) => self.straight(to, true, span, sink),
             Op::StraightFeed(to) => self.straight(to, false, span, sink),
@@ -80,33 +83,33 @@ impl Words {
             }
             Op::StartSpindleClockwise => {
                 self.turned_in = None;
-                self.m_code(Rank::SpindleOn, self.codes.spindle_clockwise, "a clockwise spindle", sink)
+                self.m_code(Rank::SpindleOn, self.codes.spindle_clockwise, SpindleLack::Clockwise, sink)
             }
             Op::StartSpindleCounterclockwise => {
                 self.turned_in = None;
                 let code = self.codes.spindle_counterclockwise;
-                self.m_code(Rank::SpindleOn, code, "a counter-clockwise spindle", sink)
+                self.m_code(Rank::SpindleOn, code, SpindleLack::Counterclockwise, sink)
             }
             Op::StopSpindleTurning => {
                 let before = self.dialect.block.off_before_move;
                 let rank = if before { Rank::SpindleOn } else { Rank::SpindleOff };
-                self.m_code(rank, self.codes.spindle_stop, "a spindle stop", sink)
+                self.m_code(rank, self.codes.spindle_stop, SpindleLack::Stop, sink)
             }
             Op::MachineFunction(name) => self.machine_function(name, sink),
-            Op::FloodOn => self.m_code(Rank::Coolant, self.codes.flood, "flood coolant", sink),
-            Op::MistOn => self.m_code(Rank::Coolant, self.codes.mist, "mist coolant", sink),
+            Op::FloodOn => self.m_code(Rank::Coolant, self.codes.flood, SpindleLack::Flood, sink),
+            Op::MistOn => self.m_code(Rank::Coolant, self.codes.mist, SpindleLack::Mist, sink),
             Op::CoolantOff => {
                 let before = self.dialect.block.off_before_move;
                 let rank = if before { Rank::Coolant } else { Rank::CoolantOff };
-                self.m_code(rank, self.codes.coolant_off, "coolant off", sink)
+                self.m_code(rank, self.codes.coolant_off, SpindleLack::CoolantOff, sink)
             }
-            Op::ChangeTool => self.m_code(Rank::ToolChange, self.codes.change_tool, "a tool change", sink),
-            Op::ProgramStop => self.m_code(Rank::Stop, self.codes.stop, "a program stop", sink),
+            Op::ChangeTool => self.m_code(Rank::ToolChange, self.codes.change_tool, ToolsLack::Change, sink),
+            Op::ProgramStop => self.m_code(Rank::Stop, self.codes.stop, FlowLack::ProgramStop, sink),
             Op::OptionalProgramStop => {
-                self.m_code(Rank::Stop, self.codes.optional_stop, "an optional stop", sink)
+                self.m_code(Rank::Stop, self.codes.optional_stop, FlowLack::OptionalStop, sink)
             }
-            Op::ProgramEnd => self.m_code(Rank::Stop, self.codes.end, "the program's end", sink),
-            Op::Return => self.m_code(Rank::Call, self.codes.back, "a return from a subprogram", sink),
+            Op::ProgramEnd => self.m_code(Rank::Stop, self.codes.end, FlowLack::ProgramEnd, sink),
+            Op::Return => self.m_code(Rank::Call, self.codes.back, FlowLack::ReturnFromSubprogram, sink),
             // The writers say these themselves.
             Op::TurnRotaryAxes(_)
             | Op::Corner { .. }
@@ -146,16 +149,16 @@ impl Words {
             | Op::Goto(_)
             | Op::Label(_)
             | Op::Leave
-            | Op::NextTurn => Err(cannot("a statement that is more than codes and words")),
+            | Op::NextTurn => Err(cannot(WordsLack::CodesAndWords)),
         }
     }
 
     fn exact_stop(&mut self, sink: &mut Sink) -> Result<(), Fault> {
         if self.active.motion == Some(Motion::Cycle) {
             // Of which ways of a cycle it would be the end, no source tells.
-            return Err(cannot("an exact stop in a block of a cycle"));
+            return Err(cannot(HolesLack::ExactStopInCycle));
         }
-        let code = self.codes.exact_stop.ok_or_else(|| cannot("an exact stop of one move"))?;
+        let code = self.codes.exact_stop.ok_or_else(|| cannot(ModesLack::ExactStop))?;
         self.admit(&Need::new(Rank::ExactStop).code(Some(code)), sink)?;
         self.block.code(Part::Mode, &code);
         Ok(())
@@ -190,7 +193,7 @@ impl Words {
         sink: &mut Sink,
     ) -> Result<Shaped, Fault> {
         let Some(n) = value.literal() else {
-            return Err(cannot("a computed value"));
+            return Err(cannot(WordsLack::ComputedValue));
         };
         self.check_unit(n, span)?;
         let shaped = number::shape(n, &letter.format).map_err(|why| unwritable(why, letter.letter, n))?;
@@ -206,11 +209,11 @@ impl Words {
         rank: Rank,
         letter: Option<Letter>,
         value: &Expr,
-        what: &str,
+        lack: impl Into<Lack>,
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let letter = letter.ok_or_else(|| cannot(what))?;
+        let letter = letter.ok_or_else(|| cannot(lack))?;
         let value = self.value(&letter, value, span, sink)?;
         self.admit(&Need::new(rank).letter(letter.letter), sink)?;
         self.block.word(Part::Tail, letter.letter, value);
@@ -221,10 +224,10 @@ impl Words {
         &mut self,
         rank: Rank,
         code: Option<Code>,
-        what: &str,
+        lack: impl Into<Lack>,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let code = code.ok_or_else(|| cannot(what))?;
+        let code = code.ok_or_else(|| cannot(lack))?;
         self.admit(&Need::new(rank).code(Some(code)), sink)?;
         self.block.code(Part::Tail, &code);
         Ok(())
@@ -240,7 +243,7 @@ impl Words {
             let mut merged = None;
             if let Some(length) = &control.merged {
                 let letter = self.codes.path_merged;
-                let letter = letter.ok_or_else(|| cannot("a tolerance for moves that are made one"))?;
+                let letter = letter.ok_or_else(|| cannot(ModesLack::MergedMovesTolerance))?;
                 need = need.letter(letter.letter);
                 merged = Some((letter, self.value(&letter, length, span, sink)?));
             }
@@ -255,7 +258,7 @@ impl Words {
         let code = self.codes.path[control.mode as usize];
         let plain = (&control.within, &control.rapids, &control.merged) == (&None, &None, &None);
         let code = code.filter(|_| plain);
-        let code = code.ok_or_else(|| cannot(format!("corners by {}", control.mode.name())))?;
+        let code = code.ok_or_else(|| cannot(ModesLack::PathMode { mode: control.mode }))?;
         self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
         self.block.code(Part::Mode, &code);
         Ok(())
@@ -275,7 +278,7 @@ impl Words {
                 self.codes.compensation[side as usize]
             }
         };
-        let code = code.ok_or_else(|| cannot("cutter radius compensation"))?;
+        let code = code.ok_or_else(|| cannot(CompensationLack::Compensation))?;
         let own = self.codes.compensation_by_diameter[side as usize].map(|c| c.1);
         let entry = match (
             radius,
@@ -295,7 +298,7 @@ impl Words {
                 | CutterRadius::Diameter(_),
                 _,
             ) => {
-                return Err(cannot("compensation by this radius"));
+                return Err(cannot(CompensationLack::Radius));
             }
         };
         let need = Need::new(Rank::Offset).code(Some(code));
@@ -315,7 +318,7 @@ impl Words {
             found.kind == advice.kind && value && (advice.amount.is_none() || found.amount.is_some())
         };
         let Some(AdviceCode { code, word, amount, .. }) = self.codes.advice.iter().find(says).copied() else {
-            return Err(cannot(format!("advice on {}", advice.kind.name())));
+            return Err(cannot(ModesLack::Advice { kind: advice.kind }));
         };
         let Some((letter, on)) = word else {
             self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
@@ -346,7 +349,7 @@ impl Words {
     /// matter of the machine.
     fn machine_function(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.machine_functions.iter().find(|(n, _)| *n == name).map(|(_, code)| *code);
-        let code = code.ok_or_else(|| cannot(format!("the machine function {name}")))?;
+        let code = code.ok_or_else(|| cannot(WordsLack::MachineFunction { name: (*name).into() }))?;
         if !self.block.is_empty() {
             self.flush(false, sink);
             self.split = true;
@@ -357,10 +360,10 @@ impl Words {
     }
 
     pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
+        let letter = self.codes.feed_word.ok_or_else(|| cannot(FeedsLack::Feed))?;
         let value = self.value(&letter, feed, span, sink)?;
         if matches!(value, WordValue::Number(Shaped { mantissa: 0, rounded: true, .. })) {
-            return Err(cannot("a feed so small that the digits make it 0"));
+            return Err(cannot(FeedsLack::TooSmall));
         }
         self.feed_apart(sink);
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;

@@ -6,6 +6,7 @@ use ncc_dialects::Thread;
 use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::ThreadsLack;
 use ncc_ir::program::{Pitch, Synchronised};
 use ncc_ir::source::Span;
 
@@ -33,26 +34,26 @@ impl Words {
                 let code = if turned_in.is_some() { Turn::Counterclockwise } else { Turn::Clockwise };
                 (Thread::Turned(code), way_in == Turn::Counterclockwise)
             }
-            _ => return Err(cannot("a move in step with the spindle in this form")),
+            _ => return Err(cannot(ThreadsLack::SynchronisedForm)),
         };
         let row = self.codes.threads.iter().find(|(own, ..)| *own == thread);
-        let (_, code, letters) = row.ok_or_else(|| cannot("a move in step with the spindle"))?.clone();
+        let (_, code, letters) = row.ok_or_else(|| cannot(ThreadsLack::Synchronised))?.clone();
         let along = Axis::ALL.into_iter().find(|axis| m.to.get(*axis).is_some());
         let lead = match (&m.pitch, along.and_then(|axis| letters.get(axis as usize)).or(letters.first())) {
             (Pitch::Feed, None) => None,
             (Pitch::Stated(pitch), Some(letter)) => {
-                let pitch = pitch.literal().ok_or_else(|| cannot("a computed lead"))?;
+                let pitch = pitch.literal().ok_or_else(|| cannot(ThreadsLack::ComputedLead))?;
                 self.check_unit(pitch, span)?;
                 let mantissa = if minus { -pitch.mantissa } else { pitch.mantissa };
                 let pitch = Num { mantissa, ..pitch };
                 let shaped = number::shape(pitch, &letter.format)
                     .map_err(|why| unwritable(why, letter.letter, pitch))?;
                 if shaped.rounded {
-                    return Err(cannot("a lead with so many digits"));
+                    return Err(cannot(ThreadsLack::LeadDigits));
                 }
                 Some((letter.letter, shaped))
             }
-            _ => return Err(cannot("a thread whose lead is said in this way")),
+            _ => return Err(cannot(ThreadsLack::LeadForm)),
         };
         let mut inserted = Inserted::default();
         self.need_distance(m.to.axes.iter().flatten(), &mut inserted)?;

@@ -4,6 +4,7 @@ use ncc_ir::canon::{Axis, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::{HolesLack, PatternsLack};
 use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Stmt};
 use ncc_ir::source::Span;
@@ -22,19 +23,19 @@ impl Writer {
         match self.held.take() {
             Some(held) if self.dialect.cycles.hole_on_definition => {
                 self.held = Some(held);
-                return Err(cannot("a pattern of holes"));
+                return Err(cannot(PatternsLack::Pattern));
             }
             Some(held) if !held.in_text || self.words.active.motion != Some(Motion::Cycle) => {
                 self.call_up(held, None, true, stmt, sink)?;
             }
             Some(held) => self.held = Some(held),
-            None => return Err(cannot("holes of a cycle that is not known")),
+            None => return Err(cannot(HolesLack::HolesOfUnknownCycle)),
         }
         match pattern {
-            Pattern::Circle { first: First::Polar { .. }, .. } => Err(cannot("a bolt circle by radius")),
-            Pattern::Line { .. } => Err(cannot("a line of holes")),
-            Pattern::List(_) => Err(cannot("a list of positions")),
-            Pattern::Grid { start: Some(_), .. } => Err(cannot("a grid from a stated position")),
+            Pattern::Circle { first: First::Polar { .. }, .. } => Err(cannot(PatternsLack::CircleByRadius)),
+            Pattern::Line { .. } => Err(cannot(PatternsLack::Line)),
+            Pattern::List(_) => Err(cannot(PatternsLack::List)),
+            Pattern::Grid { start: Some(_), .. } => Err(cannot(PatternsLack::GridFromPosition)),
             Pattern::Circle { centre, first: First::At(first), step, count } => {
                 self.circle(centre.as_ref(), first, step, *count, stmt.span, sink)
             }
@@ -53,7 +54,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let row = self.words.codes.circle.ok_or_else(|| cannot("a bolt circle"))?;
+        let row = self.words.codes.circle.ok_or_else(|| cannot(PatternsLack::Circle))?;
         if centre.is_none() {
             let at = [
                 self.words.tracker.position[Axis::X as usize],
@@ -62,7 +63,7 @@ impl Writer {
             if self.options.circle_about_zero {
                 let zero = self.words.axis_position(Axis::X)? == 0 && self.words.axis_position(Axis::Y)? == 0;
                 if !zero {
-                    return Err(cannot("a bolt circle about where the tool stands"));
+                    return Err(cannot(PatternsLack::CircleAboutTool));
                 }
             } else if at != [Some(0); 2] {
                 self.words.rely("g24_centre", span, sink);
@@ -95,13 +96,13 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let row = self.words.codes.grid.ok_or_else(|| cannot("a grid of holes"))?;
+        let row = self.words.codes.grid.ok_or_else(|| cannot(PatternsLack::Grid))?;
         let (x, y) = (Axis::from_letter(row.pitch[0].letter), Axis::from_letter(row.pitch[1].letter));
         // The order of the holes shows only where there is more than one row.
         let order = serpentine == row.serpentine || rows.count <= 1 || columns.count <= 1;
         let along = |row: &Row, axis: Option<Axis>| axis.is_some_and(|a| row.along == Along::Axis(a));
         if !along(columns, x) || !along(rows, y) || !order {
-            return Err(cannot("a grid in this order"));
+            return Err(cannot(PatternsLack::GridOrder));
         }
         if columns.count > 2 || rows.count > 2 {
             self.words.rely("g25_xy", span, sink);

@@ -4,6 +4,7 @@
 
 use ncc_ir::canon::{Fact, ReturnLevel};
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind};
 
 use crate::common::codes::CycleCode;
@@ -21,7 +22,7 @@ impl Writer {
                 let of = self.words.codes.cycles.iter().filter(|row| row.kind == cycle.kind.name());
                 let mut fits = of.filter(|row| row.from_return == (*clearance == Clearance::FromReturn));
                 let Some(row) = fits.next().filter(|_| !matches!(clearance, Clearance::Stated(_))) else {
-                    return Err(cannot("the clearance of a peck, which is a parameter of the machine"));
+                    return Err(cannot(HolesLack::ClearanceIsParameter));
                 };
                 if row.own_pause {
                     return Ok(row);
@@ -36,13 +37,13 @@ impl Writer {
         let row = |dwell| self.words.codes.cycle(cycle.kind.name(), dwell).filter(|row| ends(row, cycle));
         // One that can have a dwell need have none, or has one of no seconds.
         let code = row(dwell.is_some()).or_else(|| row(true).filter(|_| dwell.is_none()));
-        code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
+        code.ok_or_else(|| cannot(HolesLack::Cycle { kind: cycle.kind.name() }))
     }
 
     /// The row of a cycle that drives the spindle.
     fn driven_code(&self, cycle: &Cycle) -> Result<&CycleCode, Fault> {
         let kind = &cycle.kind;
-        let cannot = || cannot(format!("the cycle {} in this form", kind.name()));
+        let cannot = || cannot(HolesLack::CycleForm { kind: kind.name() });
         let dwells = match kind {
             CycleKind::Tap(tap) => tap.dwell.is_some() || tap.back.is_some(),
             CycleKind::FineBore(bore) => bore.dwell.is_some(),

@@ -2,7 +2,9 @@
 //! block. Which variable that is, the dictionary says (`[[system]]`).
 
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Alarm, Op, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 
 use crate::common::Sink;
 use crate::common::fault::{cannot, cannot_compute};
@@ -16,7 +18,7 @@ impl Writer {
     pub(in crate::word) fn stop_has_text(&mut self, stmt: &Stmt) -> Result<(), Fault> {
         if self.stop_text.is_some() && !matches!(stmt.op, Op::ProgramStop) {
             self.stop_text = None;
-            return Err(cannot("a message to the operator"));
+            return Err(cannot(OperatorLack::OperatorMessage));
         }
         Ok(())
     }
@@ -30,7 +32,7 @@ impl Writer {
 
     pub(in crate::word) fn stop_setting(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<String, Fault> {
         let text = self.stop_text.take();
-        let number = self.variable_of("stop").ok_or_else(|| cannot("a stop with a message"))?;
+        let number = self.variable_of("stop").ok_or_else(|| cannot(OperatorLack::StopMessage))?;
         if let Some(text) = text {
             self.comment_text(&text, stmt, sink)?;
         }
@@ -55,12 +57,12 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<String, Fault> {
-        let variable = self.variable_of("alarm").ok_or_else(|| cannot("an alarm"))?;
-        let number = alarm.number.as_ref().ok_or_else(|| cannot_compute("an alarm without a number"))?;
+        let variable = self.variable_of("alarm").ok_or_else(|| cannot(OperatorLack::Alarm))?;
+        let number = alarm.number.as_ref().ok_or_else(|| cannot_compute(RunTimeWord::AlarmWithoutNumber))?;
         if let (Some(n), Some([from, to])) = (number.literal(), self.dialect.formula.alarms) {
             let known = n.whole_number().is_some_and(|n| (i64::from(from)..=i64::from(to)).contains(&n));
             if !known {
-                return Err(cannot("an alarm of this number"));
+                return Err(cannot(OperatorLack::AlarmNumber));
             }
         }
         let value = self.words.expression(number, stmt.span, sink)?;
@@ -79,14 +81,14 @@ impl Writer {
     /// A comment that is a text for the operator: as it is, and the only one of its block.
     fn comment_text(&mut self, text: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if stmt.comment.is_some() {
-            return Err(cannot("a comment beside a text for the operator"));
+            return Err(cannot(OperatorLack::CommentBesideText));
         }
         if text.chars().count() > self.dialect.formula.alarm_text {
             let most = self.dialect.formula.alarm_text;
-            return Err(cannot(format!("a text for the operator of more than {most} characters")));
+            return Err(cannot(OperatorLack::TextLength { most }));
         }
         if !self.words.comments.keeps(text) {
-            return Err(cannot("a text for the operator with these characters"));
+            return Err(cannot(OperatorLack::TextCharacters));
         }
         self.words.comment(text, stmt.span, sink);
         Ok(())

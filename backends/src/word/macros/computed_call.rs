@@ -5,6 +5,7 @@
 use ncc_ir::computed::computed_call::ComputedCall;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
@@ -22,7 +23,7 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let words = self.words.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
+        let words = self.words.codes.call.ok_or_else(|| cannot(FlowLack::SubprogramCall))?;
         self.flow(stmt, sink)?;
         let number = match (call.number, call.name) {
             (Some(number), _) => self.whole_value(number, stmt.span, sink)?,
@@ -31,13 +32,13 @@ impl Writer {
                     if self.dialect.program.padded_calls { self.dialect.program.number_digits } else { 0 };
                 format!("{:0least$}", self.program_number(name)?)
             }
-            (None, None) => return Err(cannot("a call of no program")),
+            (None, None) => return Err(cannot(FlowLack::CallOfNoProgram)),
         };
         let mut need = Need::new(Rank::Alone).code(Some(words.code)).letter(words.number);
         let times = match (call.times, words.count) {
             (None, _) => None,
             (Some(times), Some(letter)) => Some((letter, self.whole_value(times, stmt.span, sink)?)),
-            (Some(_), None) => return Err(cannot("a call that is made several times")),
+            (Some(_), None) => return Err(cannot(FlowLack::CallSeveralTimes)),
         };
         if let Some((letter, _)) = &times {
             need = need.letter(*letter);

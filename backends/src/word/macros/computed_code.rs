@@ -6,6 +6,7 @@ use ncc_dialects::Meaning;
 use ncc_ir::computed::computed_code::ComputedCode;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 
 use crate::common::Sink;
 use crate::common::fault::cannot_compute;
@@ -47,7 +48,7 @@ impl Writer {
             row.is_some_and(|row| row.means.is_some() && row.means == meaning(op))
         };
         if !code.codes.iter().all(says) {
-            return Err(cannot_compute("a code whose number is a variable's"));
+            return Err(cannot_compute(RunTimeWord::ComputedCode));
         }
         self.flow(stmt, sink)?;
         let number = self.words.behind(code.number, None, stmt.span, sink)?;

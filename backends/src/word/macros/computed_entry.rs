@@ -7,6 +7,7 @@ use ncc_ir::computed::computed_entry::{ComputedEntry, Place};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Data, Op, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 
 use crate::common::Sink;
 use crate::common::codes::DataCode;
@@ -42,7 +43,7 @@ impl Writer {
             return self.statement_alone(&text, sink);
         }
         let Op::SetData(data) = &entry.op else {
-            return Err(cannot_compute("a place of the control's tables by its number"));
+            return Err(cannot_compute(RunTimeWord::TablePlace));
         };
         if let ([place], true) = (&entry.sets[..], self.dialect.program.macro_b) {
             let name = self.place_by_number(place, entry.number)?;
@@ -61,7 +62,7 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let none = || cannot_compute("these values for a place of the control's tables by its number");
+        let none = || cannot_compute(RunTimeWord::TablePlaceValues);
         let (Data::Offset { words, .. }, Some((place, ends))) = (data, &entry.entries) else {
             return Err(none());
         };

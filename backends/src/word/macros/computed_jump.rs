@@ -8,6 +8,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::{Control, NO_SUCH_BLOCK, Op, Stmt};
+use ncc_ir::run_time::RunTimeFlow;
 
 use crate::common::Sink;
 use crate::common::fault::cannot_compute;
@@ -87,7 +88,7 @@ impl Writer {
         self.words.spelling(None)?;
         let own = |(number, label): &(i64, &str)| self.number_of_label(label).map(i64::from) == Some(*number);
         if !self.dialect.program.macro_b || !jump.to.iter().all(own) {
-            return Err(cannot_compute("a jump to a block whose number is computed"));
+            return Err(cannot_compute(RunTimeFlow::ComputedJump));
         }
         self.flow(stmt, sink)?;
         let blank = if self.dialect.block.blanks { " " } else { "" };

@@ -14,8 +14,10 @@ use ncc_ir::computed::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::units::Said;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
+use ncc_ir::run_time::{RunTimeFlow, RunTimeWord};
 use ncc_ir::source::Span;
 
 use super::modal_call::AtMoves;
@@ -202,7 +204,7 @@ impl Writer {
         }
         self.call_up_now(&Stmt::new(span, Op::Blank), sink)?;
         if self.held.as_ref().is_some_and(|held| !held.in_text) {
-            return Err(cannot_compute("an assignment between a cycle with variables and its first hole"));
+            return Err(cannot_compute(RunTimeWord::CycleAssignment));
         }
         self.held = None;
         Ok(())
@@ -251,13 +253,13 @@ impl Writer {
                     self.decide(condition, stop, stmt, sink)
                 }
                 ([only], []) => self.decide(condition, only, stmt, sink),
-                _ => Err(cannot_compute("a decision about more than one statement")),
+                _ => Err(cannot_compute(RunTimeFlow::DecisionStatements)),
             },
             Control::While { condition, body } => self.turns(Some(condition), body, stmt, sink),
             Control::Loop { body } => self.turns(None, body, stmt, sink),
-            Control::Repeat { .. } => Err(cannot_compute("a loop that is repeated a number of times")),
-            Control::For { .. } => Err(cannot_compute("a loop that counts")),
-            Control::Until { .. } => Err(cannot_compute("a loop that is tested behind each turn")),
+            Control::Repeat { .. } => Err(cannot_compute(RunTimeFlow::LoopTimes)),
+            Control::For { .. } => Err(cannot_compute(RunTimeFlow::LoopCounts)),
+            Control::Until { .. } => Err(cannot_compute(RunTimeFlow::LoopTestedAfter)),
         }
     }
 
@@ -278,7 +280,7 @@ impl Writer {
             let condition = self.words.condition(condition, stmt.span, sink)?;
             format!("IF{blank}{condition}{blank}THEN{blank}{}", self.stop_setting(stmt, sink)?)
         } else {
-            return Err(cannot_compute("a decision about another statement"));
+            return Err(cannot_compute(RunTimeFlow::DecisionStatement));
         };
         self.statement_alone(&text, sink)
     }
@@ -291,10 +293,10 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         if self.computing.open >= self.dialect.formula.loops {
-            return Err(cannot_compute("a loop within so many others"));
+            return Err(cannot_compute(RunTimeFlow::LoopDepth));
         }
         if stmt.skip.is_some() {
-            return Err(cannot_compute("a loop that can be skipped"));
+            return Err(cannot_compute(RunTimeFlow::LoopSkipped));
         }
         self.flow(stmt, sink)?;
         let number = self.computing.open + 1;
@@ -338,18 +340,18 @@ impl Writer {
             AtMoves::Begins => self.words.codes.calls_at_moves.map(|(call, _)| call),
             AtMoves::None | AtMoves::Within => self.words.codes.macro_call,
         };
-        let words = words.ok_or_else(|| cannot_compute("a call with arguments"))?;
+        let words = words.ok_or_else(|| cannot_compute(RunTimeFlow::CallArguments))?;
         self.flow(stmt, sink)?;
         let number = self.program_number(&call.name)?;
         let least = if self.dialect.program.padded_calls { self.dialect.program.number_digits } else { 0 };
         let arguments = self.arguments(call, stmt.span, sink)?;
         let mut need = Need::new(Rank::Alone).code(Some(words.code)).letter(words.number);
         let count = match (call.times, words.count) {
-            (0, _) => return Err(cannot("a call that is made no times")),
+            (0, _) => return Err(cannot(FlowLack::CallNoTimes)),
             (1, _) => None,
             (2..=MOST_TIMES, Some(letter)) if self.dialect.formula.arguments_again => Some(letter),
             (2..=MOST_TIMES, _) => {
-                return Err(cannot_compute("a call with variables of its own that is made several times"));
+                return Err(cannot_compute(RunTimeFlow::CallOwnAgain));
             }
             _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
         };
@@ -374,7 +376,7 @@ impl Writer {
         let mut given: BTreeMap<u32, &Expr> = BTreeMap::new();
         let parameters = self.computing.parameters.get(&call.name).cloned().unwrap_or_default();
         if parameters.len() < call.arguments.len() {
-            return Err(cannot_compute("a call with more arguments than the program has parameters"));
+            return Err(cannot_compute(RunTimeFlow::CallMoreArguments));
         }
         for (parameter, value) in parameters.iter().zip(&call.arguments) {
             let vacant = matches!(value, Expr::Node(node) if **node == Node::Vacant);
@@ -382,14 +384,13 @@ impl Writer {
                 .parse()
                 .ok()
                 .filter(|_| matches!(parameter, Var::Local(_)));
-            let number = number.ok_or_else(|| cannot_compute("an argument that is no local variable"))?;
+            let number = number.ok_or_else(|| cannot_compute(RunTimeFlow::ArgumentNotLocal))?;
             if !vacant {
                 given.insert(number, value);
             }
         }
         let places: Vec<u32> = given.keys().copied().collect();
-        let letters = letters_for(&places)
-            .ok_or_else(|| cannot_compute("arguments of which the variables have no letters"))?;
+        let letters = letters_for(&places).ok_or_else(|| cannot_compute(RunTimeFlow::ArgumentLetters))?;
         letters
             .into_iter()
             .filter_map(|(letter, place)| Some((letter, *given.get(&place)?)))
@@ -402,7 +403,7 @@ impl Writer {
         let Some(n) = value.literal() else {
             if rounds(value) {
                 // To which digits it would round there, no manual says.
-                return Err(cannot_compute("a rounding in an argument"));
+                return Err(cannot_compute(RunTimeFlow::ArgumentRounded));
             }
             return self.words.behind(value, None, span, sink);
         };

@@ -15,7 +15,9 @@ use ncc_ir::computed::computes::counted;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::partial_expr::may_fail;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
+use ncc_ir::run_time::RunTimeFlow;
 use ncc_ir::source::Span;
 
 use ncc_ir::track::Tracker;
@@ -174,7 +176,8 @@ impl Writer {
         if let Some(name) = self.o_words.alone.take().filter(|_| self.o_words.sub.is_some()) {
             self.o_end(&name, Span::default(), sink);
             // Its caller goes on before; the file by itself ends (O Codes, Calling Files).
-            if let Err(fault) = self.words.m_code(Rank::Stop, self.words.codes.end, "the program's end", sink)
+            if let Err(fault) =
+                self.words.m_code(Rank::Stop, self.words.codes.end, FlowLack::ProgramEnd, sink)
             {
                 sink.report(fault, Span::default());
             }
@@ -248,7 +251,7 @@ impl Writer {
     /// Whether a subprogram can be called so.
     fn o_name(&self, name: &str) -> Result<(), Fault> {
         if name.is_empty() {
-            return Err(cannot("a subprogram without a name"));
+            return Err(cannot(FlowLack::SubprogramUnnamed));
         }
         let fits = |b: u8| b.is_ascii_alphanumeric() || b"_-+.".contains(&b);
         let number = name.bytes().all(|b| b.is_ascii_digit());
@@ -260,7 +263,7 @@ impl Writer {
         };
         match good && alike == 1 {
             true => Ok(()),
-            false => Err(cannot(format!("a subprogram called {name}"))),
+            false => Err(cannot(FlowLack::SubprogramName { name: name.into() })),
         }
     }
 
@@ -321,7 +324,7 @@ impl Writer {
     ) -> Result<(), Fault> {
         self.no_result()?;
         if stmt.skip.is_some() {
-            return Err(cannot("blocks that can be skipped together"));
+            return Err(cannot(FlowLack::SkippedTogether));
         }
         self.flow(stmt, sink)?;
         let label = self.o_label();
@@ -365,7 +368,7 @@ impl Writer {
                 self.o_loop(label, [false, false, false], body, stmt, sink);
                 self.o_line(&format!("o{label} endrepeat"), sink)
             }
-            Control::For { .. } => Err(cannot_compute("a loop that counts")),
+            Control::For { .. } => Err(cannot_compute(RunTimeFlow::LoopCounts)),
         }
     }
 
@@ -401,9 +404,7 @@ impl Writer {
     /// A turn of a `do` that is left keeps a mark set, by which the next `repeat` is begun anew at its end.
     fn undisturbed(&self) -> Result<(), Fault> {
         match self.o_words.turned && self.o_words.repeats {
-            true => {
-                Err(cannot_compute("a repeated loop beside one whose turns are left and tested at their end"))
-            }
+            true => Err(cannot_compute(RunTimeFlow::LoopBesideLeft)),
             false => Ok(()),
         }
     }
@@ -414,7 +415,7 @@ impl Writer {
         self.flow(stmt, sink)?;
         let open = self.o_words.open.last().cloned();
         let open = open.filter(|open| if turn { open.turns } else { open.leaves });
-        let open = open.ok_or_else(|| cannot_compute("a loop of this kind that is left"))?;
+        let open = open.ok_or_else(|| cannot_compute(RunTimeFlow::LoopLeftKind))?;
         if let (true, Some(open)) = (turn, self.o_words.open.last_mut()) {
             open.leaves &= open.both;
             if !open.both {
@@ -430,18 +431,18 @@ impl Writer {
     pub(crate) fn o_call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.no_result()?;
         if stmt.skip.is_some() {
-            return Err(cannot("a call that can be skipped"));
+            return Err(cannot(FlowLack::CallSkipped));
         }
         self.flow(stmt, sink)?;
         self.o_name(&call.name)?;
         match call.times {
             1 => {}
-            0 => return Err(cannot("a call that is made no times")),
-            _ => return Err(cannot_compute("a call with variables of its own that is made several times")),
+            0 => return Err(cannot(FlowLack::CallNoTimes)),
+            _ => return Err(cannot_compute(RunTimeFlow::CallOwnAgain)),
         }
         let parameters = self.parameters_of(&call.name);
         if parameters.len() < call.arguments.len() {
-            return Err(cannot_compute("a call with more arguments than the program has parameters"));
+            return Err(cannot_compute(RunTimeFlow::CallMoreArguments));
         }
         let mut given: Vec<Option<&Expr>> = Vec::new();
         for (parameter, value) in parameters.iter().zip(&call.arguments) {
@@ -450,8 +451,7 @@ impl Writer {
                 Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
             };
             let number = number.filter(|n| (1..=MOST_ARGUMENTS).contains(n));
-            let number =
-                number.ok_or_else(|| cannot_compute("an argument that is no variable of the call"))?;
+            let number = number.ok_or_else(|| cannot_compute(RunTimeFlow::ArgumentNotOfCall))?;
             let place = number as usize - 1;
             given.resize(given.len().max(place + 1), None);
             given[place] = Some(value);
@@ -476,7 +476,7 @@ impl Writer {
     pub(crate) fn o_return(&mut self, stmt: &Stmt, sink: &mut Sink) -> Option<Result<(), Fault>> {
         let name = spelt(self.o_words.sub.as_deref()?);
         if self.o_words.open.iter().any(|open| !open.leaves) {
-            return Some(Err(cannot_compute("a return out of a loop that is repeated a number of times")));
+            return Some(Err(cannot_compute(RunTimeFlow::ReturnOutOfLoop)));
         }
         let written = self.flow(stmt, sink).and_then(|()| self.o_result_text(stmt.span, sink));
         Some(written.and_then(|result| self.o_line(&format!("{name} return{result}"), sink)))
@@ -524,7 +524,7 @@ pub(in crate::word) fn is_no_result_yet(stmt: &Stmt) -> bool {
 }
 
 fn unsaid() -> Fault {
-    cannot_compute("the setting of a result elsewhere than with the return")
+    cannot_compute(RunTimeFlow::ResultElsewhere)
 }
 
 /// The opposite of a condition.

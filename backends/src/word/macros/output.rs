@@ -3,6 +3,7 @@
 
 use ncc_dialects::Statement;
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Output, Piece, Stmt};
 
 use crate::common::Sink;
@@ -18,7 +19,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         if !self.dialect.formula.statements.contains(&Statement::Output) {
-            return Err(cannot("text for a device"));
+            return Err(cannot(OperatorLack::DeviceText));
         }
         self.flow(stmt, sink)?;
         let text = match output {
@@ -38,19 +39,19 @@ impl Writer {
                         match c {
                             ' ' => text.push('*'),
                             'A'..='Z' | '0'..='9' | '+' | '-' | '/' => text.push(c),
-                            _ => return Err(cannot("text for a device with these characters")),
+                            _ => return Err(cannot(OperatorLack::DeviceCharacters)),
                         }
                     }
                 }
                 Piece::Value { value, digits, short, places } => {
                     let most = self.dialect.formula.output_digits;
                     if *short || *digits > 9 || *places > 9 || !(1..=most).contains(&(places + digits)) {
-                        return Err(cannot("a value for a device with these digits"));
+                        return Err(cannot(OperatorLack::DeviceDigits));
                     }
                     let value = self.words.behind(value, None, stmt.span, sink)?;
                     let number = value.strip_prefix('#').unwrap_or_default();
                     if number.is_empty() || !number.bytes().all(|byte| byte.is_ascii_digit()) {
-                        return Err(cannot("a value for a device that is no variable"));
+                        return Err(cannot(OperatorLack::DeviceValueNoVariable));
                     }
                     text.push_str(&format!("{value}[{places}{digits}]"));
                 }

@@ -1,7 +1,9 @@
 //! Calls of other programs, by number or by name.
 
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Call, Stmt};
+use ncc_ir::run_time::RunTimeFlow;
 
 use super::super::Writer;
 use super::super::macros::modal_call::AtMoves;
@@ -22,9 +24,9 @@ impl Writer {
             return self.macro_call(call, stmt, sink);
         }
         if self.is_o_sub(&call.name) {
-            return Err(cannot_compute("a call of a program that has variables of its own elsewhere"));
+            return Err(cannot_compute(RunTimeFlow::CallOfOwnElsewhere));
         }
-        let words = self.words.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
+        let words = self.words.codes.call.ok_or_else(|| cannot(FlowLack::SubprogramCall))?;
         self.call_up_now(stmt, sink)?;
         if self.has_name(&call.name) {
             return self.call_by_name(call, &words, sink);
@@ -36,7 +38,7 @@ impl Writer {
         let out_of_range = || Fault::TargetRange { word: call.times.to_string().into() };
         let mut need = Need::new(Rank::Call).code(Some(words.code)).letter(words.number);
         let (digits, count) = match (call.times, packed, words.count) {
-            (0, ..) => return Err(cannot("a call that is made no times")),
+            (0, ..) => return Err(cannot(FlowLack::CallNoTimes)),
             (1, ..) => (padded, None),
             (2..=9999, 1.., _) => (format!("{}{number:0>packed$}", call.times), None),
             (2..=9999, 0, Some(letter)) => (padded, Some(letter)),
@@ -60,7 +62,7 @@ impl Writer {
     fn call_by_name(&mut self, call: &Call, words: &CallCode, sink: &mut Sink) -> Result<(), Fault> {
         let need = Need::new(Rank::Call).code(Some(words.code));
         let count = match (call.times, words.count) {
-            (0, _) => return Err(cannot("a call that is made no times")),
+            (0, _) => return Err(cannot(FlowLack::CallNoTimes)),
             (1, _) => None,
             (2..=9999, Some(letter)) => Some(letter),
             _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
@@ -90,6 +92,6 @@ impl Writer {
     pub(crate) fn program_number(&self, name: &str) -> Result<u32, Fault> {
         let digits = self.dialect.program.number_digits.clamp(1, 8) as u32;
         let number = name.parse::<u32>().ok().filter(|n| (1..10u32.pow(digits)).contains(n));
-        number.ok_or_else(|| cannot(format!("a subprogram called {name}")))
+        number.ok_or_else(|| cannot(FlowLack::SubprogramName { name: name.into() }))
     }
 }

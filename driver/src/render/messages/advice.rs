@@ -7,6 +7,7 @@ use ncc_dialects::{
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
+use ncc_ir::unexecuted::{Unexecuted, ValueUnexecuted};
 
 use super::codes::{is_open, is_return};
 use super::context::Context;
@@ -124,9 +125,11 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
             [Help::new("help")].into_iter().chain(preselected).collect()
         }
         Fault::VariableUnset { .. } => vec![Help::new("help"), Help::new("help-value")],
-        Fault::NotExecuted { what } if what.starts_with("an unknown ") => vec![Help::new("help-option")],
-        Fault::TargetLacks { what } => {
-            unwritable::help(what, at.from, at.to).into_iter().map(Help::Words).collect()
+        Fault::NotExecuted {
+            what: Unexecuted::Value(ValueUnexecuted::PeckClearanceUnknown | ValueUnexecuted::BreakLiftUnknown),
+        } => vec![Help::new("help-option")],
+        Fault::TargetLacks { lack } => {
+            unwritable::help(lack, at.from, at.to).into_iter().map(Help::Words).collect()
         }
         Fault::RotaryTurnOpen { .. } => rotary_turn(at),
         Fault::NoFileOfTool { needs } => file_needs::helps(*needs),

@@ -15,6 +15,7 @@ use super::context::Context;
 use super::file_needs;
 use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
+use crate::render::reasons::{self, lacks, run_time, unexecuted};
 use crate::render::spelled::{character, found_words, kept, mode, work_offset};
 use crate::render::text::{plain, plain_upto, quoted};
 
@@ -109,9 +110,9 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         | Fault::ArcRadiiDiffer { radii: [start, end], allowed: _ } => {
             m.text("start", millimetres(*start)).text("end", millimetres(*end))
         }
-        Fault::RefusedCompensated { what } | Fault::CompensatedThere { what } | Fault::NoCorner { what } => {
-            m.text("what", plain(what))
-        }
+        Fault::RefusedCompensated { what } => m.text("what", plain(&reasons::refused(what))),
+        Fault::CompensatedThere { kind } => m.text("what", reasons::kind(*kind)),
+        Fault::NoCorner { why } => m.text("what", unexecuted::no_corner(*why)),
         Fault::PositionUnknown { axis } => m.text("axis", *axis),
         Fault::CallUnknown { name } => m.text("name", quoted(name)).text("plain", plain(name)),
         Fault::CallsTooDeep { name, most } => m.text("name", quoted(name)).count("most", *most),
@@ -126,8 +127,10 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::CallRecursive { name } | Fault::ProgramTwice { name } | Fault::LabelUnknown { name } => {
             m.text("name", quoted(name))
         }
-        Fault::MacroLanguage { what } | Fault::NotExecuted { what } => m.text("what", plain(what)),
-        Fault::NoValue { what } | Fault::Computes { what } => m.text("what", what.to_string()),
+        Fault::MacroLanguage { what } => m.text("what", plain(what)),
+        Fault::NotExecuted { what } => m.text("what", plain(&unexecuted::text(what))),
+        Fault::NoValue { why } => m.text("what", reasons::no_value(*why)),
+        Fault::Computes { what } => m.text("what", run_time::text(what)),
         Fault::VariableUnset { name } | Fault::VariableGiven { name } | Fault::ValueNotRead { name } => {
             m.text("name", name.to_string())
         }
@@ -245,7 +248,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::MachineCutExpanded { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
         Fault::CompensationExpanded { radius } => m.text("radius", millimetres(*radius)),
 
-        Fault::TargetLacks { what } => m.text("what", plain(what)),
+        Fault::TargetLacks { lack } => m.text("what", plain(&lacks::text(lack))),
         Fault::SecondWorkOffset { first, second } => {
             m.text("first", first.to_string()).text("second", second.to_string())
         }

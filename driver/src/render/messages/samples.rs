@@ -2,10 +2,14 @@
 
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::canon::Axis;
+use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
 use ncc_ir::diag::{ArgumentCheck, Fault, FileNeeds, ModeName};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::geometry::offset_path::Unreachable;
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::numbered::Numbered;
+use ncc_ir::run_time::RunTimeFlow;
+use ncc_ir::unexecuted::{FlowUnexecuted, ValueUnexecuted};
 
 use super::advice::advice;
 use super::context::Context;
@@ -86,23 +90,23 @@ fn text_and_meaning() -> Vec<Fault> {
         CycleUpsideDown,
         EntryFactNeeded { fact: ModeName::Units },
         EntryFactNeeded { fact: ModeName::Plane },
-        NotExecuted { what: "an unknown clearance".into() },
-        NotExecuted { what: "this".into() },
+        NotExecuted { what: ValueUnexecuted::PeckClearanceUnknown.into() },
+        NotExecuted { what: FlowUnexecuted::Jump.into() },
         NoEnd { steps: 10_000_000 },
         Interrupted { steps: 1_000 },
         LabelUnknown { name: "N10".into() },
         NoArc,
         NoSpeed,
-        NoValue { what: "1 / 0".into() },
+        NoValue { why: ncc_ir::diag::NoValue::Index },
         VariableUnset { name: "101".into() },
-        Computes { what: "a computed feed".into() },
+        Computes { what: RunTimeFlow::Jump.into() },
         Endless,
-        RefusedCompensated { what: "a tool change".into() },
+        RefusedCompensated { what: CompensationRefusal::Code { code: "G28".into() } },
         BeginsOtherwise { fact: ModeName::Distance },
         RadiusUnknown { entry: Some(12) },
         RadiusUnknown { entry: None },
         ContourUnreachable { why: Unreachable::ShortLine },
-        NoCorner { what: "it is too large".into() },
+        NoCorner { why: ncc_ir::unexecuted::NoCorner::NoSize },
     ]
 }
 
@@ -232,7 +236,7 @@ fn target_and_verification() -> Vec<Fault> {
         ArgumentCheck::Default(Num::int(5, Unit::One)),
     ];
     let mut all = vec![
-        TargetLacks { what: "a mirror".into() },
+        TargetLacks { lack: FramesLack::Mirror.into() },
         SecondWorkOffset { first: 1, second: 2 },
         ArcVanishes,
         TargetRange { word: t() },
@@ -247,7 +251,7 @@ fn target_and_verification() -> Vec<Fault> {
         CallsDeeper { name: "2000".into(), depth: 6, most: 4, macros: false },
         CallsDeeper { name: "2000".into(), depth: 6, most: 4, macros: true },
         ArcRadiiDiffer { radii: [1_000_000_000, 1_020_000_000], allowed: 10_000_000 },
-        CompensatedThere { what: "a tool change".into() },
+        CompensatedThere { kind: Kind::WorkOffset },
         NotTheSame { difference: "X".into() },
         NotReadBack { code: 101 },
         SkipSettingsSampled { levels: 8 },

@@ -4,11 +4,8 @@ use ncc_dialects::{
     BLOCK_WITHOUT_WAY, CodeRow, DWELL_REFUSED, Dialect, LOOKED_OVER, MACHINE_LENGTH, MACHINE_WITHOUT_AXIS,
     Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, Role,
 };
-use ncc_exec::NOWHERE;
 use ncc_ir::expr::system::System;
-use ncc_passes::frames::machine_moves::FROM_MACHINE;
-use ncc_passes::modes::feed_unit::ENDED;
-use ncc_passes::tools::tool_edge::LENGTH_IN_USE;
+use ncc_ir::lack::{CompensationLack, FeedsLack, Lack, LengthsLack, MachineLack};
 
 use super::message::Help;
 
@@ -134,21 +131,26 @@ fn without_radius() -> Help {
 }
 
 /// The way out of a refusal of lengths and feeds, as text to type.
-pub(super) fn way_out(what: &str) -> Option<&'static str> {
-    match what {
-        LENGTH_IN_USE => Some("set this length before the tool change"),
-        FROM_MACHINE => Some("write this Z absolutely: `G90` and the Z of its end point"),
-        ENDED => Some("write F again before this block: `F100.` for 100 a minute"),
+pub(super) fn way_out(lack: &Lack) -> Option<&'static str> {
+    match lack {
+        Lack::Lengths(LengthsLack::LengthInUse) => Some("set this length before the tool change"),
+        Lack::Machine(MachineLack::IncrementAfterMachineMove) => {
+            Some("write this Z absolutely: `G90` and the Z of its end point")
+        }
+        Lack::Feeds(FeedsLack::EndedByModeCode) => {
+            Some("write F again before this block: `F100.` for 100 a minute")
+        }
         _ => None,
     }
 }
 
 /// What to do about blocks of a compensated contour that go nowhere, or not in the plane.
-pub(super) fn without_way(what: &str, from: &Dialect) -> Vec<String> {
+pub(super) fn without_way(lack: CompensationLack, from: &Dialect) -> Vec<String> {
     let leave_out =
         "leave out the blocks here that move by less than the target's least increment, or not in the plane";
     let mut ways = vec![leave_out.to_owned()];
-    if what == NOWHERE && from.option.iter().any(|row| row.name == BLOCK_WITHOUT_WAY) {
+    if lack == CompensationLack::WithoutMotion && from.option.iter().any(|row| row.name == BLOCK_WITHOUT_WAY)
+    {
         let option = format!("--from-option {BLOCK_WITHOUT_WAY}={LOOKED_OVER}");
         ways.push(format!("if the control looks over blocks without a way (MD 20252): `{option}`"));
     }

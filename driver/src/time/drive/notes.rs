@@ -6,6 +6,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ValueUnexecuted;
 use ncc_machines::reading::Told;
 use ncc_time::{Act, Place};
 
@@ -101,8 +102,11 @@ impl<'d> Drive<'d> {
                 self.take(Diagnostic::new(fault, span));
             }
             None => {
-                let what = format!("an unknown {name}");
-                self.take(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span));
+                let what = match drill {
+                    true => ValueUnexecuted::PeckClearanceUnknown,
+                    false => ValueUnexecuted::BreakLiftUnknown,
+                };
+                self.take(Diagnostic::new(Fault::not_executed(what), span));
             }
         }
     }

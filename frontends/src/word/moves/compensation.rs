@@ -8,6 +8,7 @@
 
 use ncc_dialects::{BesideCompensation, Meaning, NO_RADIUS, Quantity, RADIUS_UNSAID};
 use ncc_ir::canon::Side;
+use ncc_ir::compensated::kind::CompensationRefusal;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
@@ -131,7 +132,7 @@ impl Lower {
         };
         if let Some(code) = codes.iter().find(stops) {
             self.now.refused = true;
-            let what = code.row.code.as_str().into();
+            let what = CompensationRefusal::Code { code: code.row.code.as_str().into() };
             self.fault(Fault::RefusedCompensated { what }, code.span, out);
         }
     }

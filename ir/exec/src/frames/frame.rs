@@ -17,6 +17,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry;
 use ncc_ir::program::{Coord, Frame, FrameSlot, Point, Slot, ToolLength};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::{FrameUnexecuted, MoveUnexecuted};
 
 /// Which length of a tool is in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,8 +65,10 @@ impl Present for Now<'_> {
 
     fn work(&self, axis: usize) -> Result<Nanos, Diagnostic> {
         if self.exec.offset_turned {
-            let what = "a frame that depends on where the axes stand in a turned work offset".into();
-            return Err(Diagnostic::new(Fault::NotExecuted { what }, self.span));
+            return Err(Diagnostic::new(
+                Fault::not_executed(FrameUnexecuted::TurnedOffsetPosition),
+                self.span,
+            ));
         }
         Ok(self.exec.machine()[axis].wrapping_sub(self.exec.frame[axis]))
     }
@@ -116,8 +119,7 @@ impl Exec {
     pub(crate) fn set_position(&mut self, axes: &[Option<Expr>; AXES], span: Span) -> Result<(), Diagnostic> {
         let mut frames = self.slots();
         if frames.is_turned() {
-            return self
-                .not_executed("coordinates of the present point in a frame that turns or scales", span);
+            return self.not_executed(FrameUnexecuted::PresentPointTurned, span);
         }
         self.said |= crate::SHIFT_STORED;
         let named = axes.iter().enumerate().filter(|(_, word)| word.is_some());
@@ -125,8 +127,7 @@ impl Exec {
         let shift = self.origin_shift();
         if self.offset_turned {
             if frames.chain() != Chain::NONE {
-                return self
-                    .not_executed("coordinates of the present point in a frame of a turned offset", span);
+                return self.not_executed(FrameUnexecuted::PresentPointOffset, span);
             }
             for (axis, word) in axes.iter().enumerate() {
                 let Some(word) = word else { continue };
@@ -168,7 +169,7 @@ impl Exec {
         let mut frames = self.slots();
         if on {
             if self.said & crate::SHIFT_STORED == 0 {
-                return self.not_executed("an origin shift of which an earlier program has numbers", span);
+                return self.not_executed(FrameUnexecuted::EarlierShift, span);
             }
             self.modes.shifted |= frames.resume();
             self.said |= crate::SHIFT_TAKEN_UP;
@@ -235,8 +236,7 @@ impl Exec {
         for (axis, word) in to.axes.iter().enumerate() {
             let Some(word) = word else { continue };
             if word.distance.or(self.modes.distance) == Distance::Incremental {
-                let what = "an incremental word in machine coordinates".into();
-                return self.fault(Fault::NotExecuted { what }, span);
+                return self.fault(Fault::not_executed(MoveUnexecuted::IncrementInMachine), span);
             }
             let length = if length { self.tool_offset()[axis] } else { 0 };
             machine[axis] = self.value(&word.value, span)?.wrapping_add(length);

@@ -17,6 +17,7 @@ use ncc_ir::program::kinds::{
 };
 use ncc_ir::program::{Data, FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::{CompensationUnexecuted, CycleUnexecuted, FrameUnexecuted, Unexecuted};
 
 /// A working plane in space.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,14 +95,14 @@ impl Exec {
         if on == self.state.tip {
             return Ok(());
         }
-        let what = match () {
-            () if self.state.tilted => Some("tool centre point control in a tilted plane"),
-            () if self.cycle.is_some() => Some("tool centre point control while a cycle is in force"),
+        let what: Option<Unexecuted> = match () {
+            () if self.state.tilted => Some(FrameUnexecuted::TipInTilt.into()),
+            () if self.cycle.is_some() => Some(CycleUnexecuted::TipInCycle.into()),
             () if on && (self.chain.is_some() || self.slots.is_some()) => {
-                Some("tool centre point control under a frame")
+                Some(FrameUnexecuted::TipUnderFrame.into())
             }
             () if self.state.compensation.side.is_some() || self.contour.watched => {
-                Some("tool centre point control under cutter radius compensation")
+                Some(CompensationUnexecuted::TipControl.into())
             }
             () => None,
         };
@@ -122,14 +123,16 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        let what = match () {
-            () if self.state.tip => Some("a tilted plane under tool centre point control"),
-            () if self.cycle.is_some() => Some("a tilted plane while a cycle is in force"),
-            () if self.chain.is_some() || self.slots.is_some() => Some("a tilted plane under a frame"),
-            () if self.state.compensation.side.is_some() || self.contour.watched => {
-                Some("a tilted plane under cutter radius compensation")
+        let what: Option<Unexecuted> = match () {
+            () if self.state.tip => Some(FrameUnexecuted::TiltUnderTip.into()),
+            () if self.cycle.is_some() => Some(CycleUnexecuted::TiltInCycle.into()),
+            () if self.chain.is_some() || self.slots.is_some() => {
+                Some(FrameUnexecuted::TiltUnderFrame.into())
             }
-            () if self.state.tilted => Some("a tilted plane in another one"),
+            () if self.state.compensation.side.is_some() || self.contour.watched => {
+                Some(CompensationUnexecuted::Tilt.into())
+            }
+            () if self.state.tilted => Some(FrameUnexecuted::TiltInTilt.into()),
             () => None,
         };
         if let Some(what) = what {
@@ -157,12 +160,12 @@ impl Exec {
         if !self.state.tilted {
             // What a control takes back with it, if anything, is its own.
             return match self.chain.is_some() || self.slots.is_some() {
-                true => self.not_executed("the end of a tilted plane under another frame", span),
+                true => self.not_executed(FrameUnexecuted::TiltEndUnderFrame, span),
                 false => Ok(()),
             };
         }
         if self.cycle.is_some() {
-            return self.not_executed("the end of a tilted plane while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::TiltEndInCycle, span);
         }
         let here = self.machine();
         self.state.tilted = false;
@@ -179,10 +182,10 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if !self.state.tilted {
-            return self.not_executed("the tool's axis turned without a tilted plane", span);
+            return self.not_executed(FrameUnexecuted::AxisWithoutTilt, span);
         }
         if self.cycle.is_some() || self.state.compensation.side.is_some() || self.contour.watched {
-            return self.not_executed("the tool's axis turned under a cycle or a compensated contour", span);
+            return self.not_executed(FrameUnexecuted::AxisInCycle, span);
         }
         let mut here = self.machine();
         if let Some(rotary) = self.world.oriented() {
@@ -197,8 +200,8 @@ impl Exec {
     #[cold]
     pub(crate) fn check_tilted(&self, stmt: &Stmt) -> Result<(), Diagnostic> {
         let what = match (self.state.tip, self.sets_another_frame(&stmt.op)) {
-            (true, true) => Some("another frame or work offset under tool centre point control"),
-            (false, true) => Some("another frame or work offset in a tilted plane"),
+            (true, true) => Some(FrameUnexecuted::FrameUnderTip),
+            (false, true) => Some(FrameUnexecuted::FrameInTilt),
             (true, false) => self.refused_at_tip(&stmt.op),
             (false, false) => None,
         };
@@ -247,28 +250,24 @@ impl Exec {
     }
 
     /// What is refused under control of the tool's tip.
-    fn refused_at_tip(&self, op: &Op) -> Option<&'static str> {
+    fn refused_at_tip(&self, op: &Op) -> Option<FrameUnexecuted> {
         match op {
             Op::Polar(polar) => self.refused_at_tip(&polar.op),
             // Which of them a control takes depends on how its rotary axes are built.
-            moves!() if matches!(op, Op::ArcFeed(_) | Op::ArcForm(_)) => {
-                Some("an arc under tool centre point control")
-            }
-            drilling!() => Some("a cycle under tool centre point control"),
-            moves!() if matches!(op, Op::SynchronisedFeed(_)) => {
-                Some("a thread under tool centre point control")
-            }
+            moves!() if matches!(op, Op::ArcFeed(_) | Op::ArcForm(_)) => Some(FrameUnexecuted::ArcUnderTip),
+            drilling!() => Some(FrameUnexecuted::CycleUnderTip),
+            moves!() if matches!(op, Op::SynchronisedFeed(_)) => Some(FrameUnexecuted::ThreadUnderTip),
             miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => {
-                Some("cutter radius compensation under tool centre point control")
+                Some(FrameUnexecuted::CompensationUnderTip)
             }
             Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
-                Some("a point of the machine under tool centre point control")
+                Some(FrameUnexecuted::MachinePointUnderTip)
             }
-            Op::Probe(_) => Some("probing under tool centre point control"),
-            Op::Detour(_) => Some("a rapid move by a detour under tool centre point control"),
-            Op::ChangeTool => Some("a tool change under tool centre point control"),
+            Op::Probe(_) => Some(FrameUnexecuted::ProbingUnderTip),
+            Op::Detour(_) => Some(FrameUnexecuted::DetourUnderTip),
+            Op::ChangeTool => Some(FrameUnexecuted::ToolChangeUnderTip),
             Op::UseLengthUnits(units) if (*units == Units::Inch) != self.modes.inch => {
-                Some("other units under tool centre point control")
+                Some(FrameUnexecuted::UnitsUnderTip)
             }
             Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)

@@ -11,6 +11,7 @@ use ncc_ir::geometry::arc_solver::{ArcRule, Around, SolvedArc, solve_arc};
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Point, Shape};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::MoveUnexecuted;
 
 /// Most turns of one arc; more is a slip of the pen.
 const MOST_TURNS: u32 = 10_000;
@@ -66,7 +67,7 @@ impl Around for Now<'_> {
         let (first, second, normal) = self.plane.axes();
         let via = self.exec.point(point, self.before, self.span)?;
         if via[normal as usize] != self.before[normal as usize] || !self.flat {
-            self.exec.not_executed("a circle in space", self.span)?;
+            self.exec.not_executed(MoveUnexecuted::CircleInSpace, self.span)?;
         }
         Ok([via[first as usize], via[second as usize]])
     }
@@ -100,7 +101,7 @@ impl Exec {
             && self.another_length_waits()
         {
             // Its start is counted by one length, its end or its centre by the other.
-            return self.not_executed("an arc along Z on which a length is taken up", span);
+            return self.not_executed(MoveUnexecuted::ArcTakesLength, span);
         }
         self.set_axes(&arc.to, span)?;
         let [start, end] = ends(plane, &before, &self.position);
@@ -147,7 +148,7 @@ impl Exec {
         let before = self.position;
         let heading = self.heading;
         if [first, second].iter().any(|axis| *axis as usize == self.along) && self.another_length_waits() {
-            return self.not_executed("an arc along Z on which a length is taken up", span);
+            return self.not_executed(MoveUnexecuted::ArcTakesLength, span);
         }
         self.set_axes(&arc.to, span)?;
         let [start, end] = ends(plane, &before, &self.position);
@@ -181,7 +182,7 @@ impl Exec {
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
                 if self.carries(axis) && word.distance.or(self.modes.distance) == Distance::Incremental {
-                    self.not_executed("a point of an arc that includes a change of frame", span)?;
+                    self.not_executed(MoveUnexecuted::ArcInFrameChange, span)?;
                 }
                 next[axis] = self.target(word, before[axis], span)?;
             }
@@ -205,7 +206,7 @@ impl Exec {
     fn go_round(&mut self, way: Way, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let Way { plane, turn, turns, before, centre } = way;
         if self.probing.take().is_some() || self.detour.take().is_some() {
-            return self.not_executed("an arc as a probing move, or by a detour", span);
+            return self.not_executed(MoveUnexecuted::ArcProbing, span);
         }
         let (first, second, _) = plane.axes();
         let (f, s) = (first as usize, second as usize);
@@ -215,7 +216,7 @@ impl Exec {
             Some(chain) => chain.sense(plane, turn),
         };
         let Some(sense) = sense else {
-            return self.not_executed("an arc in a frame that does not leave it an arc of its plane", span);
+            return self.not_executed(MoveUnexecuted::ArcNotInPlane, span);
         };
         self.modes.motion = Motion::Arc(turn);
         self.said |= MOTION;

@@ -16,6 +16,7 @@ use ncc_ir::program::arguments::words_of;
 use ncc_ir::program::kinds::{flow, frames, machine};
 use ncc_ir::program::{Coord, Op, Point, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::FrameUnexecuted;
 
 /// What decides whether such words include the change.
 const INCLUDED: Behaviour = Behaviour::FrameOffsetIncremental;
@@ -111,8 +112,7 @@ impl Exec {
                 continue;
             }
             if carried.turned {
-                let what = "an incremental word after a frame that turns";
-                return self.not_executed(what, span).map(|()| from);
+                return self.not_executed(FrameUnexecuted::IncrementAfterTurn, span).map(|()| from);
             }
             from[axis] = own;
         }

@@ -13,6 +13,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry;
 use ncc_ir::geometry::arc_feed::centre_speed;
 use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Rules, Spot, Unreachable};
+use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::{CutterRadius, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -275,13 +276,13 @@ impl CentrePath {
             }
             return Ok(());
         };
-        let refuse = |what: &str| Diagnostic::new(Fault::TargetLacks { what: what.into() }, span);
+        let refuse = |lack: CompensationLack| Diagnostic::new(Fault::lacks(lack), span);
         let programmed = event.end;
         if programmed[Axis::A as usize..] != self.contour[Axis::A as usize..] {
-            return Err(refuse("a rotary axis along a contour whose compensation is computed"));
+            return Err(refuse(CompensationLack::RotaryAxis));
         }
         if event.state.feed_mode == FeedMode::InverseTime && movement != crate::Movement::Rapid {
-            return Err(refuse("feeds by time along a contour whose compensation is computed"));
+            return Err(refuse(CompensationLack::FeedByTime));
         }
         let full = matches!(movement, crate::Movement::Arc { full: true, .. });
         let (from, to) = (spot(&self.contour, self.axes), spot(&programmed, self.axes));

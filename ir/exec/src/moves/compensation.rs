@@ -8,17 +8,15 @@
 use crate::{Event, Exec, Kind, Length};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AdviceKind, Axis, Plane, Side};
+use ncc_ir::compensated::kind::CompensationRefusal;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry::arc_feed::{self, ArcFeed};
+use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, variables};
 use ncc_ir::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use ncc_ir::source::Span;
-
-/// What no other control does alike: a block of a compensated contour that moves nowhere, and one more behind it.
-pub const NOWHERE: &str = "a compensated contour with a block that goes nowhere";
-/// The same, of blocks that do not move in the plane.
-pub const STILL: &str = "a compensated contour with two still blocks in a row";
+use ncc_ir::unexecuted::{CompensationUnexecuted, CycleUnexecuted};
 
 /// Compensation of a move. Without one, all the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -137,10 +135,10 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let on = self.state.compensation;
         if on.side.is_some() && (!self.world.compensation_again || self.centre_path.is_some()) {
-            return self.not_executed("cutter radius compensation switched on twice", span);
+            return self.not_executed(CompensationUnexecuted::OnTwice, span);
         }
         if self.cycle.is_some() {
-            return self.not_executed("cutter radius compensation while a cycle is in force", span);
+            return self.not_executed(CycleUnexecuted::CompensationInCycle, span);
         }
         let plane = self.modes.plane;
         let place = self.place_of_radius(radius, span)?;
@@ -153,18 +151,16 @@ impl Exec {
         let side = match self.mirrors(plane) {
             Some(false) => side,
             Some(true) => side.other(),
-            None => return self.not_executed("cutter radius compensation in a plane that is tilted", span),
+            None => return self.not_executed(CompensationUnexecuted::TiltedPlane, span),
         };
         let new = Compensation { side: Some(side), plane, radius: place, ..Compensation::default() };
         let again = on.side.is_some();
         if again && self.contour.elsewhere {
             // A Sinumerik takes the block for the way onto a contour, a Fanuc for a part of it.
-            let what = "cutter radius compensation switched on again without G40";
-            return self.fault(Fault::TargetLacks { what: what.into() }, span);
+            return self.fault(Fault::lacks(CompensationLack::OnAgain), span);
         }
         if again && (on.side, on.plane, on.radius) != (new.side, new.plane, new.radius) {
-            return self
-                .not_executed("cutter radius compensation of another side or radius without G40", span);
+            return self.not_executed(CompensationUnexecuted::OtherSide, span);
         }
         self.state.compensation = new;
         let Contour { elsewhere, lines, .. } = self.contour;
@@ -185,8 +181,7 @@ impl Exec {
 
     /// Where the tables have a radius.
     fn place_of_radius(&self, radius: &CutterRadius, span: Span) -> Result<u32, Diagnostic> {
-        let none =
-            || self.fault(Fault::NotExecuted { what: "compensation by a radius of no entry".into() }, span);
+        let none = || self.fault(Fault::not_executed(CompensationUnexecuted::NoEntry), span);
         let entry = match radius {
             CutterRadius::Entry(entry) => match u32::try_from(self.whole_number(entry, span)?) {
                 Ok(entry) => entry,
@@ -247,7 +242,7 @@ impl Exec {
         let span = stmt.span;
         let on = self.state.compensation.side.is_some();
         if on && let Some(kind) = self.world.refused_compensated.kind(&stmt.op) {
-            return self.fault(Fault::RefusedCompensated { what: kind.name().into() }, span);
+            return self.fault(Fault::RefusedCompensated { what: CompensationRefusal::Kind(kind) }, span);
         }
         if on && let Some(what) = self.refused_on_contour(&stmt.op, span)? {
             return self.not_executed(what, span);
@@ -265,8 +260,8 @@ impl Exec {
         if arc && !(on && self.contour.entered) {
             return self.not_executed(
                 match on {
-                    true => "an arc as the first move of cutter radius compensation",
-                    false => "an arc as the move that leaves cutter radius compensation",
+                    true => CompensationUnexecuted::ArcLeadIn,
+                    false => CompensationUnexecuted::ArcLeadOut,
                 },
                 span,
             );
@@ -293,11 +288,11 @@ impl Exec {
             } else if self.contour.entered && self.contour.still > 1 && !computed {
                 if self.contour.elsewhere {
                     // The corner before them is each control's own.
-                    let (what, at) = match self.contour.nowhere {
-                        Some(at) => (NOWHERE, at),
-                        None => (STILL, span),
+                    let (lack, at) = match self.contour.nowhere {
+                        Some(at) => (CompensationLack::WithoutMotion, at),
+                        None => (CompensationLack::TwoWithoutMotion, span),
                     };
-                    return self.fault(Fault::TargetLacks { what: what.into() }, at);
+                    return self.fault(Fault::lacks(lack), at);
                 }
                 if let Some(event) = out.get_mut(events) {
                     event.state.compensation.gap = true;
@@ -366,69 +361,63 @@ impl Exec {
     }
 
     /// What no move under compensation can be, or each control does in its own way.
-    fn refused_on_contour(&self, op: &Op, span: Span) -> Result<Option<&'static str>, Diagnostic> {
+    fn refused_on_contour(&self, op: &Op, span: Span) -> Result<Option<CompensationUnexecuted>, Diagnostic> {
         let plane = self.contour.plane;
         let length = self.waiting.unwrap_or(self.modes.length);
         Ok(match op {
             Op::Polar(polar) => return self.refused_on_contour(&polar.op, span),
-            drilling!() => Some("a cycle under cutter radius compensation"),
-            Op::SelectPlane(other) if Some(*other) != plane => {
-                Some("another plane under cutter radius compensation")
-            }
+            drilling!() => Some(CompensationUnexecuted::Cycle),
+            Op::SelectPlane(other) if Some(*other) != plane => Some(CompensationUnexecuted::Plane),
             Op::ArcFeed(arc) if Some(self.plane_of(arc.plane)) != plane => {
-                Some("an arc in another plane than that of cutter radius compensation")
+                Some(CompensationUnexecuted::ArcOtherPlane)
             }
             Op::ArcForm(arc) if Some(self.plane_of(arc.plane)) != plane => {
-                Some("an arc in another plane than that of cutter radius compensation")
+                Some(CompensationUnexecuted::ArcOtherPlane)
             }
             Op::UseLengthUnits(units) if (*units == ncc_ir::canon::Units::Inch) != self.modes.inch => {
-                Some("other units under cutter radius compensation")
+                Some(CompensationUnexecuted::Units)
             }
             Op::SetOriginOffsets(offset) if *offset != self.modes.work_offset => {
-                Some("another work offset under cutter radius compensation")
+                Some(CompensationUnexecuted::WorkOffset)
             }
-            Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => {
-                Some("another frame under cutter radius compensation")
-            }
+            Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => Some(CompensationUnexecuted::Frame),
             Op::ClearFrame(_) | Op::UseOriginShift(_)
                 if self.chain.is_some()
                     || self.slots.is_some()
                     || self.modes.shifted
                     || self.state.tilted =>
             {
-                Some("another frame under cutter radius compensation")
+                Some(CompensationUnexecuted::Frame)
             }
-            Op::UseToolCentrePoint(on) if *on != self.state.tip => {
-                Some("tool centre point control under cutter radius compensation")
-            }
-            Op::OrientToolAxis(_) => Some("the tool's axis turned under cutter radius compensation"),
+            Op::UseToolCentrePoint(on) if *on != self.state.tip => Some(CompensationUnexecuted::TipControl),
+            Op::OrientToolAxis(_) => Some(CompensationUnexecuted::AxisTurned),
             Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
-                Some("a point of the machine under cutter radius compensation")
+                Some(CompensationUnexecuted::MachinePoint)
             }
-            Op::Probe(_) => Some("probing under cutter radius compensation"),
-            Op::Detour(_) => Some("a rapid move by a detour under cutter radius compensation"),
-            Op::SynchronisedFeed(_) => Some("a thread under cutter radius compensation"),
-            Op::ChangeTool => Some("a tool change under cutter radius compensation"),
+            Op::Probe(_) => Some(CompensationUnexecuted::Probing),
+            Op::Detour(_) => Some(CompensationUnexecuted::Detour),
+            Op::SynchronisedFeed(_) => Some(CompensationUnexecuted::Thread),
+            Op::ChangeTool => Some(CompensationUnexecuted::ToolChange),
             Op::UseToolLengthOffset(entry) => {
                 let entry = u32::try_from(self.whole_number(entry, span)?).unwrap_or(u32::MAX);
-                (length != Length::Entry(entry)).then_some("another length under cutter radius compensation")
+                (length != Length::Entry(entry)).then_some(CompensationUnexecuted::Length)
             }
-            Op::UseToolLength(_) => Some("another length under cutter radius compensation"),
+            Op::UseToolLength(_) => Some(CompensationUnexecuted::Length),
             Op::UseToolEdge { edge, .. } => {
                 let edge = u32::try_from(self.whole_number(edge, span)?).unwrap_or(u32::MAX);
-                (length != self.edge(edge)).then_some("another edge under cutter radius compensation")
+                (length != self.edge(edge)).then_some(CompensationUnexecuted::Edge)
             }
             Op::SetData(data) => match **data {
                 Data::Offset { offset, .. } if offset == self.modes.work_offset => {
-                    Some("another work offset under cutter radius compensation")
+                    Some(CompensationUnexecuted::WorkOffset)
                 }
                 Data::Tool { which: ToolValue::Radius | ToolValue::RadiusWear, .. } => {
-                    Some("another radius under cutter radius compensation")
+                    Some(CompensationUnexecuted::Radius)
                 }
-                Data::Position(_) => Some("storing where the axes stand under cutter radius compensation"),
-                Data::ToolInSpindle(_) => Some("another tool under cutter radius compensation"),
+                Data::Position(_) => Some(CompensationUnexecuted::PositionStored),
+                Data::ToolInSpindle(_) => Some(CompensationUnexecuted::Tool),
                 Data::Offset { .. } | Data::Tool { .. } => None,
-                Data::Measured { .. } => Some("a tool measured under cutter radius compensation"),
+                Data::Measured { .. } => Some(CompensationUnexecuted::ToolMeasured),
             },
             miscellaneous!()
             | conduct!()

@@ -14,6 +14,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry::corner::{self, Leg};
 use ncc_ir::program::{Op, Shape, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::{CornerUnexecuted, NoCorner};
 
 /// A corner that has been asked for and not been made.
 #[derive(Clone, Debug, Default)]
@@ -80,7 +81,7 @@ impl Exec {
     pub fn no_open_corner(&self) -> Result<(), Diagnostic> {
         match self.open_corner() {
             None => Ok(()),
-            Some(span) => no_corner(NO_NEXT, span),
+            Some(span) => no_corner(NoCorner::NoNextMove, span),
         }
     }
 
@@ -94,11 +95,11 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let size = self.value(size, span)?;
         if size <= 0 || size > corner::LARGEST {
-            return no_corner("a corner of no size", span);
+            return no_corner(NoCorner::NoSize, span);
         }
         let corner = self.corner.get_or_insert_default();
         if corner.asked.is_some() {
-            return not_told("two corners behind one move", span);
+            return not_told(CornerUnexecuted::TwoAfterMove, span);
         }
         corner.asked = Some(Asked { shape, size, span });
         Ok(())
@@ -120,13 +121,13 @@ impl Exec {
                 return self.ask_corner(shape, size, span);
             }
             Part::Plane(plane) if plane != self.modes.plane => {
-                return no_corner("a change of the plane at a corner", span);
+                return no_corner(NoCorner::PlaneChanges, span);
             }
             Part::Beside | Part::Plane(_) => {}
             Part::Other => {
                 return match &stmt.op {
-                    Op::ProgramEnd | Op::BeginAgain | Op::Return => no_corner(NO_NEXT, span),
-                    _ => not_told("something other than settings between the moves of a corner", span),
+                    Op::ProgramEnd | Op::BeginAgain | Op::Return => no_corner(NoCorner::NoNextMove, span),
+                    _ => not_told(CornerUnexecuted::NotSettings, span),
                 };
             }
         }
@@ -148,29 +149,29 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let span = stmt.span;
         if self.raw.is_some() {
-            return not_told("a move in machine coordinates at a corner", span);
+            return not_told(CornerUnexecuted::MachineMove, span);
         }
         if self.probing.is_some() {
-            return not_told("a probing move at a corner", span);
+            return not_told(CornerUnexecuted::Probing, span);
         }
         if self.detour.is_some() {
-            return not_told("a rapid move by a detour at a corner", span);
+            return not_told(CornerUnexecuted::Detour, span);
         }
         if self.centre_path.is_some() && self.contour.watched {
-            let what = "a corner of a contour whose compensation is worked out";
+            let what = CornerUnexecuted::OnContour;
             if self.must_follow_centre() {
                 return not_told(what, span);
             }
-            self.execute_as_programmed(Fault::NotExecuted { what: what.into() }, span, out);
+            self.execute_as_programmed(Fault::not_executed(what), span, out);
         }
         if self.state.tip || self.state.tilted {
-            return not_told("a corner with the tool's axis turned", span);
+            return not_told(CornerUnexecuted::AxisTurned, span);
         }
         if corner.held.is_some()
             && let Op::ArcForm(arc) = stmt.op.unwrapped()
             && arc.shape == Shape::Tangent
         {
-            return not_told("a tangent arc behind a corner", span);
+            return not_told(CornerUnexecuted::TangentArc, span);
         }
         let plane = self.modes.plane;
         self.undistorted(plane, span)?;
@@ -178,8 +179,8 @@ impl Exec {
         self.step_on_way(stmt, out)?;
         if out.len() != events + 1 {
             return match out.len() == events {
-                true => no_corner("a move that goes nowhere at a corner", span),
-                false => not_told("an arc of several turns at a corner", span),
+                true => no_corner(NoCorner::NoMotion, span),
+                false => not_told(CornerUnexecuted::SeveralTurns, span),
             };
         }
         let Some(event) = out.pop() else { return Ok(()) };
@@ -189,7 +190,7 @@ impl Exec {
         }
         match corner.asked.take() {
             Some(_) if leg.from == leg.to => {
-                return no_corner(corner::CornerFault::TooLarge.words(), span);
+                return no_corner(NoCorner::TooLarge, span);
             }
             Some(asked) => corner.held = Some(Held { asked, plane, leg, event, reported: Vec::new() }),
             None if leg.from == leg.to => {}
@@ -211,14 +212,14 @@ impl Exec {
         let (first, second) = (first as usize, second as usize);
         let stays = (0..AXES).all(|i| i == first || i == second || before[i] == self.position[i]);
         if !stays || !same_frame {
-            return no_corner("a corner beside a move that leaves its plane", span);
+            return no_corner(NoCorner::LeavesPlane, span);
         }
         let from = [before[first], before[second]];
         let to = [self.position[first], self.position[second]];
         let bend = match &event.kind {
-            Kind::Feed if from == to => return no_corner("a move that goes nowhere at a corner", span),
+            Kind::Feed if from == to => return no_corner(NoCorner::NoMotion, span),
             Kind::Feed => None,
-            Kind::Arc { full: true, .. } => return not_told("a corner beside a full circle", span),
+            Kind::Arc { full: true, .. } => return not_told(CornerUnexecuted::FullCircle, span),
             Kind::Arc { plane: own, centre, turn, .. } if *own == plane => {
                 let mut middle = event.end;
                 (middle[first], middle[second]) = (centre[0], centre[1]);
@@ -226,13 +227,13 @@ impl Exec {
                 // The sense in the program: a mirror is its own way back.
                 let sense = self.chain.as_ref().map_or(Some(*turn), |chain| chain.sense(plane, *turn));
                 let Some(sense) = sense else {
-                    return not_told("a corner in a frame that does not leave it one", span);
+                    return not_told(CornerUnexecuted::Frame, span);
                 };
                 Some((sense, [middle[first], middle[second]]))
             }
-            Kind::Arc { .. } => return no_corner("a corner beside a move that leaves its plane", span),
-            Kind::Traverse => return not_told("a corner beside a rapid", span),
-            _ => return not_told("a corner beside another move than a line or an arc at feed", span),
+            Kind::Arc { .. } => return no_corner(NoCorner::LeavesPlane, span),
+            Kind::Traverse => return not_told(CornerUnexecuted::Rapid, span),
+            _ => return not_told(CornerUnexecuted::OtherMove, span),
         };
         Ok(Leg { from, to, bend })
     }
@@ -249,13 +250,13 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let Held { asked, plane: own, leg: before, mut event, mut reported } = held;
         if own != plane {
-            return no_corner("a change of the plane at a corner", span);
+            return no_corner(NoCorner::PlaneChanges, span);
         }
         if event.state.feed_mode == FeedMode::InverseTime {
-            return not_told("a corner between moves whose feed is their time", span);
+            return not_told(CornerUnexecuted::FeedByTime, span);
         }
         if event.rate != next.rate {
-            return not_told("a corner between moves of different feeds", span);
+            return not_told(CornerUnexecuted::DifferentFeeds, span);
         }
         // A corner beside a contour has a feed of its own.
         let but_for_feed = |mut state: State| {
@@ -263,7 +264,7 @@ impl Exec {
             state
         };
         if but_for_feed(event.state) != but_for_feed(next.state) {
-            return not_told("a corner between moves that are taken differently", span);
+            return not_told(CornerUnexecuted::DifferentPath, span);
         }
         let made = corner::between(&before, leg, asked.shape, asked.size);
         let made = made.map_err(|fault| Diagnostic::new(fault.fault(), asked.span))?;
@@ -283,7 +284,7 @@ impl Exec {
             Some((turn, centre)) => {
                 let sense = self.chain.as_ref().map_or(Some(turn), |chain| chain.sense(plane, turn));
                 let Some(turn) = sense else {
-                    return not_told("a corner in a frame that does not leave it one", span);
+                    return not_told(CornerUnexecuted::Frame, span);
                 };
                 let centre = placed(centre);
                 let centre = [centre[first as usize], centre[second as usize]];
@@ -318,19 +319,17 @@ impl Exec {
         });
         match same {
             true => Ok(()),
-            false => not_told("a corner in a frame that scales", span),
+            false => not_told(CornerUnexecuted::Scaled, span),
         }
     }
 }
 
-const NO_NEXT: &str = "a corner without a move that follows in its plane";
-
 /// What no control makes.
-fn no_corner<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
-    Err(Diagnostic::new(Fault::NoCorner { what: what.into() }, span))
+fn no_corner<T>(why: NoCorner, span: Span) -> Result<T, Diagnostic> {
+    Err(Diagnostic::new(Fault::NoCorner { why }, span))
 }
 
 /// What no source says, or controls do each in its own way.
-fn not_told<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
-    Err(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span))
+fn not_told<T>(what: CornerUnexecuted, span: Span) -> Result<T, Diagnostic> {
+    Err(Diagnostic::new(Fault::not_executed(what), span))
 }

@@ -14,6 +14,7 @@ use ncc_ir::geometry::hole_positions::{Here, HolePositions};
 use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift, next_peck};
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::CycleUnexecuted;
 
 /// Most pecks of one hole; more is a slip of the pen.
 const MAX_PECKS: i64 = 100_000;
@@ -124,7 +125,7 @@ impl Here for Now<'_> {
     fn word(&self, word: &Coord, side: usize) -> Result<Nanos, Diagnostic> {
         let axis = self.axes[side];
         if self.exec.carries(axis) && word.distance.or(self.exec.modes.distance) == Distance::Incremental {
-            self.exec.not_executed("a pattern of holes that includes a change of frame", self.span)?;
+            self.exec.not_executed(CycleUnexecuted::PatternInFrameChange, self.span)?;
         }
         self.exec.target(word, self.exec.position[axis], self.span)
     }
@@ -148,7 +149,7 @@ impl Exec {
         let normal = plane.axes().2 as usize;
         if self.cycle.as_ref().is_some_and(|cycle| cycle.plane != plane) {
             // 16-C: the drilling axis is changed when no cycle is in force.
-            return self.not_executed("a cycle along another axis than the one in force", span);
+            return self.not_executed(CycleUnexecuted::OtherAxis, span);
         }
         let initial = self.cycle.as_ref().map_or(self.position[normal], |c| c.initial);
         let initial_in = self.cycle.as_ref().map_or(self.modes.work_offset, |c| c.initial_in);
@@ -354,8 +355,7 @@ impl Exec {
         let by_height = matches!(cycle.approach, Approach::RaiseFirst | Approach::ClearFirst);
         if by_height && normal == self.along && self.waiting.is_some() {
             // Which way comes first depends on where the tool stands by the length that is taken up on it.
-            let what = "a first hole on whose way a length is taken up".into();
-            return self.fault(Fault::NotExecuted { what }, span);
+            return self.fault(Fault::not_executed(CycleUnexecuted::LengthAtFirstHole), span);
         }
         if leg == Leg::Level {
             self.go_to_level(normal, cycle.retract, false, span, out)?;
@@ -394,15 +394,14 @@ impl Exec {
             && cycle.initial_in != self.modes.work_offset
         {
             // Whether it is a level of the work or of the machine, no source tells.
-            let what = "a return to the initial level of another work offset".into();
-            return self.fault(Fault::NotExecuted { what }, span);
+            return self.fault(Fault::not_executed(CycleUnexecuted::LevelOfOtherOffset), span);
         }
         let to_level = cycle.return_plane.is_none() && level != cycle.retract;
         if (to_level || cycle.from_level) && normal == self.along {
             let length = self.length_of(self.waiting.unwrap_or(self.modes.length));
             if length != cycle.initial_length {
                 // Whether it is a level of the work or of the tool's end, no source tells.
-                return self.not_executed("a hole by the initial level of another length", span);
+                return self.not_executed(CycleUnexecuted::LevelOfOtherLength, span);
             }
         }
         Ok(())

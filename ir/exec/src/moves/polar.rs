@@ -10,6 +10,7 @@ use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry::polar::{self, About, Pole};
 use ncc_ir::program::{Op, Polar, SetPole, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::MoveUnexecuted;
 
 struct Now<'e>(&'e Exec, Span);
 
@@ -64,12 +65,12 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if self.raw.is_some() || self.probing.is_some() || self.detour.is_some() {
-            return self.not_executed("polar words in machine coordinates", span);
+            return self.not_executed(MoveUnexecuted::PolarInMachine, span);
         }
         let plane = self.plane_of(polar.plane);
         let (at, pole) = polar::point(polar, plane, &Now(self, span))?;
         let Some(op) = polar::with_words(polar, plane, at, polar::exact) else {
-            return self.not_executed("polar words of this function", span);
+            return self.not_executed(MoveUnexecuted::PolarFunction, span);
         };
         self.pole = pole;
         self.do_step(&Stmt::new(span, op), out)

@@ -8,6 +8,7 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::MoveUnexecuted;
 
 /// Metres in ten thousand feet: a foot is 0.3048 m.
 const METRES: i128 = 3048;
@@ -51,7 +52,7 @@ impl Exec {
         let limited = state.limit != u32::MAX && state.spindle != Spindle::Stopped;
         let above = || state.speed > Nanos::from(state.limit) * (ONE / 1000);
         if limited && state.spindle_mode == SpindleMode::Turns && above() {
-            return self.not_executed("a speed in turns above the limit of the spindle", span);
+            return self.not_executed(MoveUnexecuted::SpeedAboveLimit, span);
         }
         Ok(())
     }
@@ -68,17 +69,15 @@ impl Exec {
             return Ok(());
         }
         if self.state.speed <= 0 {
-            let what = "a spindle that turns without a speed of its mode";
-            return self.not_executed(what, span);
+            return self.not_executed(MoveUnexecuted::NoSpeedOfMode, span);
         }
         if self.state.spindle_mode == SpindleMode::Surface {
             let framed = self.chain.is_some() || self.slots.is_some();
             if framed || self.state.tip || self.state.tilted {
-                return self.not_executed("a constant surface speed in a frame of the program", span);
+                return self.not_executed(MoveUnexecuted::SurfaceInFrame, span);
             }
             if self.must_follow_centre() {
-                return self
-                    .not_executed("a constant surface speed beside a contour that is worked out", span);
+                return self.not_executed(MoveUnexecuted::SurfaceOnContour, span);
             }
             self.state.centre = self.frame[0];
         }

@@ -9,6 +9,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Pitch, Synchronised};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::MoveUnexecuted;
 
 impl Exec {
     /// A straight move in step with the spindle, said by the program.
@@ -19,17 +20,16 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if self.raw.take().is_some() || self.probing.take().is_some() || self.detour.take().is_some() {
-            return self
-                .not_executed("a thread in machine coordinates, as a probing move or by a detour", span);
+            return self.not_executed(MoveUnexecuted::ThreadInMachine, span);
         }
         let stated = self.stated_pitch(&m.pitch, span)?;
         let (began, turns) = (self.position, self.state.spindle);
         if !m.chuck && m.turn.is_none() && turns == Spindle::Stopped {
-            return self.not_executed("a thread with a spindle that stands", span);
+            return self.not_executed(MoveUnexecuted::ThreadSpindleStopped, span);
         }
         if self.another_length_waits() && m.to.axes[self.along].is_some() {
             // From where it goes by the length before, to where it goes by the one that is taken up on it.
-            return self.not_executed("a thread on which a length is taken up", span);
+            return self.not_executed(MoveUnexecuted::ThreadTakesLength, span);
         }
         self.set_axes(&m.to, span)?;
         self.heading = crate::Heading::None;
@@ -77,7 +77,7 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let speed = self.state.speed;
         if self.state.spindle_mode == SpindleMode::Surface {
-            return self.not_executed("a thread at a constant surface speed", span);
+            return self.not_executed(MoveUnexecuted::ThreadSurfaceSpeed, span);
         }
         if speed <= 0 {
             return self.fault(Fault::NoSpeed, span);
@@ -113,7 +113,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         if self.state.spindle_mode == SpindleMode::Surface {
-            return self.not_executed("a stop at an angle under a constant surface speed", span);
+            return self.not_executed(MoveUnexecuted::OrientedStopSurface, span);
         }
         let angle = match angle {
             Some(angle) => self.value(angle, span)?,

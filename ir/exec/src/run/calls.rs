@@ -6,6 +6,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::FlowUnexecuted;
 
 use super::{NOWHERE, Runner};
 use crate::run::code::{Again, At, Called};
@@ -120,15 +121,16 @@ impl<'p> Runner<'p> {
     pub(super) fn jump(&mut self, to: Option<(At, u32)>, stmt: &Stmt) -> Result<(), Diagnostic> {
         let Some((to, counted)) = to else {
             let Op::Goto(label) = &stmt.op else {
-                let what = "a word that leaves a loop, outside of any".into();
-                return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+                return Err(Diagnostic::new(
+                    Fault::not_executed(FlowUnexecuted::LeaveOutsideLoop),
+                    stmt.span,
+                ));
             };
             return Err(Diagnostic::new(Fault::LabelUnknown { name: label.clone() }, stmt.span));
         };
         let inner = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
         if inner.is_some_and(|blocks| !(blocks.begin..blocks.end).contains(&to)) {
-            let what = "a jump out of blocks that are executed again".into();
-            return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+            return Err(Diagnostic::new(Fault::not_executed(FlowUnexecuted::JumpOutOfRepetition), stmt.span));
         }
         let open = match (inner, self.calls.last()) {
             (Some(blocks), _) => blocks.turns + counted.saturating_sub(blocks.counted) as usize,

@@ -11,6 +11,7 @@ use ncc_ir::expr::num::Unit;
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Centre, Coord, Move, Op, Point, Stmt};
+use ncc_ir::unexecuted::ValueUnexecuted;
 
 use super::Runner;
 use crate::message;
@@ -45,8 +46,7 @@ impl Runner<'_> {
                 }
                 let makes_holes = matches!(stmt.op, Op::Hole(_) | Op::Position(_));
                 if makes_holes && to.to.axes.iter().all(Option::is_none) {
-                    let what = "a position of which no word has a value".into();
-                    return Err(fault(Fault::NotExecuted { what }));
+                    return Err(fault(Fault::not_executed(ValueUnexecuted::PositionWithoutValue)));
                 }
                 return Ok(true);
             }
@@ -76,8 +76,7 @@ impl Runner<'_> {
             if positive && value != Value::Vacant && value.number() < 0.0
                 || rate && value == Value::Number(0.0)
             {
-                let what = "a feed, a speed, a time or a number that is not positive".into();
-                return Err(fault(Fault::NotExecuted { what }));
+                return Err(fault(Fault::not_executed(ValueUnexecuted::NotPositive)));
             }
             match literal(value, unit).map_err(fault)? {
                 Some(n) => argument.set(Expr::Num(n)),
@@ -86,8 +85,7 @@ impl Runner<'_> {
                     arguments::Argument::Optional(place) => *place = None,
                     arguments::Argument::Value(_) if droppable => left = false,
                     arguments::Argument::Value(_) => {
-                        let what = "a word without a value that cannot be left out".into();
-                        return Err(fault(Fault::NotExecuted { what }));
+                        return Err(fault(Fault::not_executed(ValueUnexecuted::WordWithoutValue)));
                     }
                 },
             }

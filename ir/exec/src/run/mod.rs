@@ -37,6 +37,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::expr::value::Value;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ValueUnexecuted;
 
 /// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
 /// end.
@@ -428,8 +429,7 @@ impl<'p> Runner<'p> {
     ) -> Result<(), Diagnostic> {
         let value = self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?;
         let Some(place) = place else {
-            let what = "a variable of the control's own that is set".into();
-            return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
+            return Err(Diagnostic::new(Fault::not_executed(ValueUnexecuted::ControlVariableSet), span));
         };
         self.variables.set(place, value);
         Ok(())

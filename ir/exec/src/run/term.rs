@@ -6,11 +6,12 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::Exec;
-use ncc_ir::diag::Fault;
+use ncc_ir::diag::{Fault, NoValue};
 use ncc_ir::expr::num::{Num, ONE, POW10, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::value::{self, Value, Wrong};
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Unary, Var};
+use ncc_ir::unexecuted::ValueUnexecuted;
 
 /// An expression made ready.
 #[derive(Clone, Debug)]
@@ -200,7 +201,7 @@ impl Names {
     /// Why an expression has no value, in words of the user's.
     pub(crate) fn fault(&self, why: Why) -> Fault {
         match why {
-            Why::Wrong(wrong) => Fault::NoValue { what: wrong.words().into() },
+            Why::Wrong(wrong) => Fault::NoValue { why: NoValue::Wrong(wrong) },
             Why::Unset(place) => {
                 let var = self.shared.iter().find(|(_, at)| **at == place).map(|(var, _)| var.name());
                 let array = || {
@@ -213,18 +214,13 @@ impl Names {
                 };
                 Fault::VariableUnset { name: var.or_else(array).unwrap_or_default().into() }
             }
-            Why::Index => Fault::NoValue { what: "an index that no element has".into() },
-            Why::System(at) => {
-                let what = match self.system.get(at as usize) {
-                    Some(System::Other(name)) => format!("the system variable {name}"),
-                    Some(asked) => format!("the system variable {asked}, which is not known here"),
-                    None => String::new(),
-                };
-                Fault::NotExecuted { what: what.into() }
-            }
-            Why::Measured => {
-                Fault::NotExecuted { what: "a literal with a unit of its own in an expression".into() }
-            }
+            Why::Index => Fault::NoValue { why: NoValue::Index },
+            Why::System(at) => Fault::not_executed(match self.system.get(at as usize) {
+                Some(System::Other(name)) => ValueUnexecuted::SystemVariable { name: (**name).into() },
+                Some(asked) => ValueUnexecuted::SystemVariableUnknown { asked: asked.clone() },
+                None => ValueUnexecuted::SystemVariable { name: "".into() },
+            }),
+            Why::Measured => Fault::not_executed(ValueUnexecuted::LiteralUnit),
         }
     }
 

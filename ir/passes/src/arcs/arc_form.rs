@@ -15,6 +15,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry::arc_solver::{ArcRule, Around, SolvedArc, solve_arc};
 use ncc_ir::geometry::{self, ArcFault};
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::kinds::{conduct, miscellaneous};
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt, Turns};
@@ -196,7 +197,7 @@ impl Around for Known<'_> {
     fn value(&self, value: &Expr) -> Result<Nanos, Fault> {
         self.at.nanos(value).ok_or(match self.at.modes.units {
             None => Fault::EntryFactNeeded { fact: ModeName::Units },
-            Some(_) => Fault::TargetLacks { what: "an arc with a computed value".into() },
+            Some(_) => Fault::lacks(ArcsLack::ComputedValue),
         })
     }
 
@@ -204,7 +205,7 @@ impl Around for Known<'_> {
         let (first, second, normal) = self.plane.axes();
         let via = self.at.target(point);
         if via[normal as usize] != self.at.position[normal as usize] {
-            return Err(Fault::TargetLacks { what: "a circle in space".into() });
+            return Err(Fault::lacks(ArcsLack::CircleInSpace));
         }
         let at =
             |axis: Axis| via[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
@@ -223,9 +224,7 @@ impl Around for Known<'_> {
                 };
                 Ok([along(first)?, along(second)?])
             }
-            Heading::Unknown => {
-                Err(Fault::TargetLacks { what: "a tangent arc after a move that is not known".into() })
-            }
+            Heading::Unknown => Err(Fault::lacks(ArcsLack::TangentAfterUnknown)),
         }
     }
 

@@ -17,6 +17,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry::arc_solver::ArcRule;
 use ncc_ir::geometry::{self, ArcFault};
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::{Arc, Centre, CentreFrom};
 
 /// What becomes of an arc.
@@ -102,9 +103,7 @@ fn verdict_from(arc: &Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, targe
         Err(ArcFault::EndOffCircle { radii, allowed }) => {
             Verdict::Refuses(Fault::ArcRadiiDiffer { radii, allowed })
         }
-        Err(ArcFault::NoRadius) => {
-            Verdict::Refuses(Fault::TargetLacks { what: "an arc of this radius".into() })
-        }
+        Err(ArcFault::NoRadius) => Verdict::Refuses(Fault::lacks(ArcsLack::Radius)),
         _ => Verdict::Keeps,
     }
 }

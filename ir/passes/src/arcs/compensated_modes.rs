@@ -160,8 +160,7 @@ pub(crate) fn convert_compensated_modes(
             if again {
                 return made.leave_out(stmt);
             }
-            let what = kind.name();
-            diags.push(Diagnostic::new(Fault::CompensatedThere { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::CompensatedThere { kind }, stmt.span));
         } else if !refused.acts_before(kind) {
             state.acts_behind = true;
         } else if state.stopped {

@@ -15,6 +15,7 @@ use crate::target::Target;
 use ncc_ir::caps::Radii;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::{CutterRadius, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -94,9 +95,9 @@ fn number(n: i64) -> Option<u32> {
 
 /// A radius as the target names it, and the entry that it is taken for where that is another way.
 fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRadius, Option<u32>), Fault> {
-    let cannot = |what: String| Err(Fault::TargetLacks { what: what.into() });
+    let cannot = |lack: CompensationLack| Err(Fault::lacks(lack));
     if *radii == Radii::default() {
-        return cannot("cutter radius compensation".into());
+        return cannot(CompensationLack::Compensation);
     }
     let tool = at.tool.and_then(number);
     let length = at.modes.length_offset.filter(|n| *n > 0);
@@ -120,10 +121,10 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRa
     }
     let Some(entry) = entry else {
         return cannot(match radius {
-            CutterRadius::Entry(_) => "compensation by a computed entry".into(),
-            CutterRadius::Tool => "compensation by the radius of a tool that is not known".into(),
-            CutterRadius::InForce => "compensation by the radius of an edge that is no entry".into(),
-            CutterRadius::Diameter(_) => "compensation by a diameter that the program states".into(),
+            CutterRadius::Entry(_) => CompensationLack::ComputedEntry,
+            CutterRadius::Tool => CompensationLack::ToolUnknown,
+            CutterRadius::InForce => CompensationLack::EdgeWithoutEntry,
+            CutterRadius::Diameter(_) => CompensationLack::StatedDiameter,
         });
     };
     let own = match () {
@@ -132,8 +133,8 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRa
         () if radii.tool && tool == Some(entry) => CutterRadius::Tool,
         () => {
             return cannot(match length {
-                Some(length) => format!("the radius of entry {entry} with the length of entry {length}"),
-                None => format!("the radius of entry {entry} with a length that is not known"),
+                Some(length) => CompensationLack::EntryWithLength { entry, length },
+                None => CompensationLack::EntryWithUnknownLength { entry },
             });
         }
     };

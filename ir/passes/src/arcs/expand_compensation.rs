@@ -27,6 +27,7 @@ use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Num;
 use ncc_ir::geometry::arc_feed::ArcFeed;
 use ncc_ir::geometry::offset_path::{Leg, OffsetPath, Unreachable};
+use ncc_ir::lack::{CompensationLack, ExpandedContour};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
@@ -120,7 +121,7 @@ impl Expansion<'_> {
     ) -> Result<(), Diagnostic> {
         let span = stmt.span;
         if self.on.is_some() && stmt.skip.is_some() {
-            return cannot("a block that may be skipped", span);
+            return cannot(ExpandedContour::SkippedBlock, span);
         }
         match &stmt.op {
             Op::Advise(advice) if advice.kind == AdviceKind::CompensatedFeed && !self.one_meaning => {
@@ -205,10 +206,10 @@ impl Expansion<'_> {
         let refuse = |fault| Diagnostic::new(fault, span);
         let at = &walk.at;
         if self.on.is_some() {
-            return cannot("another start", span);
+            return cannot(ExpandedContour::OtherStart, span);
         }
         if at.framed || at.turned || at.tilted {
-            return cannot("a frame", span);
+            return cannot(ExpandedContour::Frame, span);
         }
         let plane = at.modes.plane.ok_or(refuse(Fault::EntryFactNeeded { fact: ModeName::Plane }))?;
         let entry = |n: Option<i64>| n.and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0);
@@ -237,11 +238,11 @@ impl Expansion<'_> {
             Op::ArcFeed(arc) => Motion::Arc(arc.turn),
             Op::Position(_) => match walk.at.modes.motion {
                 Some(motion @ (Motion::Traverse | Motion::Feed)) => motion,
-                Some(Motion::Arc(_) | Motion::Cycle) | None => return cannot("this motion", span),
+                Some(Motion::Arc(_) | Motion::Cycle) | None => return cannot(ExpandedContour::Motion, span),
             },
             op => {
                 if !stays(op, walk) {
-                    return cannot(op.name(), span);
+                    return cannot(ExpandedContour::Function { function: op.name() }, span);
                 }
                 walk.step(&stmt);
                 made.push(stmt);
@@ -250,7 +251,7 @@ impl Expansion<'_> {
         };
         let Some(contour) = &mut self.on else { return Ok(()) };
         if walk.at.raw || matches!(walk.at.modes.feed_mode, Some(FeedMode::InverseTime)) {
-            return cannot("a feed by time or a point of the machine", span);
+            return cannot(ExpandedContour::FeedByTime, span);
         }
         let rules = self.how.rules;
         let writer = Written { walk, decimals: self.decimals, plane: contour.plane };
@@ -265,7 +266,7 @@ impl Expansion<'_> {
         let still = from == to && !full;
         if contour.radius == 0.0 {
             if self.leaving.is_some() {
-                return cannot("a contour without a radius before the one before it is left", span);
+                return cannot(ExpandedContour::NoRadius, span);
             }
             walk.step(&stmt);
             made.push(stmt);
@@ -285,7 +286,7 @@ impl Expansion<'_> {
         let leg = match &stmt.op {
             Op::ArcFeed(arc) => {
                 if contour.path.is_none() {
-                    return cannot("an arc onto the contour", span);
+                    return cannot(ExpandedContour::ArcLeadIn, span);
                 }
                 let centre = walk.at.centre(arc).ok_or(refuse(Fault::ArcWithoutCentre))?;
                 super::expand_turns::leg(arc, centre.map(mm)).map_err(refuse)?
@@ -294,12 +295,8 @@ impl Expansion<'_> {
         };
         let part = match leg {
             Leg::Arc { .. } => {
-                let feed = self.arc_feed.ok_or_else(|| {
-                    refuse(Fault::TargetLacks {
-                        what: "an arc under cutter radius compensation that is worked out, where what F counts on it is not known"
-                            .into(),
-                    })
-                })?;
+                let feed =
+                    self.arc_feed.ok_or_else(|| refuse(Fault::lacks(CompensationLack::ArcFeedUnknown)))?;
                 contour.part_of_feed(feed, leg, [from, to], words, &writer).map_err(refuse)?
             }
             Leg::Line { .. } => None,
@@ -376,12 +373,12 @@ impl Expansion<'_> {
     /// F of the tool centre: this part of F.
     fn feed_of_centre(&self, walk: &Walk, part: f64, span: Span) -> Result<Num, Diagnostic> {
         let Some(feed) = walk.at.feed else {
-            return cannot("an arc with an F along the contour that is not known here", span);
+            return cannot(ExpandedContour::ArcFeedUnknown, span);
         };
         let number = feed.mantissa as f64 / 10f64.powi(i32::from(feed.scale)) * part;
         let said = Num::from_nanos(nanos(number), self.feed_decimals, feed.unit);
         match said.is_zero() {
-            true => cannot("an arc with an F at the tool centre that has too few digits", span),
+            true => cannot(ExpandedContour::ArcFeedDigits, span),
             false => Ok(said),
         }
     }
@@ -412,7 +409,7 @@ impl Expansion<'_> {
         if self.no_arc {
             match &stmt.op {
                 Op::ArcFeed(_) | Op::ArcForm(_) => {
-                    return cannot("an arc that leaves the contour", stmt.span);
+                    return cannot(ExpandedContour::ArcLeadOut, stmt.span);
                 }
                 Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::Position(_) => self.no_arc = false,
                 _ => {}
@@ -426,7 +423,7 @@ impl Expansion<'_> {
         let span = stmt.span;
         let (first, second, _) = plane.axes();
         if stmt.skip.is_some() {
-            return cannot("the way off a contour, in a block that may be skipped,", span);
+            return cannot(ExpandedContour::SkippedLeadOut, span);
         }
         let known =
             stays(&stmt.op, walk) || matches!(stmt.op, Op::EndCycle | Op::ProgramEnd | Op::BeginAgain);
@@ -440,7 +437,7 @@ impl Expansion<'_> {
                 }
             }
             _ if known => {}
-            op => return cannot(&format!("{} before the contour is left,", op.name()), span),
+            op => return cannot(ExpandedContour::BeforeLeadOut { function: op.name() }, span),
         }
         walk.step(&stmt);
         made.push(stmt);

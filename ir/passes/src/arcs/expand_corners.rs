@@ -16,10 +16,12 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry::corner::{self, CornerFault, Inserted, Leg};
+use ncc_ir::lack::CornersLack;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Move, Op, Point, Program, Stmt, Turns};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::unexecuted::NoCorner;
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
@@ -77,11 +79,11 @@ impl ExpandCornersState {
 }
 
 fn no_next() -> Fault {
-    Fault::NoCorner { what: "a corner without a move that follows in its plane".into() }
+    Fault::NoCorner { why: NoCorner::NoNextMove }
 }
 
-fn cannot(what: &str) -> Fault {
-    Fault::TargetLacks { what: what.into() }
+fn cannot(lack: CornersLack) -> Fault {
+    Fault::lacks(lack)
 }
 
 /// Writes them out.
@@ -250,7 +252,7 @@ impl Corners<'_> {
                 (None, true) => return Err(unknown()),
                 (Some(Some(inserted)), true) => {
                     if made.out[before.corner.word..].iter().any(|s| s.skip != stmt.skip) {
-                        return Err(cannot("a corner beside blocks that can be skipped"));
+                        return Err(cannot(CornersLack::BesideSkippedBlock));
                     }
                     let Some((plane, _)) = known else { return Err(unknown()) };
                     self.write(&before, &inserted, plane, walk, made)?;
@@ -413,7 +415,7 @@ impl Corners<'_> {
 }
 
 fn unknown() -> Fault {
-    cannot("a corner between moves whose places are known only when the program runs")
+    cannot(CornersLack::PlacesAtRunTime)
 }
 
 /// The end of a move.

@@ -13,6 +13,7 @@ use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::geometry;
 use ncc_ir::geometry::offset_path::{Leg, Spot};
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt, Turns};
 use ncc_ir::track::Tracker;
@@ -90,7 +91,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     let (first, second, normal) = plane.axes();
     let words = [first, second, normal];
     if Axis::ALL.into_iter().any(|a| !words.contains(&a) && arc.to.get(a).is_some()) {
-        return Err(Fault::TargetLacks { what: "an arc of several turns with a rotary axis".into() });
+        return Err(Fault::lacks(ArcsLack::TurnsWithRotaryAxis));
     }
     // A whole turn has no radius that says it.
     let mut by_centre = arc.clone();
@@ -115,9 +116,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     if arc.to.get(normal).is_some() {
         if walk.waiting {
             // The length is taken up on the way, by so much more or less of it.
-            return Err(Fault::TargetLacks {
-                what: "a helix of several turns that takes a length up".into(),
-            });
+            return Err(Fault::lacks(ArcsLack::TurnsWithLength));
         }
         let levels = levels((arc, turns), walk, [first, second, normal])?;
         let unit = unit_of(normal, walk.unit());

@@ -6,6 +6,7 @@ use crate::target::Target;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::geometry::polar;
+use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Op, Polar};
 
@@ -14,9 +15,7 @@ use ncc_ir::program::{Op, Polar};
 /// # Errors
 /// It is not known.
 pub(crate) fn by_coordinates(polar: &Polar, walk: &Walk, target: &Target) -> Result<Op, Fault> {
-    let unknown = || Fault::TargetLacks {
-        what: "a point by radius and angle whose place is known only when the program runs".into(),
-    };
+    let unknown = || Fault::lacks(ArcsLack::PolarRunTime);
     let (at, plane, _) = walk.at.polar(polar).ok_or_else(unknown)?;
     let unit = walk.unit();
     let make = |nanos| absolute(rounded(nanos, target.decimals_in(unit).min(EXACT), unit));

@@ -11,6 +11,7 @@ use crate::support::walk::Walk;
 use crate::support::write::Rebuild;
 use crate::target::{MOST_STATEMENTS, Target};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Call, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -109,8 +110,7 @@ impl<'a> Inliner<'a> {
                 }
                 Op::Return if called => {
                     if stmt.skip != skip {
-                        let what = "a return that can be skipped, written out".into();
-                        self.diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                        self.diags.push(Diagnostic::new(Fault::lacks(FlowLack::ReturnSkipped), stmt.span));
                     }
                     made.leave_out(stmt);
                     return;
@@ -123,8 +123,7 @@ impl<'a> Inliner<'a> {
                     made.push(stmt);
                 }
                 Op::Goto(_) | Op::Label(_) if called => {
-                    let what = "a subprogram with jumps, written out".into();
-                    self.diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                    self.diags.push(Diagnostic::new(Fault::lacks(FlowLack::SubprogramJumps), stmt.span));
                     made.leave_out(stmt);
                 }
                 op => {
@@ -179,8 +178,7 @@ impl<'a> Inliner<'a> {
             self.body(&sub.body, skip, made);
             if made.out.len().max(self.calls) > MOST_STATEMENTS && !self.full {
                 self.full = true;
-                let what = "calls that are too long to be written out".into();
-                self.refuse(Fault::TargetLacks { what }, span);
+                self.refuse(Fault::lacks(FlowLack::CallsTooLong), span);
             }
             if self.full {
                 break;
@@ -197,9 +195,7 @@ impl<'a> Inliner<'a> {
 /// Puts a statement under a further skip level.
 pub(crate) fn also_skipped(stmt: &mut Stmt, skip: Option<u8>) -> Result<(), Fault> {
     match (stmt.skip, skip) {
-        (Some(a), Some(b)) if a != b => {
-            Err(Fault::TargetLacks { what: "a block under two block-skip levels".into() })
-        }
+        (Some(a), Some(b)) if a != b => Err(Fault::lacks(FlowLack::TwoSkipLevels)),
         _ => {
             stmt.skip = stmt.skip.or(skip);
             Ok(())

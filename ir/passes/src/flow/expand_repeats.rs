@@ -15,6 +15,7 @@ use ncc_exec::again;
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Control, Op, Program, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -200,7 +201,7 @@ fn flatten(
             // In what is passed again a label would stand twice.
             Op::Label(name) if !jumps.contains(name) => made.leave_out(stmt),
             Op::Label(_) | Op::Goto(_) if under.is_some() => {
-                cannot("a repetition with jumps, written out", span, diags);
+                cannot(FlowLack::RepetitionJumps, span, diags);
                 made.leave_out(stmt);
             }
             Op::RepeatBlocks(repeat) => {
@@ -213,7 +214,7 @@ fn flatten(
                     continue;
                 };
                 if depth >= DEEPEST {
-                    cannot("repetitions nested so deep", span, diags);
+                    cannot(FlowLack::RepetitionDepth, span, diags);
                     *full = true;
                     return;
                 }
@@ -237,7 +238,7 @@ fn flatten(
                     }
                     if made.out.len() > MOST_STATEMENTS {
                         *full = true;
-                        return cannot("a repetition that is too long to be written out", span, diags);
+                        return cannot(FlowLack::RepetitionTooLong, span, diags);
                     }
                 }
             }
@@ -246,8 +247,8 @@ fn flatten(
     }
 }
 
-fn cannot(what: &str, span: Span, diags: &mut Vec<Diagnostic>) {
-    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
+fn cannot(lack: FlowLack, span: Span, diags: &mut Vec<Diagnostic>) {
+    diags.push(Diagnostic::new(Fault::lacks(lack), span));
 }
 
 /// Says repetitions of a body by labels: the body once, and its blocks again.
@@ -257,7 +258,7 @@ fn by_labels(body: &mut Vec<Stmt>, known: &BTreeSet<Text>, last: &mut u32, diags
         let Some((times, mut inner)) = repeat_of(&mut stmt) else { return made.push(stmt) };
         let Some(times) = times.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
         else {
-            cannot("a computed repetition", span, diags);
+            cannot(FlowLack::RepetitionComputed, span, diags);
             return made.push(stmt);
         };
         by_labels(&mut inner, known, last, diags);
@@ -337,16 +338,14 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
             _ => return made.push(stmt),
         };
         let Some(times) = times.and_then(|n| u32::try_from(n).ok()) else {
-            let what = "a computed repetition".into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+            diags.push(Diagnostic::new(Fault::lacks(FlowLack::RepetitionComputed), span));
             return made.push(stmt);
         };
         diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
         let mut inner = inner.clone();
         bodies(&mut inner, diags);
         if inner.len().saturating_mul(times as usize) > MOST_STATEMENTS {
-            let what = "a repetition that is too long to be written out".into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+            diags.push(Diagnostic::new(Fault::lacks(FlowLack::RepetitionTooLong), span));
             return made.push(stmt);
         }
         made.leave_out(stmt);

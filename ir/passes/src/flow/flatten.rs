@@ -19,6 +19,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, POW10, Unit};
 use ncc_ir::expr::value::Value;
 use ncc_ir::geometry::arc_solver::ArcRule;
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::kinds::{flow, variables};
 use ncc_ir::program::valid;
@@ -28,9 +29,6 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass =
     Pass::named("flatten", "executes what computes and decides, and writes straight blocks", Some(run));
-
-/// The refusal of a block that the block-skip switch takes out and that decides what is executed.
-pub const SWITCHED: &str = "a block that can be skipped and decides what is executed, written out";
 
 /// Executes the program; only a main procedure of straight blocks is left.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
@@ -137,8 +135,7 @@ fn straight(
         settle(&mut stmt.op, &walk.at);
         walk.step(&stmt);
         if out.len() >= most || target.tried_upto.is_some_and(|most| runner.steps() > u64::from(most)) {
-            let what = "more blocks than a program may grow to".into();
-            return Err(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+            return Err(Diagnostic::new(Fault::lacks(FlowLack::TooManyBlocks), stmt.span));
         }
         out.push(stmt);
         if over {
@@ -236,7 +233,7 @@ fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnosti
 fn no_switch(body: &[Stmt]) -> Result<(), Diagnostic> {
     for stmt in body {
         if stmt.skip.is_some() && matches!(stmt.op, flow!() | variables!()) {
-            return Err(Diagnostic::new(Fault::TargetLacks { what: SWITCHED.into() }, stmt.span));
+            return Err(Diagnostic::new(Fault::lacks(FlowLack::SkippedDecision), stmt.span));
         }
         let Op::Control(control) = &stmt.op else { continue };
         for body in control.bodies() {

@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::pass::{Pass, ProgramMoment, ProgramStep};
 use crate::target::Target;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -60,8 +61,8 @@ fn number_subprograms(program: &mut Program, target: &Target, computes: bool, di
     for procedure in program.procedures.iter_mut().skip(1).filter(|p| !fits(&p.name)) {
         let at = procedure.body.first().map_or(Span::default(), |s| s.span);
         let Some(number) = free.next() else {
-            let what = format!("a subprogram called {}", procedure.name).into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, at));
+            let lack = FlowLack::SubprogramName { name: (*procedure.name).into() };
+            diags.push(Diagnostic::new(Fault::lacks(lack), at));
             continue;
         };
         let name: Text = number.to_string().into();

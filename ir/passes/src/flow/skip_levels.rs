@@ -8,6 +8,7 @@ use crate::support::needs::SKIP;
 use crate::support::walk::each_body;
 use crate::target::Target;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::FlowLack;
 use ncc_ir::program::{Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -51,10 +52,10 @@ pub(crate) fn limit_skip_levels(
         if state.reported & bit == 0 {
             state.reported |= bit;
             let fault = match highest {
-                0 => Fault::TargetLacks { what: "a block that can be skipped".into() },
+                0 => Fault::lacks(FlowLack::SkippedBlock),
                 1 => Fault::SkipLevelLost { level },
                 // Which of the target's switches is free is not known before the program's end.
-                _ => Fault::TargetLacks { what: "a tenth block-skip switch".into() },
+                _ => Fault::lacks(FlowLack::TenthSkipSwitch),
             };
             diags.push(Diagnostic::new(fault, stmt.span));
         }

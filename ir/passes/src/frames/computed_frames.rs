@@ -29,6 +29,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::arguments;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Coord, Frame, FrameSlot, FrameStep, Op, Program, Slot, Stmt};
+use ncc_ir::run_time::{ComputedFrame, RunTimeWord};
 use ncc_ir::source::Span;
 
 /// This pass.
@@ -53,9 +54,8 @@ fn in_shared(shared: &mut Shared, kept: &mut KeptProgram) {
     }
     if shared.states.ask(ExpandFramesState::is_busy) {
         let at = kept.program.procedures.first().and_then(|main| main.body.first());
-        let what = "other frames than those before it, where a program computes".into();
         let at = at.map_or_else(Span::default, |stmt| stmt.span);
-        return kept.refuse(Diagnostic::new(Fault::Computes { what }, at));
+        return kept.refuse(Diagnostic::new(Fault::computes(RunTimeWord::OtherFrames), at));
     }
     shared.lacks &= !FRAME;
 }
@@ -213,8 +213,7 @@ fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
                 said = Some(*distance == Distance::Absolute && (is || stmt.skip.is_none()));
             }
             Op::SetSlot(_) | Op::SetPosition(_) if !is && is_frame(&stmt.op) => {
-                let what = "a frame where words may be incremental".into();
-                return Err(Diagnostic::new(Fault::Computes { what }, stmt.span));
+                return Err(Diagnostic::new(Fault::computes(RunTimeWord::FrameIncremental), stmt.span));
             }
             _ => {}
         }
@@ -250,7 +249,7 @@ fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) 
         }
         shift = translation(&stmt.op).filter(|_| stmt.skip.is_none());
         let said = match stmt.skip {
-            Some(_) => Err("that can be skipped"),
+            Some(_) => Err(ComputedFrame::Skipped),
             None if caps.frames.chain => as_chain(&stmt.op, used, &mut held),
             None => as_slots(&stmt.op, used, caps, anew),
         };
@@ -258,8 +257,8 @@ fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) 
         match said {
             Ok(ops) => made.replace(stmt, ops.into_iter().map(|op| (false, op))),
             Err(why) => {
-                let what = format!("a frame {why}, where a program computes").into();
-                refused.get_or_insert(Diagnostic::new(Fault::Computes { what }, stmt.span));
+                let what = RunTimeWord::Frame { why };
+                refused.get_or_insert(Diagnostic::new(Fault::computes(what), stmt.span));
             }
         }
     });
@@ -339,11 +338,11 @@ fn set(added: bool, step: FrameStep) -> Op {
 }
 
 /// A step of a chain as slots: a shift of all axes that are shifted anywhere, and a rotation about its zero.
-fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'static str> {
+fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, ComputedFrame> {
     let shifts = used.shifted.contains(&true);
     let origin = !caps.frames.local_shift;
     if shifts && origin && !caps.frames.stated_shift || used.turns && !caps.frames.rotation {
-        return Err("in another form than the target has");
+        return Err(ComputedFrame::OtherForm);
     }
     let zero = |axis: usize| Expr::Num(Num::int(0, if axis < 3 { Unit::Mm } else { Unit::Degree }));
     let mut ops = Vec::new();
@@ -369,7 +368,7 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'
                 let axes = axes.clone();
                 ops.push(Op::SetSlot(Box::new(Slot::Shift { origin: !origin, axes })));
             }
-            _ => return Err("in another form than the target has"),
+            _ => return Err(ComputedFrame::OtherForm),
         },
         Op::ClearFrame(slot) if used.shift() == Some(*slot) => to(&nothing, &mut ops),
         Op::ClearFrame(FrameSlot::Chain) => to(&nothing, &mut ops),
@@ -380,7 +379,7 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'
                 if !frame.added {
                     to(&nothing, &mut ops);
                 }
-                let Fact::Known(in_plane) = plane else { return Err("in a plane that is not known") };
+                let Fact::Known(in_plane) = plane else { return Err(ComputedFrame::PlaneUnknown) };
                 let (first, second, _) = in_plane.axes();
                 let mut centre = [const { None }; 3];
                 [first, second].into_iter().for_each(|axis| centre[axis as usize] = Some(zero(0)));
@@ -388,10 +387,10 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'
                 let turn = Slot::Rotation { plane: *plane, centre: Box::new(centre), angle };
                 ops.push(Op::SetSlot(Box::new(turn)));
             }
-            FrameStep::Translate(_) | FrameStep::Rotate { .. } => return Err("that adds to another one"),
-            FrameStep::Scale(_) | FrameStep::Mirror(_) => return Err("in another form than the target has"),
+            FrameStep::Translate(_) | FrameStep::Rotate { .. } => return Err(ComputedFrame::Added),
+            FrameStep::Scale(_) | FrameStep::Mirror(_) => return Err(ComputedFrame::OtherForm),
         },
-        _ => return Err("in another form than the target has"),
+        _ => return Err(ComputedFrame::OtherForm),
     }
     Ok(ops)
 }
@@ -429,17 +428,14 @@ fn placed(body: &[Stmt]) -> Result<(), Diagnostic> {
             [None, None] => {}
             [Some(true), Some(true)] => open = None,
             _ => {
-                let what =
-                    "a rotation, behind which the first move does not name both axes of its plane".into();
-                return Err(Diagnostic::new(Fault::Computes { what }, from.span));
+                return Err(Diagnostic::new(Fault::computes(RunTimeWord::RotationFirstMove), from.span));
             }
         }
     }
     match open {
         None => Ok(()),
         Some((_, from)) => {
-            let what = "a rotation, behind which the program does not go straight on to a move".into();
-            Err(Diagnostic::new(Fault::Computes { what }, from.span))
+            Err(Diagnostic::new(Fault::computes(RunTimeWord::RotationNotStraightOn), from.span))
         }
     }
 }

@@ -17,6 +17,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
 use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::arguments::{words_of, words_of_mut};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{
@@ -63,9 +64,6 @@ pub(crate) const PASS: Pass = Pass {
     ],
     parametric: None,
 };
-
-/// What is said of a word that cannot be written so.
-pub const REFUSED: &str = "an incremental word after a change of frame";
 
 /// Most rounds in which it is found out what subprograms leave behind; each adds an axis at least.
 const MOST_ROUNDS: usize = 64;
@@ -510,7 +508,7 @@ impl Way<'_> {
         let raw = walk.at.raw;
         let (op, skipped) = (&mut stmt.op, stmt.skip.is_some());
         if self.state.pending.any() && !raw && self.absolute(op, walk) == Err(()) {
-            self.diags.push(Diagnostic::new(Fault::TargetLacks { what: REFUSED.into() }, stmt.span));
+            self.diags.push(Diagnostic::new(Fault::lacks(FramesLack::IncrementAfterChange), stmt.span));
         }
         let axes = changes(op, walk.at.modes.plane, &self.state.pending.rotated);
         let Some(axes) = axes.filter(|_| !self.same_offset(op, walk)) else {

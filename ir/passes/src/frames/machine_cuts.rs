@@ -20,6 +20,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Node, Unary, Var};
+use ncc_ir::lack::MachineLack;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 use ncc_ir::source::Span;
@@ -58,24 +59,24 @@ fn asks(target: &Computes, system: System) -> bool {
 ///
 /// # Errors
 /// Why that cannot be said.
-pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16), &'static str> {
+pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16), MachineLack> {
     let target = caps.flow.computes.as_deref().filter(|_| in_work(caps));
-    let target = target.ok_or("a cut in machine coordinates")?;
+    let target = target.ok_or(MachineLack::Cut)?;
     if has_frame(at) {
-        return Err("a cut in machine coordinates under a frame of the program");
+        return Err(MachineLack::CutUnderFrame);
     }
     if is_open_behind_a_rotation(&to.to, at) {
-        return Err("a cut in machine coordinates behind a rotation");
+        return Err(MachineLack::CutAfterRotation);
     }
     let number = at.modes.work_offset.filter(|number| *number > 0);
-    let number = number.ok_or("a cut in machine coordinates: its work offset is not known")?;
-    let units = at.modes.units.ok_or("a cut in machine coordinates: the unit is not known")?;
+    let number = number.ok_or(MachineLack::CutOffsetUnknown)?;
+    let units = at.modes.units.ok_or(MachineLack::CutUnitUnknown)?;
     let mut made = to.clone();
     for axis in Axis::ALL {
         let Some(word) = &mut made.to.axes[axis as usize] else { continue };
         let offsets = offsets(axis, number);
         if !offsets.iter().all(|offset| asks(target, offset.clone())) {
-            return Err("a cut in machine coordinates: no variable has this offset");
+            return Err(MachineLack::CutOffsetVariable);
         }
         let inch = units == Units::Inch && !axis.is_rotary();
         let place = match (&word.value, rounded(&word.value)) {
@@ -86,7 +87,7 @@ pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16
                 match at.nanos(&word.value) {
                     _ if axis.is_rotary() || n.unit == Unit::Entry || n.unit == own => Expr::Num(exactly(*n)),
                     Some(nanos) => Expr::Num(exactly(exact(nanos, own))),
-                    None => return Err("a cut in machine coordinates with so many digits"),
+                    None => return Err(MachineLack::CutDigits),
                 }
             }
             (value, None) => value.clone(),

@@ -25,6 +25,7 @@ use ncc_ir::caps::{Caps, TiltForm};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::MachineLack;
 use ncc_ir::program::arguments::words_of;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{
@@ -84,7 +85,7 @@ impl MachineMovesState {
         let word = words_of(&stmt.op).and_then(|to| to.get(Axis::Z))?;
         let takes_up = self.put_off.is_some() && self.cancelled;
         (takes_up && !is_absolute(word, walk.at.modes.distance))
-            .then(|| Diagnostic::new(Fault::TargetLacks { what: FROM_MACHINE.into() }, stmt.span))
+            .then(|| Diagnostic::new(Fault::lacks(MachineLack::IncrementAfterMachineMove), stmt.span))
     }
 
     /// Whether something waits for the statements that come.
@@ -145,19 +146,18 @@ fn take(
     }
     match &stmt.op {
         Op::Probe(probe) if !caps.moves.probes[Caps::probe(*probe)] => {
-            let what = match (probe.away, probe.error) {
-                _ if caps.moves.probes == [false; 4] => "a probing move",
+            let lack = match (probe.away, probe.error) {
+                _ if caps.moves.probes == [false; 4] => MachineLack::Probing,
                 (_, true) if caps.moves.probes[Caps::probe(Probe { error: false, ..*probe })] => {
-                    "a probing move with an error at the end of its way"
+                    MachineLack::ProbingWithError
                 }
-                (true, _) => "a probing move away from a contact",
-                (false, _) => "a probing move of this kind",
+                (true, _) => MachineLack::ProbingAway,
+                (false, _) => MachineLack::ProbingKind,
             };
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span));
         }
         Op::Detour(Detour::OneSide) if !caps.moves.detours[Detour::OneSide as usize] => {
-            let what = "positioning from one side: how far beyond is the machine's".into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(MachineLack::OneSide), stmt.span));
         }
         Op::Detour(Detour::Intermediate) if !caps.moves.detours[Detour::Intermediate as usize] => {
             walk.step(&stmt);
@@ -211,8 +211,7 @@ fn take(
             return made.push(Stmt { op: Op::GoToReference(Box::new(reference)), ..stmt });
         }
         Op::Position(_) if state.motion_lost => {
-            let what = "a position by the caller's motion, behind a return to a point of the machine".into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(MachineLack::CallersMotionAfterReturn), stmt.span));
         }
         Op::UseToolLengthOffset(_)
         | Op::UseToolLength(_)
@@ -225,9 +224,7 @@ fn take(
             diags.extend(state.refuses_increment(&stmt, walk));
             length_again(&mut stmt, state, made);
             if let Some(span) = state.lost.take() {
-                let what = "a return to a point of the machine behind which Z moves by a length that is not \
-                            said anew";
-                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
+                diags.push(Diagnostic::new(Fault::lacks(MachineLack::LengthAfterReturn), span));
             }
         }
         _ => {}
@@ -236,10 +233,6 @@ fn take(
     walk.step(&stmt);
     made.push(stmt);
 }
-
-/// The refusal of an increment of Z that would take up the length which a move to the machine has cancelled.
-pub const FROM_MACHINE: &str =
-    "an incremental Z behind a move to a place of the machine, with the tool's length";
 
 /// Says the length anew that was put off, before a statement that needs it.
 fn length_again(stmt: &mut Stmt, state: &mut MachineMovesState, made: &mut Rebuild) {
@@ -300,7 +293,7 @@ fn cut(
     };
     let aside = !length && walk.at.aside && [Axis::X, Axis::Y].iter().any(|axis| to.to.get(*axis).is_some());
     let said = match aside {
-        true => Err("a cut in machine coordinates without the offsets of the tool along X and Y"),
+        true => Err(MachineLack::CutWithoutToolOffsets),
         false => machine_cuts::as_work(to, &walk.at, caps),
     };
     let with_z = to.to.get(Axis::Z).is_some();
@@ -311,7 +304,7 @@ fn cut(
             diags.push(Diagnostic::new(Fault::MachineCutExpanded { offset }, stmt.span));
             stmt.op = Op::StraightFeed(to);
         }
-        Err(what) => diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span)),
+        Err(lack) => diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span)),
     }
     let (joined, number) = (machine.joined, machine.number);
     let off = !length && puts_off(with_z, in_force, state, stmt.span);
@@ -339,8 +332,7 @@ fn in_other_form(
     machine.op = Op::UseMachineCoordinates { length: !length };
     let none = in_force == Some(0) || state.put_off.is_some();
     if with_z && length && !none {
-        let what = "a move in machine coordinates that is measured with the tool's length";
-        diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, machine.span));
+        diags.push(Diagnostic::new(Fault::lacks(MachineLack::WithToolLength), machine.span));
     }
     if !length && puts_off(with_z, in_force, state, machine.span) {
         let mut off = Stmt::new(machine.span, Op::UseToolLengthOffset(Expr::int(0)));
@@ -375,8 +367,7 @@ fn by_intermediate(
     diags: &mut Vec<Diagnostic>,
 ) -> Stmt {
     let Some(points) = walk.at.intermediate(&to.to) else {
-        let what = "a return by an intermediate point that is not known here".into();
-        diags.push(Diagnostic::new(Fault::TargetLacks { what }, detour.span));
+        diags.push(Diagnostic::new(Fault::lacks(MachineLack::IntermediatePointUnknown), detour.span));
         return rest;
     };
     let mut via = Point::default();
@@ -402,18 +393,18 @@ fn by_machine_zero(
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
 ) {
-    let mut cannot = |what: &str| {
-        diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+    let mut cannot = |lack: MachineLack| {
+        diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span));
     };
     if reference.point != ReferencePoint::Home {
         cannot(match reference.point {
-            ReferencePoint::Stored(_) => "a move to a position that is stored in the control",
-            _ => "a move to this point of the machine",
+            ReferencePoint::Stored(_) => MachineLack::StoredPosition,
+            _ => MachineLack::FurtherPoint,
         });
         return made.push(stmt);
     }
     if !target.caps.machine.coordinates {
-        cannot("a move to the machine's zero");
+        cannot(MachineLack::MachineZero);
         return made.push(stmt);
     }
     let in_force = walk.at.modes.length_offset;

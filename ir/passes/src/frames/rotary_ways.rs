@@ -13,6 +13,7 @@ use crate::target::Target;
 use ncc_ir::canon::{Axis, RotaryWay};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::ONE;
+use ncc_ir::lack::WordsLack;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -64,15 +65,13 @@ pub(crate) fn state_rotary_ways(
                 let Some(way) = way else { continue };
                 let from = walk.at.position[axis as usize];
                 let to = m.to.get(axis).and_then(|word| walk.at.resolve(word, from));
-                let what = match from.zip(to) {
-                    None => "the way of a rotary axis from where nobody knows",
-                    Some((from, to)) if !way.is_direct(from, to) => {
-                        "a rotary axis that goes the other way round"
-                    }
+                let lack = match from.zip(to) {
+                    None => WordsLack::RotaryStartUnknown,
+                    Some((from, to)) if !way.is_direct(from, to) => WordsLack::RotaryOtherDirection,
                     Some((from, to)) if to.abs_diff(from) < HALF => continue,
-                    Some(_) => "a rotary axis that goes a stated way by half a turn or more",
+                    Some(_) => WordsLack::RotaryHalfTurn,
                 };
-                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, said.span));
+                diags.push(Diagnostic::new(Fault::lacks(lack), said.span));
             }
         }
         walk.step(&stmt);

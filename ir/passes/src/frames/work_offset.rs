@@ -10,6 +10,7 @@ use crate::support::write::{Rebuild, rebuild};
 use crate::target::Target;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::kinds::{
     conduct, drilling, flow, machine, miscellaneous, modes, polar, tooling, variables,
 };
@@ -113,7 +114,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
 }
 
 fn cannot_name(offset: u16, span: Span) -> Diagnostic {
-    Diagnostic::new(Fault::TargetLacks { what: format!("work offset {offset}").into() }, span)
+    Diagnostic::new(Fault::lacks(FramesLack::WorkOffset { offset }), span)
 }
 
 /// Takes the work offsets out, or refuses them.

@@ -12,6 +12,7 @@ use crate::support::write::{at, is_absolute};
 use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance, Fact, Plane};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{First, Pattern};
 use ncc_ir::program::{Coord, Move, Op, Program, Stmt};
 use ncc_ir::track::Tracker;
@@ -106,10 +107,7 @@ pub(crate) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnost
                     (_, None) => Ok(()),
                     (Some(Distance::Absolute), Some(before)) => absolute_point(m, before),
                     (Some(Distance::Incremental), Some(before)) => incremental_point(m, before),
-                    (None, Some(_)) => {
-                        let what = "a hole placed otherwise than the planes of its cycle";
-                        Err(Fault::TargetLacks { what: what.into() })
-                    }
+                    (None, Some(_)) => Err(Fault::lacks(HolesLack::PlacedUnlikePlanes)),
                 }
             }
             (_, _) => Ok(()),

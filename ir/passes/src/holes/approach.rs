@@ -15,6 +15,7 @@ use crate::target::Target;
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{Approach, Cycle};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
@@ -118,16 +119,14 @@ pub(crate) fn convert_approach(
                     | Op::SetOriginOffsets(_)
             )
         {
-            let what = "another zero under a cycle that goes another way to its holes";
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, body[i].span));
+            diags.push(Diagnostic::new(Fault::lacks(HolesLack::ZeroUnderApproach), body[i].span));
         }
         another_length = chained && by_height && other_way && (another_length || body[i].op.calls_length());
         if another_length
             && walk.waiting
             && matches!(body[i].op, Op::Position(_) | Op::Hole(_) | Op::Pattern(_))
         {
-            let what = "a hole on whose way a length is taken up";
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, body[i].span));
+            diags.push(Diagnostic::new(Fault::lacks(HolesLack::LengthAtHole), body[i].span));
         }
         if let Op::StartCycle(cycle) = &body[i].op {
             another_length = false;

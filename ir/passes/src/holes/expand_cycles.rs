@@ -32,6 +32,7 @@ use crate::target::Target;
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift};
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Point, Program, Stmt};
@@ -267,9 +268,7 @@ impl ExpandCyclesState {
             let inner = apart.as_ref().unwrap_or(walk);
             let moved = match &inner.at.cycle {
                 Some(in_force) => hole(inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
-                None => Err(Fault::TargetLacks {
-                    what: "a cycle called up in a block that can be skipped".into(),
-                }),
+                None => Err(Fault::lacks(HolesLack::CycleInSkippedBlock)),
             };
             if let Err(fault) = moved {
                 diags.push(Diagnostic::new(fault, stmt.span));
@@ -441,8 +440,7 @@ pub(crate) fn hole(
     let stated = feed.is_some();
     if !stated && bores_out(&cycle.kind) {
         // Nothing says to which feed to go back.
-        let what = "boring with another feed on the way out, under a feed that the cycle does not state";
-        return Err(Fault::TargetLacks { what: what.into() });
+        return Err(Fault::lacks(HolesLack::BoringFeedOut));
     }
     if let Some(feed) = feed {
         moves.push((false, Op::SetFeedRate(feed.clone())));

@@ -14,6 +14,7 @@ use ncc_ir::canon::ReturnLevel;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{Clearance, CycleKind, absolute, next_peck};
 use ncc_ir::program::{Op, Point};
 use ncc_ir::track::ActiveCycle;
@@ -54,19 +55,18 @@ pub(super) fn pecks(
     let normal =
         walk.at.plane(in_force.cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?.axes().2;
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
-    let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
+    let parameter = |value: Option<Num>, lack: HolesLack| match value.and_then(|n| n.nanos(false)) {
         Some(nanos) => Ok(nanos),
-        None => Err(Fault::TargetLacks { what: what.into() }),
+        None => Err(Fault::lacks(lack)),
     };
     let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
     let (peck, first, less, pause, between) = match &in_force.cycle.kind {
         CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, .. } => {
             let clearance = match clearance {
                 Clearance::Stated(value) => Some(length(value)?),
-                Clearance::Parameter => Some(parameter(
-                    target.peck_clearance,
-                    "peck drilling whose clearance is a parameter of the control",
-                )?),
+                Clearance::Parameter => {
+                    Some(parameter(target.peck_clearance, HolesLack::PeckClearanceParameter)?)
+                }
                 Clearance::FromReturn => None,
             };
             (peck, first, less, pause, Between::Out { clearance, settle: settle.as_ref() })
@@ -74,10 +74,9 @@ pub(super) fn pecks(
         CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, .. } => {
             let lift = match lift {
                 Clearance::Stated(value) => length(value)?,
-                Clearance::Parameter | Clearance::FromReturn => parameter(
-                    target.break_lift,
-                    "chip-breaking drilling whose lift is a parameter of the control",
-                )?,
+                Clearance::Parameter | Clearance::FromReturn => {
+                    parameter(target.break_lift, HolesLack::ChipBreakLiftParameter)?
+                }
             };
             (peck, first, less, pause, Between::Up { lift, at_feed: *lift_at_feed })
         }

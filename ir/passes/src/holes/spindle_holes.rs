@@ -16,6 +16,7 @@ use ncc_ir::caps::{CycleCap, CycleForm};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
+use ncc_ir::lack::{HolesLack, Lack, ThreadsLack};
 use ncc_ir::program::cycle::{BoreStop, Cycle, CycleKind, FineBore, Shift, Tap, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Synchronised};
 use ncc_ir::track::ActiveCycle;
@@ -97,10 +98,7 @@ impl Driven<'_> {
     fn turned(&self, after: Option<Spindle>) -> Result<(bool, Op), Fault> {
         match after.or(self.walk.at.spindle) {
             Some(spindle) => Ok(turn_it(spindle)),
-            None => {
-                let what = "a cycle after which the spindle turns as before, which is not known";
-                Err(Fault::TargetLacks { what: what.into() })
-            }
+            None => Err(Fault::lacks(HolesLack::SpindleAfterUnknown)),
         }
     }
 
@@ -141,11 +139,11 @@ impl Driven<'_> {
         let threads = self.target.caps.moves.threads;
         let says = if tap.chuck { threads.chuck } else { threads.turned || threads.back };
         if !threads.any && !says {
-            let what = match tap.settle == tap.dwell && tap.back.is_none() {
-                true => format!("the cycle {} in this form", self.in_force.cycle.kind.name()),
-                false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
+            let lack: Lack = match tap.settle == tap.dwell && tap.back.is_none() {
+                true => HolesLack::CycleForm { kind: self.in_force.cycle.kind.name() }.into(),
+                false => ThreadsLack::DwellAtOneEnd.into(),
             };
-            return Err(Fault::TargetLacks { what: what.into() });
+            return Err(Fault::lacks(lack));
         }
         moves.push((false, in_step(tap, self.depth, tap.turn)));
         dwell(&tap.dwell, moves);
@@ -153,8 +151,7 @@ impl Driven<'_> {
             moves.push(turn_it(tap.turn.back().spindle()));
             dwell(&tap.back, moves);
         } else if tap.back.as_ref().is_some_and(lasts) {
-            let what = "a rigid tap that dwells when the spindle has turned round".into();
-            return Err(Fault::TargetLacks { what });
+            return Err(Fault::lacks(ThreadsLack::DwellAfterReversal));
         }
         let (end, out) = match self.out {
             Some(out) if tap.to_level => (out, None),
@@ -186,7 +183,7 @@ impl Driven<'_> {
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             let Some(by) = &by[axis as usize] else { continue };
             let (Some(by), Expr::Num(num)) = (self.walk.at.nanos(by), by) else {
-                return Err(Fault::TargetLacks { what: "a computed shift".into() });
+                return Err(Fault::lacks(HolesLack::ComputedShift));
             };
             if by == 0 {
                 continue;
@@ -282,8 +279,7 @@ fn off_the_wall(shift: &Shift, plane: Plane, target: &Target) -> Result<[Option<
     match shift {
         Shift::Stated(words) => Ok(words.clone()),
         Shift::Parameter(amount) => {
-            let what = "fine boring whose direction of shift is a parameter of the control";
-            let cannot = || Fault::TargetLacks { what: what.into() };
+            let cannot = || Fault::lacks(HolesLack::ShiftDirection);
             let (direction, amount) = target.bore_shift.zip(amount.literal()).ok_or_else(cannot)?;
             let (first, second, _) = plane.axes();
             let along = if direction.second { second } else { first };

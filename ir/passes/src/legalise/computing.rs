@@ -19,13 +19,14 @@ use crate::legalise::{Legaliser, Target};
 use crate::modes::feed_unit;
 use crate::pass::{KeptProgram, ProgramMoment, Shared, Subprograms};
 use crate::support::mode_analysis::{self, Known};
-use crate::threads::taps;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::lack::ThreadsLack;
 use ncc_ir::program::arguments;
 use ncc_ir::program::cycle::{Cycle, CycleKind};
 use ncc_ir::program::kinds::{drilling, flow};
 use ncc_ir::program::{Coord, Op, Pitch, Point, Program, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -235,13 +236,11 @@ fn computed_words(words: &Point) -> impl Iterator<Item = (usize, &Coord)> {
 /// What is not known of a program that computes, and would be if it were executed, is told as that.
 fn only_the_run_knows(found: &mut Diagnostic) {
     let what = match &found.fault {
-        Fault::PositionUnknown { axis } => format!("a cycle or a move that depends on where {axis} stands"),
-        Fault::EntryFactNeeded { .. } => {
-            "a block that depends on a mode that is not the same each time".into()
-        }
+        Fault::PositionUnknown { axis } => RunTimeWord::PositionUnknown { axis: *axis },
+        Fault::EntryFactNeeded { .. } => RunTimeWord::ModeUnknown,
         _ => return,
     };
-    found.fault = Fault::Computes { what: what.into() };
+    found.fault = Fault::computes(what);
 }
 
 /// Statements with what is computed of cuts in machine coordinates alone taken back.
@@ -310,13 +309,12 @@ impl Region<'_> {
         if own.shared.states.ask(ExpandFramesState::is_worked_in)
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)
         {
-            let what = "a frame that is worked into coordinates, where a program computes".into();
-            found.push(Diagnostic::new(Fault::Computes { what }, last.span));
+            found.push(Diagnostic::new(Fault::computes(RunTimeWord::FrameExpanded), last.span));
         }
         if own.shared.states.ask(TapsState::has_lost_feed)
             && let Some(last) = before.last()
         {
-            found.push(Diagnostic::new(Fault::TargetLacks { what: taps::LOST.into() }, last.span));
+            found.push(Diagnostic::new(Fault::lacks(ThreadsLack::FeedReplaced), last.span));
         }
         own.finish(stmts, &mut found);
         // It may stand in the block of what came before it.
@@ -327,8 +325,7 @@ impl Region<'_> {
         found.iter_mut().for_each(only_the_run_knows);
         self.diags.append(&mut found);
         if !refused && let Some(at) = self.relied_on(&before, stmts) {
-            let what = "blocks that have to be rewritten for it, where a program computes".into();
-            self.diags.push(Diagnostic::new(Fault::Computes { what }, at));
+            self.diags.push(Diagnostic::new(Fault::computes(RunTimeWord::BlocksRewritten), at));
         }
         out.append(stmts);
     }

@@ -5,6 +5,7 @@ use crate::pass::Pass;
 use ncc_ir::caps::Caps;
 use ncc_ir::computed::computes::ComputeFeature;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Op, Output, Piece, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -96,10 +97,9 @@ pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
     let (mut opens, mut line, mut value) = (false, None, None);
     let bodies = program.procedures.iter().map(|procedure| &procedure.body);
     bodies.for_each(|body| written(body, &mut opens, &mut line, &mut value));
-    let unopened = line.filter(|_| opened && !opens).map(|at| {
-        let what = "text for a device that the program does not open".into();
-        Diagnostic::new(Fault::TargetLacks { what }, at)
-    });
+    let unopened = line
+        .filter(|_| opened && !opens)
+        .map(|at| Diagnostic::new(Fault::lacks(OperatorLack::DeviceNotOpened), at));
     let digits = value.map(|at| {
         let parameter = "a value that is written to a device".into();
         let value = "not empty, of no more digits than it has places, blanks before it".into();

@@ -1,6 +1,7 @@
 //! What no pass can mend, refused at its place.
 
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::{ArcsLack, FlowLack, FramesLack, Lack, LengthsLack, MachineLack, TablesLack};
 use ncc_ir::program::{Arc, Data, Op, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -42,42 +43,40 @@ fn refuse(shared: &Shared, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<
                 arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
             }
         }
-        let mut cannot = |what: &str| {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+        let mut cannot = |lack: Lack| {
+            diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span));
         };
         match &stmt.op {
-            Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot("a helix"),
-            Op::Control(_) if !caps.flow.repeats => cannot("control of the program's flow"),
-            Op::Goto(_) if !caps.flow.repeats => cannot("a jump"),
-            Op::Label(_) if !caps.flow.repeats && !caps.flow.repeat_blocks => cannot("a jump"),
-            Op::Call(_) if !caps.flow.calls => cannot("a call"),
-            Op::Return if !caps.flow.calls => cannot("a return"),
+            Op::ArcFeed(arc) if !caps.arcs.helix && is_helix(arc, &walk.at) => cannot(ArcsLack::Helix.into()),
+            Op::Control(_) if !caps.flow.repeats => cannot(FlowLack::Control.into()),
+            Op::Goto(_) if !caps.flow.repeats => cannot(FlowLack::Jump.into()),
+            Op::Label(_) if !caps.flow.repeats && !caps.flow.repeat_blocks => cannot(FlowLack::Jump.into()),
+            Op::Call(_) if !caps.flow.calls => cannot(FlowLack::Call.into()),
+            Op::Return if !caps.flow.calls => cannot(FlowLack::Return.into()),
             Op::UseMachineCoordinates { .. } if !caps.machine.coordinates => {
-                cannot("a move in machine coordinates");
+                cannot(MachineLack::Coordinates.into());
             }
             Op::UseMachineCoordinates { length } if !caps.machine.length.says(*length) => {
-                cannot(if *length {
-                    "a move in machine coordinates that is measured with the tool's length"
-                } else {
-                    "a move in machine coordinates without the tool's length"
-                });
+                cannot(
+                    if *length { MachineLack::WithToolLength } else { MachineLack::WithoutToolLength }.into(),
+                );
             }
-            Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
+            Op::UseToolLength(length) if !caps.says_length(length) => cannot(LengthsLack::NoTable.into()),
             Op::SetData(data) => match &**data {
                 Data::Offset { turn: Some(_), .. } if !caps.frames.offset_turns => {
-                    cannot("rotation of a work offset");
+                    cannot(FramesLack::OffsetRotation.into());
                 }
                 Data::Offset { mode, .. } if caps.frames.offset_data[*mode as usize] => {}
                 Data::Tool { .. } | Data::Measured { .. } => {
-                    if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
-                        cannot(what);
+                    if let Some(lack) = tool_data::refusal(data, &walk.at, caps) {
+                        cannot(lack.into());
                     }
                 }
                 Data::Position(place) if caps.machine.stored_positions[usize::from(*place == 2)] => {}
                 Data::ToolInSpindle(_) if caps.tools.number => {}
-                Data::Position(_) => cannot("storing where the axes stand"),
-                Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
-                Data::Offset { .. } => cannot("this value in the control's tables"),
+                Data::Position(_) => cannot(TablesLack::AxesPosition.into()),
+                Data::ToolInSpindle(_) => cannot(TablesLack::ToolInSpindle.into()),
+                Data::Offset { .. } => cannot(TablesLack::Value.into()),
             },
             _ => {}
         }

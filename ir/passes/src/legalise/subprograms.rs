@@ -30,6 +30,7 @@ use super::*;
 use crate::support::mode_analysis::has_bare_holes;
 use crate::watch::unwatched;
 use ncc_ir::canon::FeedMode;
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::Text;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::valid::{ends_callers_cycle, leaves_a_cycle};
@@ -174,9 +175,9 @@ impl Legaliser {
             return;
         }
         let left = program.procedures.iter().skip(1).filter_map(|sub| leaves_a_cycle(&sub.body));
-        let fault = || Fault::TargetLacks { what: "a cycle that a subprogram leaves in force".into() };
+        let fault = || Fault::lacks(HolesLack::LeftActive);
         diags.extend(left.map(|at| Diagnostic::new(fault(), at)));
-        let fault = || Fault::TargetLacks { what: "a subprogram that ends a cycle of its caller".into() };
+        let fault = || Fault::lacks(HolesLack::EndsCallersCycle);
         diags.extend(ends_callers_cycle(program).into_iter().map(|at| Diagnostic::new(fault(), at)));
     }
 

@@ -15,6 +15,7 @@ use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::geometry::polar;
+use ncc_ir::lack::{ModesLack, SpindleLack};
 use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::program::kinds::{flow, miscellaneous, tooling, variables};
 use ncc_ir::program::{
@@ -127,7 +128,7 @@ impl Converter<'_> {
             }
             Op::SetFeedRate(feed) => self.loose(feed)?,
             Op::SetSpindleMode(SpindleMode::Surface) => {
-                return Err(Fault::TargetLacks { what: "a surface speed in other units".into() });
+                return Err(Fault::lacks(SpindleLack::SurfaceOtherUnits));
             }
             // Where the corner ends follows from it.
             Op::Corner { size, .. } => self.convert_exact(size)?,
@@ -217,7 +218,7 @@ impl Converter<'_> {
     /// A number that may be rounded to the target's digits.
     fn loose(&self, value: &mut Expr) -> Result<(), Fault> {
         let Some(num) = value.literal() else {
-            return Err(Fault::TargetLacks { what: "a computed value in another unit".into() });
+            return Err(Fault::lacks(ModesLack::ComputedInOtherUnit));
         };
         let num = self.known(num)?;
         let is_length = matches!(num.unit, Unit::Mm | Unit::Inch);
@@ -242,10 +243,7 @@ impl Converter<'_> {
         self.loose(value)?;
         match (before, value.literal().and_then(|n| n.nanos(false))) {
             (Some(a), Some(b)) if a == b => Ok(()),
-            _ => {
-                let what = "a pitch, a peck, a shift or a corner that is not exact in inches".into();
-                Err(Fault::TargetLacks { what })
-            }
+            _ => Err(Fault::lacks(ModesLack::InexactInInches)),
         }
     }
 

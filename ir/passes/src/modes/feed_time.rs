@@ -27,6 +27,7 @@ use ncc_ir::canon::{AXES, FeedMode, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::geometry;
+use ncc_ir::lack::FeedsLack;
 use ncc_ir::program::kinds::{drilling, flow};
 use ncc_ir::program::{Arc, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
@@ -196,21 +197,20 @@ pub(crate) fn convert_feed_time(
                     }
                     state.by_time(&mut stmt, &before, time, target, made);
                 }
-                Err(what) => {
-                    let fault = Fault::TargetLacks { what: what.into() };
+                Err(lack) => {
+                    let fault = Fault::lacks(lack);
                     diags.push(Diagnostic::new(fault, stmt.span));
                 }
             },
             Op::Position(m) if turns(&m.to) && !state.tip && rotary_differs(target) => {
-                let what = "a feed of linear and rotary axes together that may be a rapid".into();
-                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::lacks(FeedsLack::RotaryMaybeRapid), stmt.span));
             }
             Op::ArcFeed(arc) if in_time => {
                 if arcs_differ(target)
                     && let Some(from) = &arc_from
-                    && let Err(what) = arc_by_time(arc, from, target, made)
+                    && let Err(lack) = arc_by_time(arc, from, target, made)
                 {
-                    let fault = Fault::TargetLacks { what: what.into() };
+                    let fault = Fault::lacks(lack);
                     diags.push(Diagnostic::new(fault, stmt.span));
                 }
             }
@@ -285,11 +285,10 @@ fn put_before(stmt: &mut Stmt, ops: Vec<Op>, made: &mut Rebuild) {
 }
 
 /// One over the minutes that a line takes in the source; `None` if every control takes the same.
-fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'static str> {
+fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, FeedsLack> {
     let fact = Behaviour::RotaryFeed;
     let (own, there) = (target.source.get(fact), target.caps.behaviours.get(fact));
-    let units =
-        at.modes.units.ok_or("a feed of linear and rotary axes together in units that are not known")?;
+    let units = at.modes.units.ok_or(FeedsLack::RotaryUnitsUnknown)?;
     let unit = if units == Units::Inch { 25.4 } else { 1.0 };
     let simple = |value| value == LINEAR || value == DEGREES;
     // Rotary axes alone turn at degrees a minute, from wherever they are.
@@ -304,7 +303,7 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
         let way = match (here, at.resolve(word, here.or(Some(0))), is_increment(word, at)) {
             (Some(here), Some(end), _) => end - here,
             (None, Some(way), true) => way,
-            _ => return Err("a feed of linear and rotary axes together from a place that is not known here"),
+            _ => return Err(FeedsLack::RotaryStartUnknown),
         };
         ways[axis] = way as f64 / ONE as f64;
     }
@@ -321,14 +320,14 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
         LINEAR if line > 0.0 => line,
         LINEAR => turn,
         DEGREES => line.hypot(turn),
-        _ => return Err("a feed of rotary axes that counts a diameter set on the source's machine"),
+        _ => return Err(FeedsLack::RotarySourceDiameter),
     };
     let per_minute = match at.modes.feed_mode {
         Some(FeedMode::PerMinute) => 1.0,
-        _ => return Err("a feed of linear and rotary axes together that does not count minutes"),
+        _ => return Err(FeedsLack::RotaryNotPerMinute),
     };
     let feed = at.feed.and_then(|feed| feed.nanos(units == Units::Inch));
-    let feed = feed.ok_or("a feed of linear and rotary axes together that is not known here")?;
+    let feed = feed.ok_or(FeedsLack::RotaryUnknown)?;
     let number = feed as f64 / ONE as f64 / unit * per_minute;
     if target.caps.modes.feed_by_time {
         return by_time(number / way, target).map(Some);
@@ -337,7 +336,7 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
         LINEAR if line > 0.0 => line,
         LINEAR => turn,
         DEGREES => line.hypot(turn),
-        _ => return Err("a feed of rotary axes that counts a diameter set on the target's machine"),
+        _ => return Err(FeedsLack::RotaryTargetDiameter),
     };
     let said = by_time(number / way * own_way, target)?;
     Ok(Some(Num { unit: if units == Units::Inch { Unit::Inch } else { Unit::Mm }, ..said }))
@@ -348,22 +347,22 @@ fn is_increment(word: &ncc_ir::program::Coord, at: &Tracker) -> bool {
 }
 
 /// F of a time in the target's digits, which must say it to half a per cent.
-fn by_time(per_minute: f64, target: &Target) -> Result<Num, &'static str> {
+fn by_time(per_minute: f64, target: &Target) -> Result<Num, FeedsLack> {
     let nanos = (per_minute * ONE as f64).round() as Nanos;
     let num = Num::from_nanos(nanos, target.caps.modes.feed_decimals, Unit::One);
     let said = num.nanos(false).unwrap_or(0);
     let off = (said - nanos).abs();
     match said > 0 && off.saturating_mul(200) <= nanos {
         true => Ok(num),
-        false => Err("a feed by time of a move this long: F has too few digits"),
+        false => Err(FeedsLack::TimeDigits),
     }
 }
 
 /// Restates F of an arc by time, which stands before it in its block.
-fn arc_by_time(arc: &Arc, at: &Tracker, target: &Target, made: &mut Rebuild) -> Result<(), &'static str> {
-    let unknown = "an arc with a feed by time from a place that is not known here";
+fn arc_by_time(arc: &Arc, at: &Tracker, target: &Target, made: &mut Rebuild) -> Result<(), FeedsLack> {
+    let unknown = FeedsLack::ArcTimeStartUnknown;
     if !arc.turns.is_none() {
-        return Err("an arc of several turns with a feed by time");
+        return Err(FeedsLack::ArcTimeTurns);
     }
     let plane = at.plane(arc.plane).ok_or(unknown)?;
     let (first, second, _) = plane.axes();
@@ -379,9 +378,8 @@ fn arc_by_time(arc: &Arc, at: &Tracker, target: &Target, made: &mut Rebuild) -> 
         Op::SetFeedRate(feed) => Some(feed),
         _ => None,
     });
-    let feed = stated.ok_or("an arc with a feed by time in another block")?;
-    let number =
-        feed.literal().and_then(|feed| feed.nanos(false)).ok_or("a computed feed by time on an arc")?;
+    let feed = stated.ok_or(FeedsLack::ArcTimeOtherBlock)?;
+    let number = feed.literal().and_then(|feed| feed.nanos(false)).ok_or(FeedsLack::ArcTimeComputed)?;
     let unit = feed.literal().map_or(Unit::One, |feed| feed.unit);
     let said = by_time(number as f64 / ONE as f64 * factor, target)?;
     *feed = Num { unit, ..said }.into();

@@ -20,6 +20,7 @@ use ncc_ir::canon::{FeedMode, Motion, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::lack::FeedsLack;
 use ncc_ir::program::cycle::CycleKind;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt};
@@ -173,9 +174,6 @@ fn cuts(op: &Op) -> bool {
     }
 }
 
-/// The refusal of a feed that the target has forgotten.
-pub const ENDED: &str = "a feed that is not known here and holds behind a code of what it counts";
-
 /// What is said between blocks that end the feed and a structure, which is looked at by itself: the feed again, where the
 /// structure or what follows it takes it up.
 pub(crate) fn before_control(
@@ -191,7 +189,7 @@ pub(crate) fn before_control(
         return None;
     }
     let (Some(feed), Some(units)) = (state.feed, at.modes.units) else {
-        return Some(Err(Diagnostic::new(Fault::TargetLacks { what: ENDED.into() }, control.span)));
+        return Some(Err(Diagnostic::new(Fault::lacks(FeedsLack::EndedByModeCode), control.span)));
     };
     let feed = in_unit(feed, units, target).unwrap_or(feed);
     Some(Ok(Stmt::new(control.span, Op::SetFeedRate(feed.into()))))
@@ -239,14 +237,13 @@ pub(crate) fn again(
         };
         let again = state.stale || state.ended;
         if cuts && state.ended && (state.feed.is_none() || walk.at.modes.units.is_none()) {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: ENDED.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(FeedsLack::EndedByModeCode), stmt.span));
             state.ended = false;
         }
         let may_cut = matches!(stmt.op, Op::Position(_)) && walk.at.modes.motion.is_none();
         let by_feed = cuts && !matches!(stmt.op.unwrapped(), Op::SynchronisedFeed(_));
         if (by_feed || may_cut) && std::mem::take(&mut state.lost) || may_cut && state.stale {
-            let what = "a feed that is not known here and holds after a change of units";
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(FeedsLack::EndedByUnits), stmt.span));
         }
         if let (true, true, Some(feed), Some(units)) = (cuts, again, state.feed, walk.at.modes.units) {
             if state.stale {

@@ -12,6 +12,7 @@ use crate::target::Target;
 use ncc_ir::canon::{Axis, Distance, Fact, ReturnLevel};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::{HolesLack, LengthsLack};
 use ncc_ir::program::kinds::{conduct, miscellaneous, modes, variables};
 use ncc_ir::program::{Data, DataMode, Op, Point, Stmt};
 use ncc_ir::source::Span;
@@ -71,8 +72,7 @@ impl ImmediateEffectsState {
 
     fn refuse_length(&mut self, span: Span, diags: &mut Vec<Diagnostic>) {
         self.length = false;
-        let what = "a tool-length offset with no absolute Z before this".into();
-        diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+        diags.push(Diagnostic::new(Fault::lacks(LengthsLack::ToolOffsetBeforeZ), span));
     }
 }
 
@@ -111,8 +111,7 @@ fn over_one(
         Op::Polar(polar) => over_one(&polar.op, stmt, walk, state, target, diags),
         Op::Position(m) => {
             if std::mem::take(&mut state.motion) {
-                let what = "axis words that move as the caller does, behind the end of a cycle".into();
-                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::lacks(HolesLack::CallersMotionAfterCycle), stmt.span));
             }
             names(&m.to, stmt, walk, state, diags);
         }
@@ -126,8 +125,7 @@ fn over_one(
                 && cycle.return_level.known().or(walk.at.modes.return_level) != Some(ReturnLevel::Retract);
             if state.start && (from_level || back_to_level) {
                 state.start = false;
-                let what = "a level for holes from where the tool stands before any absolute Z".into();
-                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::lacks(HolesLack::LevelBeforeZ), stmt.span));
             }
         }
         // A block that may be skipped leaves it open whether the motion is over.

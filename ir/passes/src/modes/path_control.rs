@@ -13,6 +13,7 @@ use crate::target::Target;
 use ncc_ir::canon::{AdviceKind, PathMode};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::ModesLack;
 use ncc_ir::program::arguments;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, PathControl, Program, Stmt};
@@ -118,8 +119,7 @@ pub(crate) fn convert_path_control(
                         made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
                     }
                     _ => {
-                        let what = "an exact stop of one move, where the mode before it is not known".into();
-                        diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                        diags.push(Diagnostic::new(Fault::lacks(ModesLack::ExactStopModeUnknown), stmt.span));
                         made.leave_out(stmt);
                     }
                 }

@@ -37,6 +37,7 @@ use ncc_ir::canon::{AXES, Axis, Spindle};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
 use ncc_ir::geometry::arc_feed::ArcFeed;
+use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{
     Control, FrameSlot, Lines, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt,
@@ -44,14 +45,12 @@ use ncc_ir::program::{
 use ncc_ir::source::Span;
 
 use arc_feed::{compensated, states};
-use beside::{OPTIONAL_STOP, STOP_BESIDE, stands_alone};
+use beside::stands_alone;
 use cycle_at_change::Cycle;
 use insert::{insert, insertion};
 use joins::{KeepsLength, LeftAtPlace, Length, either, only_sense};
 use kinds::{at_end, commands_z, cuts, is_code, is_zero, starts_spindle, switches};
 use way_up::WayUp;
-
-pub use way_up::REFUSED as NEEDS_Z;
 
 /// This pass.
 pub(crate) const PASS: Pass = Pass::named(
@@ -417,7 +416,7 @@ impl SideEffects {
         if self.beside && (!off.is_empty() || again && stands_alone(made, stmt)) {
             // With the block that switches, two still blocks stand in a row: the corner is each control's own.
             self.again = [None, None];
-            let fault = Fault::TargetLacks { what: STOP_BESIDE.into() };
+            let fault = Fault::lacks(CompensationLack::StopBeside);
             return diags.push(Diagnostic::new(fault, stmt.span));
         }
         self.stopped_in_words |=

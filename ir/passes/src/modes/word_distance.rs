@@ -12,6 +12,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Coord, Op, Program, Stmt};
+use ncc_ir::run_time::RunTimeWord;
 use ncc_ir::source::Span;
 
 /// The places of statements with a word that says another mode than the source's there, or one where that is not known,
@@ -42,8 +43,7 @@ pub fn refused(places: &BTreeSet<u32>, program: &Program) -> Result<(), Diagnost
         })
     }
     let found = program.procedures.iter().find_map(|procedure| first(&procedure.body, places));
-    let what = "a word with a distance mode of its own, where others rely on the one in force";
-    found.map_or(Ok(()), |at| Err(Diagnostic::new(Fault::Computes { what: what.into() }, at)))
+    found.map_or(Ok(()), |at| Err(Diagnostic::new(Fault::computes(RunTimeWord::DistanceWord), at)))
 }
 
 /// Whether words count in a mode that is not known where they are executed.

@@ -19,6 +19,7 @@ use ncc_ir::caps::Threads;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::lack::ThreadsLack;
 use ncc_ir::program::cycle::{Approach, Cycle, CycleKind, Tap};
 use ncc_ir::program::kinds::{
     conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar, variables,
@@ -164,8 +165,7 @@ pub(crate) fn convert_threads(
         let Op::SynchronisedFeed(m) = &mut stmt.op else {
             if !remark {
                 if state.way_out.take().is_some() {
-                    let what = "a rigid thread with something else before its way back";
-                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
+                    diags.push(Diagnostic::new(Fault::lacks(ThreadsLack::BeforeReturn), span));
                 }
                 if let Err(fault) = give_back(state, &mut stmt, made) {
                     diags.push(Diagnostic::new(fault, span));
@@ -292,7 +292,7 @@ fn give_back(state: &mut ThreadsState, stmt: &mut Stmt, made: &mut Rebuild) -> R
         );
         if state.lost && cuts {
             state.lost = false;
-            return cannot("a feed behind a thread that is not known");
+            return cannot(ThreadsLack::FeedAfterUnknown);
         }
         state.lost &= !says(&stmt.op) || stmt.skip.is_some();
         return Ok(());
@@ -310,7 +310,7 @@ fn give_back(state: &mut ThreadsState, stmt: &mut Stmt, made: &mut Rebuild) -> R
         | Op::SetFeedRate(_)
         | flow!() => {
             if stmt.skip.is_some() {
-                return cannot("a feed behind a thread, in a block that can be skipped");
+                return cannot(ThreadsLack::SkippedFeedAfter);
             }
             state.owed = None;
             let mut one = Stmt::new(stmt.span, Op::SetFeedRate(Expr::Num(feed)));
@@ -327,16 +327,15 @@ impl ThreadsState {
     /// The end of the body.
     pub(crate) fn finish(&mut self, body: &[Stmt], diags: &mut Vec<Diagnostic>) {
         if self.way_out.take().is_some() {
-            let what = "a rigid thread without its way back".into();
             let span = body.last().map(|stmt| stmt.span).unwrap_or_default();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+            diags.push(Diagnostic::new(Fault::lacks(ThreadsLack::NoReturn), span));
         }
         (self.owed, self.lost) = (None, false);
     }
 }
 
-fn cannot<T>(what: &str) -> Result<T, Fault> {
-    Err(Fault::TargetLacks { what: what.into() })
+fn cannot<T>(lack: ThreadsLack) -> Result<T, Fault> {
+    Err(Fault::lacks(lack))
 }
 
 /// One move in the target's words.
@@ -351,13 +350,13 @@ fn said(
     let words: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| m.to.get(*axis).is_some()).collect();
     let along = match words[..] {
         [axis] if !axis.is_rotary() => axis,
-        _ => return cannot("a thread along several axes, or round one"),
+        _ => return cannot(ThreadsLack::AxisCount),
     };
     if m.chuck {
         return match (&m.pitch, m.turn, threads.chuck) {
             (Pitch::Feed, None, true) if !m.back => Ok(vec![thread_op(m)]),
-            (_, _, false) => cannot("a thread with a compensating chuck"),
-            _ => cannot("a thread with a compensating chuck in this form"),
+            (_, _, false) => cannot(ThreadsLack::Chuck),
+            _ => cannot(ThreadsLack::ChuckForm),
         };
     }
     if let Pitch::Feed = m.pitch {
@@ -367,9 +366,7 @@ fn said(
         (None, false) if threads.plain => Ok(vec![thread_op(m)]),
         (None, true) if threads.back => Ok(vec![thread_op(m)]),
         (Some(_), false) if threads.turned && state.held => Ok(vec![thread_op(m)]),
-        (Some(_), false) if threads.turned => {
-            cannot("a rigid thread whose spindle has not been stopped at an angle before it")
-        }
+        (Some(_), false) if threads.turned => cannot(ThreadsLack::NotOriented),
         (Some(turn), false) if threads.back => {
             let Some(out) = way_out else {
                 // The way in: the way out, which has to come next, is said with it.
@@ -389,16 +386,14 @@ fn said(
             let same = to.is_some() && to == out.to[along as usize];
             let as_entered = out.block == block || (out.block.1, block.1) == (None, None);
             if !same || !as_entered || out.turn != turn || out.pitch != m.pitch {
-                return cannot("a rigid thread that is not left as it was entered");
+                return cannot(ThreadsLack::LeftDifferently);
             }
             Ok(Vec::new())
         }
-        (None, true) if walk.at.spindle == Some(Spindle::Stopped) => {
-            cannot("a thread and back with a spindle that stands")
-        }
-        (None, true) => cannot("a thread and back in one"),
-        (None, false) => cannot("a move in step with the spindle"),
-        (Some(_), _) => cannot("a thread for which the control turns the spindle"),
+        (None, true) if walk.at.spindle == Some(Spindle::Stopped) => cannot(ThreadsLack::SpindleStopped),
+        (None, true) => cannot(ThreadsLack::OutAndBack),
+        (None, false) => cannot(ThreadsLack::Synchronised),
+        (Some(_), _) => cannot(ThreadsLack::TurnedByControl),
     }
 }
 

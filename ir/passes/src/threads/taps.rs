@@ -16,6 +16,7 @@ use ncc_ir::caps::{CycleCap, CycleForm};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::lack::{TapValue, ThreadsLack};
 use ncc_ir::program::cycle::{Cycle, CycleKind, Tap};
 use ncc_ir::program::kinds::{
     conduct, flow, frames, machine, miscellaneous, moves, polar, tooling, variables,
@@ -218,14 +219,14 @@ pub(crate) fn convert_taps(
         let relies = state.changed && !same && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_))
             || state.by_minute && matches!(stmt.op, Op::SetFeedMode(_) | Op::UseLengthUnits(_));
         if ends && state.changed && stmt.skip.is_some() || relies {
-            let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+            let lack = if ends { ThreadsLack::SkippedTapEnd } else { ThreadsLack::FeedOrSpeedChanges };
+            diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span));
         }
-        if let Some(what) = turned(&stmt, state) {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+        if let Some(lack) = turned(&stmt, state) {
+            diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span));
         }
         if state.goes_lost(&stmt) {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: LOST.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(ThreadsLack::FeedReplaced), stmt.span));
         }
         state.clockwise &= !ends;
         let mut after = Vec::new();
@@ -265,8 +266,7 @@ pub(crate) fn convert_taps(
         if let Op::StartCycle(cycle) = &mut stmt.op {
             match fit(cycle, walk, state, target) {
                 Ok(Some(feed)) if stmt.skip.is_some() => {
-                    let what = "a tapping cycle in a block that can be skipped".into();
-                    diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                    diags.push(Diagnostic::new(Fault::lacks(ThreadsLack::SkippedTap), stmt.span));
                     let _ = feed;
                 }
                 Ok(feed) => before = feed.flatten(),
@@ -308,23 +308,17 @@ pub(crate) fn convert_taps(
 
 /// What cannot be said of a spindle that is switched while a cycle is in force whose end has to say what
 /// the spindle does.
-fn turned(stmt: &Stmt, state: &TapsState) -> Option<&'static str> {
+fn turned(stmt: &Stmt, state: &TapsState) -> Option<ThreadsLack> {
     let stops =
         matches!(stmt.op, Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_));
     let may_end = stmt.skip.is_some() && matches!(stmt.op, Op::StartCycle(_) | Op::EndCycle);
     if state.clockwise && (stops || may_end) {
-        return Some("a spindle that turns another way while a boring cycle is in force");
+        return Some(ThreadsLack::BoringReversal);
     }
     let switches = stops || matches!(stmt.op, Op::StartSpindleClockwise | Op::ChangeTool);
     let owed = |op: &Op| !matches!(op, Op::SetFeedRate(_));
-    (switches && state.owed.iter().any(owed))
-        .then_some("a spindle that is switched while a tapping cycle is in force")
+    (switches && state.owed.iter().any(owed)).then_some(ThreadsLack::SwitchedSpindle)
 }
-
-/// What is said of a move at the feed before a tap, which only the run knows.
-pub(crate) const LOST: &str = "a tap's feed in the place of one that only the run knows";
-
-const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
 
 /// The feed by the minute of a tap whose feed by the turn has more digits than the target writes, where it has fewer.
 fn by_minute(cycle: &Cycle, walk: &Walk, state: &TapsState, target: &Target) -> Option<Num> {
@@ -429,8 +423,8 @@ fn start(tap: &Tap) -> Op {
     }
 }
 
-fn unknown(what: &str) -> Fault {
-    Fault::TargetLacks { what: format!("a tapping cycle of which {what} is not known").into() }
+fn unknown(value: TapValue) -> Fault {
+    Fault::lacks(ThreadsLack::TapUnknown { value })
 }
 
 fn in_unit(num: Num, walk: &Walk) -> Result<(Nanos, Unit), Fault> {
@@ -441,7 +435,7 @@ fn in_unit(num: Num, walk: &Walk) -> Result<(Nanos, Unit), Fault> {
         (_, None) => return Err(Fault::EntryFactNeeded { fact: ModeName::Units }),
     };
     let nanos = Num { unit, ..num }.nanos(false).filter(|n| *n > 0);
-    Ok((nanos.ok_or_else(|| unknown("the pitch"))?, unit))
+    Ok((nanos.ok_or_else(|| unknown(TapValue::Pitch))?, unit))
 }
 
 /// Whether the feed is one of a minute, else of a turn.
@@ -449,18 +443,18 @@ fn per_minute(walk: &Walk) -> Result<bool, Fault> {
     match walk.at.modes.feed_mode {
         Some(FeedMode::PerMinute) => Ok(true),
         Some(FeedMode::PerRevolution) => Ok(false),
-        Some(FeedMode::InverseTime) => Err(unknown("the feed")),
+        Some(FeedMode::InverseTime) => Err(unknown(TapValue::Feed)),
         None => Err(Fault::EntryFactNeeded { fact: ModeName::FeedMode }),
     }
 }
 
 fn turns(speed: Option<Num>) -> Result<i128, Fault> {
     let nanos = speed.and_then(|n| n.nanos(false)).filter(|n| *n > 0);
-    nanos.map(i128::from).ok_or_else(|| unknown("the speed"))
+    nanos.map(i128::from).ok_or_else(|| unknown(TapValue::Speed))
 }
 
 pub(crate) fn pitch_of(feed: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
-    let (feed, unit) = in_unit(feed.ok_or_else(|| unknown("the feed"))?, walk)?;
+    let (feed, unit) = in_unit(feed.ok_or_else(|| unknown(TapValue::Feed))?, walk)?;
     if !per_minute(walk)? {
         return Ok(exact(feed, unit));
     }
@@ -474,7 +468,7 @@ fn pitch_digits(unit: Unit) -> u8 {
 }
 
 fn feed_of(pitch: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
-    let (pitch, unit) = in_unit(pitch.ok_or_else(|| unknown("the pitch"))?, walk)?;
+    let (pitch, unit) = in_unit(pitch.ok_or_else(|| unknown(TapValue::Pitch))?, walk)?;
     if !per_minute(walk)? {
         return Ok(exact(pitch, unit));
     }

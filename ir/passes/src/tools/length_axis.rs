@@ -12,6 +12,7 @@ use crate::tools::length_moves;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Plane;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::LengthsLack;
 use ncc_ir::program::kinds::{drilling, moves};
 use ncc_ir::program::{Op, Stmt};
 
@@ -74,8 +75,7 @@ impl LengthAxisState {
             };
             walk.step(stmt);
             if found && !(self.at_call && walk.at.modes.length_offset == Some(0)) {
-                let what = "a tool's length in another plane than XY".into();
-                return diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                return diags.push(Diagnostic::new(Fault::lacks(LengthsLack::OtherPlane), stmt.span));
             }
         }
     }

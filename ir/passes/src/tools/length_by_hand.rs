@@ -18,6 +18,7 @@ use crate::support::walk::Walk;
 use crate::support::write::rebuild;
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::LengthsLack;
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -112,13 +113,9 @@ impl LengthByHandState {
                 }
             }
             (Some(entry), _) => {
-                self.refuse(
-                    format!("entry {entry} of the length table with another tool in the spindle"),
-                    stmt,
-                    diags,
-                );
+                self.refuse(LengthsLack::EntryWithOtherTool { entry }, stmt, diags);
             }
-            (None, _) => self.refuse("a computed length offset".to_owned(), stmt, diags),
+            (None, _) => self.refuse(LengthsLack::Computed, stmt, diags),
         }
     }
 
@@ -128,24 +125,23 @@ impl LengthByHandState {
         let by_length = entry.is_some();
         let own = entry.is_none_or(|entry| walk.at.tool == Some(i64::from(entry)));
         if !own {
-            self.refuse("a move along Z by the length of another tool".to_owned(), stmt, diags);
+            self.refuse(LengthsLack::ZByOtherLength, stmt, diags);
         } else if by_length && self.used.is_none() && counts_from_z(&stmt.op) {
             // The source adds the length to where Z is. The operator may have left Z anywhere.
-            let what = "an incremental move along Z with which the length of a new tool takes effect";
-            self.refuse(what.to_owned(), stmt, diags);
+            let what = LengthsLack::IncrementTakesLength;
+            self.refuse(what, stmt, diags);
         } else if self.used.is_some_and(|used| used != by_length) {
-            self.refuse("moves of one tool along Z with its length and without".to_owned(), stmt, diags);
+            self.refuse(LengthsLack::WithAndWithout, stmt, diags);
         }
         self.used = Some(by_length);
         if let Some(span) = self.offset_z.take_if(|_| by_length) {
-            let what = "Z of a work offset, which the operator sets by each tool".into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+            diags.push(Diagnostic::new(Fault::lacks(LengthsLack::OffsetSetByOperator), span));
         }
     }
 
-    fn refuse(&mut self, what: String, stmt: &Stmt, diags: &mut Vec<Diagnostic>) {
+    fn refuse(&mut self, lack: LengthsLack, stmt: &Stmt, diags: &mut Vec<Diagnostic>) {
         if !std::mem::replace(&mut self.refused, true) {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+            diags.push(Diagnostic::new(Fault::lacks(lack), stmt.span));
         }
     }
 }

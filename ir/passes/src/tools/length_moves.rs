@@ -17,6 +17,7 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::{Axis, Distance, Motion, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Unit;
+use ncc_ir::lack::LengthsLack;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Move, Op, Point, Stmt};
 
@@ -67,7 +68,7 @@ impl LengthMovesState {
                 let fault = match self.write(&mut block, called, &walk) {
                     Ok(true) => Some(Fault::SideEffectWritten { behaviour: Behaviour::LengthWithoutAxis }),
                     Ok(false) => None,
-                    Err(what) => Some(Fault::TargetLacks { what: what.into() }),
+                    Err(lack) => Some(Fault::lacks(lack)),
                 };
                 diags.extend(fault.map(|fault| Diagnostic::new(fault, at)));
             }
@@ -84,23 +85,23 @@ impl LengthMovesState {
     ///
     /// # Errors
     /// What cannot be written.
-    fn write(&self, block: &mut Vec<Stmt>, called: usize, walk: &Walk) -> Result<bool, &'static str> {
+    fn write(&self, block: &mut Vec<Stmt>, called: usize, walk: &Walk) -> Result<bool, LengthsLack> {
         let cancels = matches!(&block[called].op, Op::UseToolLengthOffset(entry)
             if entry.literal().is_some_and(|n| n.mantissa == 0));
         if self.z == Place::Machine {
             return match cancels {
                 true => Ok(false),
-                false => Err("a tool length that moves Z from a place of the machine"),
+                false => Err(LengthsLack::FromMachinePlace),
             };
         }
         let z = walk.at.position[Axis::Z as usize].filter(|_| self.z == Place::Program);
         let unit = match walk.at.modes.units {
             Some(Units::Inch) => Unit::Inch,
             Some(Units::Mm) => Unit::Mm,
-            None => return Err("a tool length that moves Z in units that are not known"),
+            None => return Err(LengthsLack::UnitUnknown),
         };
         let (Some(z), Some(Distance::Absolute)) = (z, walk.at.modes.distance) else {
-            return Err("a tool length that moves Z from a coordinate that is not known");
+            return Err(LengthsLack::CoordinateUnknown);
         };
         let word = at(z, Axis::Z, unit);
         let motion = block.iter_mut().find_map(|stmt| match &mut stmt.op {
@@ -118,7 +119,7 @@ impl LengthMovesState {
             Some(Motion::Traverse) => Op::StraightTraverse(to),
             Some(Motion::Feed) => Op::StraightFeed(to),
             Some(Motion::Arc(_) | Motion::Cycle) | None => {
-                return Err("a tool length that moves Z under an arc or a cycle");
+                return Err(LengthsLack::UnderArcOrCycle);
             }
         };
         let stmt = Stmt { joined: true, skip: block[called].skip, ..Stmt::new(block[called].span, op) };

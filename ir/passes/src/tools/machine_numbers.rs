@@ -12,6 +12,7 @@ use ncc_exec::maps::Maps;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::{FlowLack, FramesLack, Lack, LengthsLack, ToolsLack};
 use ncc_ir::program::kinds::{conduct, drilling, miscellaneous, modes, moves, polar, variables};
 use ncc_ir::program::numbered::Numbered;
 use ncc_ir::program::{CutterRadius, Data, Op, Program, ProgramName, Stmt, Text, ToolLength};
@@ -320,13 +321,13 @@ impl Renumbering {
     fn put_in(&mut self, value: &mut Expr, what: Numbered, at: Span, diags: &mut Vec<Diagnostic>) {
         let number = value.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
         let Some(number) = number else {
-            let what = match what {
-                Numbered::Tool => "a computed tool, where tools go by name",
-                Numbered::LengthEntry => "a computed length offset, where tools go by name",
-                Numbered::WorkOffset => "a computed work offset, where work offsets go by name",
-                Numbered::Program => "a computed call, where programs go by name",
+            let lack: Lack = match what {
+                Numbered::Tool => ToolsLack::ComputedTool.into(),
+                Numbered::LengthEntry => LengthsLack::ComputedByName.into(),
+                Numbered::WorkOffset => FramesLack::ComputedWorkOffset.into(),
+                Numbered::Program => FlowLack::ComputedCall.into(),
             };
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, at));
+            diags.push(Diagnostic::new(Fault::lacks(lack), at));
             return;
         };
         if let Some(new) = self.put(what, number, at, diags).filter(|new| *new != number) {

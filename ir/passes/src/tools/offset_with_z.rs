@@ -13,6 +13,7 @@ use crate::target::Target;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::LengthsLack;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
@@ -198,8 +199,7 @@ fn leaves(op: &Op) -> bool {
 }
 
 fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
-    let what = "a tool-length offset without a block that commands Z".into();
-    diags.push(Diagnostic::new(Fault::TargetLacks { what }, span));
+    diags.push(Diagnostic::new(Fault::lacks(LengthsLack::ToolOffsetWithoutZ), span));
 }
 
 /// Puts a waiting offset into the block of the statement that takes it up.

@@ -8,6 +8,7 @@ use crate::pass::{Moment, Pass, Step};
 use crate::target::Target;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::SpindleLack;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -51,8 +52,7 @@ pub(crate) fn stop_at_angle(
         let Op::OrientSpindle(angle) = &mut stmt.op else { continue };
         if angle.is_none() && !target.caps.moves.own_stop {
             let Some(own) = target.orientation else {
-                let what = "a stop of the spindle at the control's own angle".into();
-                diags.push(Diagnostic::new(Fault::TargetLacks { what }, stmt.span));
+                diags.push(Diagnostic::new(Fault::lacks(SpindleLack::OwnAngle), stmt.span));
                 continue;
             };
             *angle = Some(Expr::Num(own));

@@ -18,6 +18,7 @@ use ncc_ir::caps::{TiltForm, TipForm};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::lack::{FramesLack, Lack, ToolsLack};
 use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, variables};
 use ncc_ir::program::{FrameSlot, Op, Program, Slot, Stmt, Tilt};
 use ncc_ir::track::Tracker;
@@ -124,14 +125,14 @@ impl ToolAxisState {
         target: &Target,
         made: &mut Rebuild,
         diags: &mut Vec<Diagnostic>,
-    ) -> Result<(), &'static str> {
+    ) -> Result<(), Lack> {
         let Op::UseToolCentrePoint(on) = stmt.op else { return Ok(()) };
         let form = target.caps.tools.tip;
         if on && form == TipForm::None {
-            return Err("control of the tool's tip");
+            return Err(ToolsLack::TipControl.into());
         }
         if on && self.tip.left_out {
-            return Err("control of the tool's tip behind an end of it that may have none");
+            return Err(ToolsLack::TipAfterUnknownEnd.into());
         }
         let needless = match (form, on) {
             (TipForm::None, _) => true,
@@ -165,15 +166,15 @@ impl ToolAxisState {
         target: &Target,
         made: &mut Rebuild,
         diags: &mut Vec<Diagnostic>,
-    ) -> Result<(), &'static str> {
+    ) -> Result<(), Lack> {
         let form = target.caps.frames.tilt;
         let said = match &stmt.op {
             Op::SetSlot(slot) if let Slot::Tilt(tilt) = &**slot => {
                 if form == TiltForm::None {
-                    return Err("a tilted plane");
+                    return Err(FramesLack::TiltedPlane.into());
                 }
                 if self.tilt.left_out {
-                    return Err("a tilted plane behind an end of one that may be none");
+                    return Err(FramesLack::TiltAfterUnknownEnd.into());
                 }
                 said_as(tilt, form)?
             }
@@ -240,15 +241,15 @@ pub(crate) fn convert_axis_lengths(
         let span = stmt.span;
         let before = walk.at.modes;
         walk.step(&stmt);
-        let mut refuse = |what: &str| {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
+        let mut refuse = |lack: Lack| {
+            diags.push(Diagnostic::new(Fault::lacks(lack), span));
         };
         let skipped = stmt.skip.is_some();
         match &stmt.op {
             Op::UseToolCentrePoint(_) => {
                 let behind = said_behind.get(place).copied().unwrap_or_default();
-                if let Err(what) = state.switch_tip(stmt, behind, &before, target, made, diags) {
-                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
+                if let Err(lack) = state.switch_tip(stmt, behind, &before, target, made, diags) {
+                    diags.push(Diagnostic::new(Fault::lacks(lack), span));
                 }
             }
             Op::UseToolLengthOffset(entry) if caps.tools.tip == TipForm::WithLength && state.tip.met => {
@@ -262,7 +263,7 @@ pub(crate) fn convert_axis_lengths(
                 if entry.is_some() && entry == before.length_offset && state.tip.is_on() {
                     return made.leave_out(stmt);
                 }
-                refuse("another length where the tool's tip may be under control");
+                refuse(ToolsLack::LengthUnderTip.into());
             }
             // The one in force is said again; a control may take no such word there.
             Op::SetOriginOffsets(n) if caps.tools.tip == TipForm::WithLength && !state.tip.is_off() => {
@@ -274,8 +275,8 @@ pub(crate) fn convert_axis_lengths(
             }
             Op::SetSlot(_) => {
                 let oriented = oriented.get(place).copied().flatten();
-                if let Err(what) = state.set_tilt(stmt, oriented, target, made, diags) {
-                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span));
+                if let Err(lack) = state.set_tilt(stmt, oriented, target, made, diags) {
+                    diags.push(Diagnostic::new(Fault::lacks(lack), span));
                 }
             }
             Op::ClearFrame(FrameSlot::Tilt) => {
@@ -291,11 +292,11 @@ pub(crate) fn convert_axis_lengths(
                 if needless { made.leave_out(stmt) } else { made.push(stmt) }
             }
             Op::OrientToolAxis(_) => match caps.frames.tilt {
-                TiltForm::None => refuse("the tool's axis turned onto a tilted plane"),
+                TiltForm::None => refuse(FramesLack::AxisOntoTilt.into()),
                 TiltForm::AxisByAxis if oriented.iter().flatten().any(|o| o.place == place) => {
                     made.leave_out(stmt);
                 }
-                TiltForm::AxisByAxis => refuse("the tool's axis turned apart from its plane"),
+                TiltForm::AxisByAxis => refuse(FramesLack::AxisApartFromTilt.into()),
                 TiltForm::Euler => made.push(Stmt { op: Op::OrientToolAxis(None), ..stmt }),
                 TiltForm::Any => made.push(stmt),
             },
@@ -345,11 +346,11 @@ fn with_length(
     before: &Modes,
     state: &mut ToolAxisState,
     made: &mut Rebuild,
-) -> Result<(), &'static str> {
+) -> Result<(), Lack> {
     let length = |entry: u32| Op::UseToolLengthOffset(Expr::int(i64::from(entry)));
     let op = stmt.op.clone();
     if stmt.skip.is_some() {
-        return Err("control of the tool's tip in a block that can be skipped");
+        return Err(ToolsLack::TipSkipped.into());
     }
     if let Some(own) = behind.offset.filter(|own| on && before.work_offset != Some(*own)) {
         state.offset = Some(own);
@@ -364,15 +365,15 @@ fn with_length(
             Some(entry @ 1..) => {
                 made.replace(stmt, [(true, op), (true, length(entry))]);
             }
-            Some(0) | None => return Err("control of the tool's tip without a length that is known"),
+            Some(0) | None => return Err(ToolsLack::TipLengthUnknown.into()),
         },
-        (true, Some(0)) => return Err("control of the tool's tip without a length"),
+        (true, Some(0)) => return Err(ToolsLack::TipWithoutLength.into()),
         // The word that ends it takes the length away too.
         (false, Some(_)) => made.replace(stmt, [(true, op), (true, length(0))]),
         (false, None) => match before.length_offset {
             Some(0) => made.replace(stmt, [(true, op), (true, length(0))]),
             Some(entry) => made.replace(stmt, [(true, op), (true, length(0)), (false, length(entry))]),
-            None => return Err("the end of control of the tool's tip under a length that is not known"),
+            None => return Err(ToolsLack::TipEndLengthUnknown.into()),
         },
     }
     Ok(())
@@ -467,7 +468,7 @@ const QUARTER: Nanos = 90 * ONE;
 const HALF: Nanos = 180 * ONE;
 
 /// The same plane in the target's form.
-fn said_as(tilt: &Tilt, form: TiltForm) -> Result<Tilt, &'static str> {
+fn said_as(tilt: &Tilt, form: TiltForm) -> Result<Tilt, FramesLack> {
     let fits = |about: &[Axis; 3]| match form {
         TiltForm::None => false,
         TiltForm::Euler => *about == [Axis::Z, Axis::X, Axis::Z],
@@ -479,8 +480,7 @@ fn said_as(tilt: &Tilt, form: TiltForm) -> Result<Tilt, &'static str> {
     }
     let mut turns = Turns::new();
     for (about, angle) in tilt.about.iter().zip(&tilt.angles) {
-        let angle =
-            angle.literal().and_then(|n| n.nanos(false)).ok_or("a tilted plane by computed angles")?;
+        let angle = angle.literal().and_then(|n| n.nanos(false)).ok_or(FramesLack::TiltByComputedAngles)?;
         turns.push((*about, angle));
     }
     let found = match form {

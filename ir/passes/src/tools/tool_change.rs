@@ -6,6 +6,7 @@
 use crate::pass::{Moment, Pass, Step};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::{HolesLack, ToolsLack};
 use ncc_ir::program::kinds::{flow, machine, moves};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
@@ -64,8 +65,7 @@ impl ToolChangeState {
                 Op::StartCycle(_) => self.cycle = true,
                 Op::EndCycle | moves!() => self.cycle &= !sure,
                 Op::ChangeTool if up && self.cycle => {
-                    let what = "a tool change while a canned cycle is active";
-                    diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+                    diags.push(Diagnostic::new(Fault::lacks(HolesLack::ToolChangeInCycle), stmt.span));
                 }
                 _ => {}
             }
@@ -96,8 +96,7 @@ impl ToolChangeState {
 }
 
 fn goes_on(at: Span) -> Diagnostic {
-    let what = "a spindle that goes on turning when the tool is changed";
-    Diagnostic::new(Fault::TargetLacks { what: what.into() }, at)
+    Diagnostic::new(Fault::lacks(ToolsLack::SpindleTurnsAtChange), at)
 }
 
 /// Whether a statement cuts nothing, and goes nowhere but rapidly.

@@ -16,6 +16,7 @@ use crate::target::Target;
 use ncc_ir::caps::LengthsOf;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::{Lack, LengthsLack, ToolsLack};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Data, Op, Program, Stmt};
 use ncc_ir::source::Span;
@@ -145,8 +146,8 @@ fn tool(walk: &Walk) -> Option<u32> {
     walk.at.tool.and_then(|t| u32::try_from(t).ok()).filter(|t| *t > 0)
 }
 
-fn cannot(what: String) -> Fault {
-    Fault::TargetLacks { what: what.into() }
+fn cannot(lack: impl Into<Lack>) -> Fault {
+    Fault::lacks(lack)
 }
 
 /// One statement for a control with a table.
@@ -181,9 +182,9 @@ fn to_entries(
         }
         (Some(edge), Some(tool)) if let Some(entry) = further(edge, tool) => Ok(Some(entry)),
         (Some(1), None) if target.caps.tools.own_length => Ok(None),
-        (Some(1), None) => Err(cannot("an edge of a tool that is not known".into())),
-        (Some(edge), _) => Err(cannot(format!("edge {edge} of a tool"))),
-        (None, _) => Err(cannot("a computed edge of a tool".into())),
+        (Some(1), None) => Err(cannot(ToolsLack::EdgeOfUnknownTool)),
+        (Some(edge), _) => Err(cannot(ToolsLack::EdgeNumber { edge })),
+        (None, _) => Err(cannot(ToolsLack::ComputedEdge)),
     };
     // Of a tool that the program has not called, it is needed only where Z moves by it.
     let unknown = whole_number(&edge) == Some(1) && tool(walk).is_none() && walk.at.tool != Some(0);
@@ -313,17 +314,13 @@ fn to_edges(
                 in_force(&mut stmt, walk, state, made, diags);
             }
             if state.waiting.is_some() && sets_length(&stmt.op, tool(walk)) {
-                diags.push(Diagnostic::new(cannot(LENGTH_IN_USE.into()), stmt.span));
+                diags.push(Diagnostic::new(cannot(LengthsLack::LengthInUse), stmt.span));
             }
             walk.step(&stmt);
             made.push(stmt);
         }
     }
 }
-
-/// The refusal of a length that is set between the tool change and its first use.
-pub const LENGTH_IN_USE: &str =
-    "another length of the tool in the spindle, whose edge counts from its change on";
 
 /// Whether a statement sets the length of a tool while it counts.
 fn sets_length(op: &Op, tool: Option<u32>) -> bool {
@@ -337,13 +334,9 @@ fn edge_of(entry: Option<u32>, tool: Option<u32>) -> Result<i64, Fault> {
     match (entry, tool) {
         (Some(0), _) => Ok(0),
         (Some(entry), Some(tool)) if entry == tool => Ok(1),
-        (Some(entry), Some(tool)) => {
-            Err(cannot(format!("entry {entry} of the length table with tool {tool} in the spindle")))
-        }
-        (Some(entry), None) => {
-            Err(cannot(format!("entry {entry} of the length table with a tool that is not known")))
-        }
-        (None, _) => Err(cannot("a computed length offset".into())),
+        (Some(entry), Some(tool)) => Err(cannot(LengthsLack::EntryWithTool { entry, tool })),
+        (Some(entry), None) => Err(cannot(LengthsLack::EntryWithUnknownTool { entry })),
+        (None, _) => Err(cannot(LengthsLack::Computed)),
     }
 }
 
@@ -366,7 +359,7 @@ fn in_force(
     let Some(waiting) = state.waiting.take() else { return };
     let found = match walk.at.modes.length_offset {
         Some(entry) => edge_of(Some(entry), tool(walk)),
-        None => Err(cannot("a tool change under a length offset that is not known".into())),
+        None => Err(cannot(ToolsLack::ChangeUnderUnknownLength)),
     };
     let edge = match found {
         Ok(edge) => {

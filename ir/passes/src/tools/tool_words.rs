@@ -15,6 +15,7 @@
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::ToolsLack;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Procedure, Stmt};
 
@@ -141,8 +142,7 @@ impl ToolWords {
                 diags.push(written(stmt));
             }
             (true, _) => {
-                let what = "a tool change of a tool that an earlier block selects, which is not known here";
-                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, stmt.span));
+                diags.push(Diagnostic::new(Fault::lacks(ToolsLack::ChangeOfSelected), stmt.span));
             }
             (false, _) if source.is_open(WITH_CHANGE) => {}
             (false, _) if target.does(WITH_CHANGE) || target.is_open(WITH_CHANGE) => {

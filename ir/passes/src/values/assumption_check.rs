@@ -12,6 +12,7 @@ use ncc_ir::expr::compared;
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Unary};
 use ncc_ir::program::Program;
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 /// What is taken for granted.
@@ -27,13 +28,11 @@ pub enum Assumption {
 
 impl Assumption {
     /// What the numbers are where that is not so, in words.
-    pub const fn violation(self) -> &'static str {
+    pub const fn violation(self) -> RunTimeValue {
         match self {
-            Assumption::Apart => "two numbers that are nearly the same where they are compared",
-            Assumption::NotNegative => "a number below zero that is rounded, or divided for a remainder",
-            Assumption::Together => {
-                "lengths with more digits than the control's, which it rounds one by one, and which add up"
-            }
+            Assumption::Apart => RunTimeValue::NearlyEqual,
+            Assumption::NotNegative => RunTimeValue::NegativeRounded,
+            Assumption::Together => RunTimeValue::RoundedOneByOne,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Which place of a program a target cannot say.
 
+use crate::run_time::{RunTime, RunTimeFlow, RunTimeValue, RunTimeWord};
 use std::collections::HashMap;
 
 use super::{ComputeFeature, Computes, Handed, counted};
@@ -8,7 +9,7 @@ use crate::computed::computed_code::computed_code;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use crate::program::arguments;
-use crate::program::{Control, Op, Output, Piece, Procedure, Program, Stmt, Text};
+use crate::program::{Control, Op, Output, Piece, Procedure, Program, Stmt};
 use crate::source::Span;
 
 /// Most calls without variables of their own, one within another, that are looked into.
@@ -57,7 +58,7 @@ impl Computes {
             .procedures
             .iter()
             .find_map(|procedure| down(&mut depth, &procedure.body, most, MOST_SHARED))?;
-        Some(refuse("a call with variables of its own within so many others", at))
+        Some(refuse(RunTimeFlow::CallOwnDepth, at))
     }
 
     /// The first place that cannot be said.
@@ -71,8 +72,8 @@ impl Computes {
     }
 }
 
-fn refuse(what: impl Into<Text>, at: Span) -> Diagnostic {
-    Diagnostic::new(Fault::Computes { what: what.into() }, at)
+fn refuse(what: impl Into<RunTime>, at: Span) -> Diagnostic {
+    Diagnostic::new(Fault::computes(what), at)
 }
 
 /// Whether an endless body can be left, as far as its statements tell. What has no end cannot be verified.
@@ -88,11 +89,6 @@ fn ends(body: &[Stmt]) -> bool {
         Op::Control(control) => control.bodies().any(|body| ends(body)),
         _ => false,
     })
-}
-
-/// The name of an operator or a function, as in the text form.
-fn called(of: &impl std::fmt::Debug) -> String {
-    format!("{of:?}").to_lowercase()
 }
 
 struct Look<'c> {
@@ -117,25 +113,25 @@ impl Look<'_> {
         match &stmt.op {
             Op::Declare(declare) => {
                 match declare.sizes.is_empty() {
-                    true => self.has(ComputeFeature::Declare, "a variable that is made known", at)?,
-                    false => self.has(ComputeFeature::Array, "an array", at)?,
+                    true => self.has(ComputeFeature::Declare, RunTimeValue::Declaration, at)?,
+                    false => self.has(ComputeFeature::Array, RunTimeValue::Array, at)?,
                 }
                 self.variable(&declare.var, at)?;
                 declare.initial.iter().flatten().try_for_each(|value| self.expr(value, at))
             }
-            Op::Leave => self.has(ComputeFeature::Leave, "a loop that is left", at),
-            Op::NextTurn => self.has(ComputeFeature::NextTurn, "a turn of a loop that is left", at),
-            Op::Goto(_) => self.has(ComputeFeature::Jump, "a jump", at),
+            Op::Leave => self.has(ComputeFeature::Leave, RunTimeFlow::LoopLeft, at),
+            Op::NextTurn => self.has(ComputeFeature::NextTurn, RunTimeFlow::LoopNextTurn, at),
+            Op::Goto(_) => self.has(ComputeFeature::Jump, RunTimeFlow::Jump, at),
             Op::MessageOf(pieces) => {
-                self.has(ComputeFeature::Values, "a message with values in it", at)?;
+                self.has(ComputeFeature::Values, RunTimeWord::MessageValues, at)?;
                 self.pieces(pieces, at)
             }
             Op::Output(output) => {
-                self.has(ComputeFeature::Output, "output to a device", at)?;
+                self.has(ComputeFeature::Output, RunTimeWord::DeviceOutput, at)?;
                 if let Output::Line(pieces) = &**output { self.pieces(pieces, at) } else { Ok(()) }
             }
             Op::Alarm(alarm) => {
-                self.has(ComputeFeature::Alarm, "an alarm", at)?;
+                self.has(ComputeFeature::Alarm, RunTimeWord::Alarm, at)?;
                 alarm.number.iter().try_for_each(|number| self.expr(number, at))
             }
             Op::Assign(to, value) => {
@@ -148,11 +144,11 @@ impl Look<'_> {
             Op::Control(control) => self.control(control, stmt, loops),
             Op::Call(call) => {
                 if (!call.arguments.is_empty() || !call.shared) && !self.computes.arguments {
-                    return Err(refuse("a call with variables of its own", at));
+                    return Err(refuse(RunTimeFlow::CallOwnVariables, at));
                 }
                 let own = !call.arguments.is_empty() || !call.shared;
                 if own && call.times > 1 && !self.computes.arguments_again {
-                    return Err(refuse("a call with variables of its own that is made several times", at));
+                    return Err(refuse(RunTimeFlow::CallOwnAgain, at));
                 }
                 call.arguments.iter().try_for_each(|argument| self.expr(argument, at))
             }
@@ -169,9 +165,9 @@ impl Look<'_> {
     fn control(&self, control: &Control, stmt: &Stmt, loops: u8) -> Result<(), Diagnostic> {
         let at = stmt.span;
         let deeper = || match loops < self.computes.loops {
-            true if stmt.skip.is_some() => Err(refuse("a loop that can be skipped", at)),
+            true if stmt.skip.is_some() => Err(refuse(RunTimeFlow::LoopSkipped, at)),
             true => Ok(loops + 1),
-            false => Err(refuse("a loop within so many others", at)),
+            false => Err(refuse(RunTimeFlow::LoopDepth, at)),
         };
         if self.computes.has(ComputeFeature::CallOf)
             && let Some(call) = computed_call(control)
@@ -191,13 +187,13 @@ impl Look<'_> {
                 self.expr(condition, at)?;
                 self.body(body, deeper()?)
             }
-            Control::Loop { body } if !ends(body) => Err(refuse("a loop that has no end", at)),
+            Control::Loop { body } if !ends(body) => Err(refuse(RunTimeFlow::LoopEndless, at)),
             Control::Loop { body } => {
-                self.has(ComputeFeature::Endless, "a loop without a condition", at)?;
+                self.has(ComputeFeature::Endless, RunTimeFlow::LoopWithoutCondition, at)?;
                 self.body(body, deeper()?)
             }
             Control::Until { condition, body } => {
-                self.has(ComputeFeature::Until, "a loop that is tested behind each turn", at)?;
+                self.has(ComputeFeature::Until, RunTimeFlow::LoopTestedAfter, at)?;
                 self.body(body, deeper()?)?;
                 self.expr(condition, at)
             }
@@ -205,23 +201,23 @@ impl Look<'_> {
                 self.expr(condition, at)?;
                 if self.computes.blocks {
                     if stmt.skip.is_some() {
-                        return Err(refuse("a decision that can be skipped", at));
+                        return Err(refuse(RunTimeFlow::DecisionSkipped, at));
                     }
                     return control.bodies().try_for_each(|body| self.body(body, loops));
                 }
                 match &otherwise[..] {
                     [] if self.computes.decides(then) => self.body(then, loops),
-                    _ => Err(refuse("a decision about more than one statement", at)),
+                    _ => Err(refuse(RunTimeFlow::DecisionStatements, at)),
                 }
             }
             Control::Repeat { times, body } if times.literal().is_some() => self.body(body, loops),
             Control::Repeat { times, body } => {
-                self.has(ComputeFeature::Times, "a loop that is repeated a computed number of times", at)?;
+                self.has(ComputeFeature::Times, RunTimeFlow::LoopComputedTimes, at)?;
                 self.expr(counted(times), at)?;
                 self.body(body, deeper()?)
             }
             Control::For { variable, from, to, step, body } => {
-                self.has(ComputeFeature::Count, "a loop that counts", at)?;
+                self.has(ComputeFeature::Count, RunTimeFlow::LoopCounts, at)?;
                 self.variable(variable, at)?;
                 [from, to, step].into_iter().try_for_each(|value| self.expr(value, at))?;
                 self.body(body, deeper()?)
@@ -229,20 +225,20 @@ impl Look<'_> {
         }
     }
 
-    fn has(&self, statement: ComputeFeature, what: &str, at: Span) -> Result<(), Diagnostic> {
+    fn has(&self, statement: ComputeFeature, what: impl Into<RunTime>, at: Span) -> Result<(), Diagnostic> {
         if self.computes.has(statement) { Ok(()) } else { Err(refuse(what, at)) }
     }
 
     fn element(&self, element: &Element, at: Span) -> Result<(), Diagnostic> {
         match &element.of {
             Many::Array { var, .. } => {
-                self.has(ComputeFeature::Array, "an array", at)?;
+                self.has(ComputeFeature::Array, RunTimeValue::Array, at)?;
                 self.variable(var, at)?;
             }
             Many::Numbered(numbers) => {
-                self.has(ComputeFeature::Numbered, "a variable whose number is computed", at)?;
+                self.has(ComputeFeature::Numbered, RunTimeValue::ComputedNumber, at)?;
                 if !numbers.iter().all(|range| self.computes.says_all(range)) {
-                    return Err(refuse("a variable whose number is computed, of other variables", at));
+                    return Err(refuse(RunTimeValue::ComputedNumberOfOthers, at));
                 }
             }
         }
@@ -252,9 +248,9 @@ impl Look<'_> {
     fn variable(&self, var: &Var, at: Span) -> Result<(), Diagnostic> {
         match var {
             _ if self.computes.says(var) || self.references.contains(&var) => Ok(()),
-            Var::System(_) => Err(refuse(format!("the system variable {}", var.name()), at)),
+            Var::System(asked) => Err(refuse(RunTimeValue::AskedVariable { asked: asked.clone() }, at)),
             Var::Local(name) | Var::Common(name) | Var::Retentive(name) => {
-                Err(refuse(format!("the variable {name}"), at))
+                Err(refuse(RunTimeValue::Variable { name: (**name).into() }, at))
             }
         }
     }
@@ -271,12 +267,12 @@ impl Look<'_> {
         match &**node {
             _ if self.computes.values.contains(expr) => Ok(()),
             Node::Var(var) => self.variable(var, at),
-            Node::Vacant if !self.computes.vacant => Err(refuse("no value at all", at)),
+            Node::Vacant if !self.computes.vacant => Err(refuse(RunTimeValue::NoValue, at)),
             Node::Vacant => Ok(()),
             Node::Element(element) => self.element(element, at),
             Node::Unary(Unary::Negate, a) => self.expr(a, at),
             Node::Unary(Unary::Not, a) if self.computes.opposite => self.expr(a, at),
-            Node::Unary(Unary::Not, _) => Err(refuse("the opposite of a condition", at)),
+            Node::Unary(Unary::Not, _) => Err(refuse(RunTimeValue::Opposite, at)),
             Node::Binary(Binary::NotEqual, Expr::Node(a), Expr::Node(b))
                 if self.computes.exists && matches!(**b, Node::Vacant) =>
             {
@@ -287,12 +283,12 @@ impl Look<'_> {
                     Node::Var(var @ Var::Common(name)) if self.computes.is_name(name, true) => {
                         self.variable(var, at)
                     }
-                    _ => Err(refuse("whether a variable without a name has a value", at)),
+                    _ => Err(refuse(RunTimeValue::NamelessHasValue, at)),
                 }
             }
             Node::Binary(operator, a, b) => {
                 if !self.computes.operators.contains(operator) {
-                    return Err(refuse(format!("the operator {}", called(operator)), at));
+                    return Err(refuse(RunTimeValue::Operator { operator: *operator }, at));
                 }
                 self.expr(a, at)?;
                 self.expr(b, at)
@@ -302,7 +298,7 @@ impl Look<'_> {
                 let own =
                     *function == Function::RoundTo || *function == Function::NearRatio && self.computes.near;
                 if !own && !self.computes.functions.contains(function) {
-                    return Err(refuse(format!("the function {}", called(function)), at));
+                    return Err(refuse(RunTimeValue::Function { function: *function }, at));
                 }
                 arguments.iter().try_for_each(|argument| self.expr(argument, at))
             }

@@ -1,7 +1,9 @@
 //! Messages, alarms and remarks in a text with O words.
 
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Alarm, Piece};
+use ncc_ir::run_time::RunTimeWord;
 use ncc_ir::source::Span;
 
 use crate::common::Sink;
@@ -16,7 +18,7 @@ impl Writer {
     /// A message with values in it: variables, and how many digits of them are shown.
     pub(crate) fn o_message(&mut self, pieces: &[Piece], span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let rules = &self.dialect.comment;
-        let word = rules.shown.first().ok_or_else(|| cannot("a message with values in it"))?;
+        let word = rules.shown.first().ok_or_else(|| cannot(OperatorLack::MessageValues))?;
         let mut text = format!("{}{word}", rules.open);
         let mut digits_said = DIGITS;
         for piece in pieces {
@@ -25,13 +27,13 @@ impl Writer {
                     let signs = [&rules.open[..], &rules.close];
                     let acts = acts(plain) || formats(plain);
                     if acts || signs.iter().any(|sign| plain.contains(sign)) || !plain.chars().all(shows) {
-                        return Err(cannot("a message with these characters"));
+                        return Err(cannot(OperatorLack::MessageCharacters));
                     }
                     text.push_str(plain);
                 }
                 Piece::Value { value, digits, short, places: _ } => {
                     if *short && *digits > 0 {
-                        return Err(cannot("a value in a message without the zeros at its end"));
+                        return Err(cannot(OperatorLack::MessageValueZeros));
                     }
                     if *digits != digits_said {
                         digits_said = *digits;
@@ -44,7 +46,7 @@ impl Writer {
                     }
                     let value = self.words.behind(value, None, span, sink)?;
                     if !value.starts_with('#') || value.starts_with("#[") || value.starts_with("##") {
-                        return Err(cannot("a message with a value that is no variable"));
+                        return Err(cannot(OperatorLack::MessageValueNoVariable));
                     }
                     text.push_str(&value);
                 }
@@ -58,18 +60,22 @@ impl Writer {
     pub(crate) fn o_alarm(&mut self, alarm: &Alarm, sink: &mut Sink) -> Result<(), Fault> {
         let rules = &self.dialect.comment;
         if rules.alarm.is_empty() {
-            return Err(cannot("an alarm"));
+            return Err(cannot(OperatorLack::Alarm));
         }
         if alarm.number.is_some() {
             // As straight blocks it can be no better.
-            let what = "an alarm with a number";
-            return Err(if self.computes() { cannot_compute(what) } else { cannot(what) });
+            let what = RunTimeWord::AlarmNumber;
+            return Err(if self.computes() {
+                cannot_compute(what)
+            } else {
+                cannot(OperatorLack::AlarmWithNumber)
+            });
         }
         let text = &alarm.text;
         let signs = [&rules.open[..], &rules.close];
         // The reader has no values in alarms, whatever stands behind the sign.
         if text.contains('#') || signs.iter().any(|sign| text.contains(sign)) || !text.chars().all(shows) {
-            return Err(cannot("an alarm with these characters"));
+            return Err(cannot(OperatorLack::AlarmCharacters));
         }
         let text = format!("{}{}{text}{}", rules.open, rules.alarm, rules.close);
         self.o_remark(&text, sink)

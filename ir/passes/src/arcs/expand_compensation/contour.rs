@@ -7,6 +7,7 @@ use ncc_ir::canon::{Axis, Motion, Plane, Side, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::geometry::arc_feed::{ArcFeed, centre_speed, is_inner};
 use ncc_ir::geometry::offset_path::{Corner, Leg, OffsetPath, Rules, Spot, Unreachable};
+use ncc_ir::lack::ExpandedContour;
 use ncc_ir::program::{Op, Point, Stmt};
 use ncc_ir::source::Span;
 
@@ -34,14 +35,14 @@ impl Contour {
             Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => &m.to,
             Op::ArcFeed(arc) => {
                 if arc.plane.known().or(walk.at.modes.plane) != Some(self.plane) {
-                    return cannot("an arc in another plane", stmt.span);
+                    return cannot(ExpandedContour::OtherPlane, stmt.span);
                 }
                 &arc.to
             }
-            _ => return cannot(stmt.op.name(), stmt.span),
+            _ => return cannot(ExpandedContour::Function { function: stmt.op.name() }, stmt.span),
         };
         if words.axes[Axis::A as usize..].iter().any(Option::is_some) {
-            return cannot("a rotary axis", stmt.span);
+            return cannot(ExpandedContour::RotaryAxis, stmt.span);
         }
         Ok(words)
     }

@@ -8,6 +8,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry;
 use ncc_ir::geometry::offset_path::Spot;
+use ncc_ir::lack::{CompensationLack, ExpandedContour};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
@@ -126,9 +127,8 @@ impl Written<'_> {
     }
 }
 
-pub(super) fn cannot<T>(what: &str, span: Span) -> Result<T, Diagnostic> {
-    let what = format!("{what} under cutter radius compensation that is worked out");
-    Err(Diagnostic::new(Fault::TargetLacks { what: what.into() }, span))
+pub(super) fn cannot<T>(what: ExpandedContour, span: Span) -> Result<T, Diagnostic> {
+    Err(Diagnostic::new(Fault::lacks(CompensationLack::Expanded { what }), span))
 }
 
 pub(super) fn mm(nanos: Nanos) -> f64 {

@@ -9,6 +9,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Control, Coord, FrameSlot, FrameStep, Op, Slot, Stmt};
+use ncc_ir::run_time::ComputedFrame;
 
 /// What is in force of the slots that go into one chain; `None` is not known.
 #[derive(Clone)]
@@ -54,14 +55,14 @@ impl Held {
     }
 
     /// All of it as a chain that begins anew.
-    fn chain(&self, used: &Used) -> Result<Vec<Op>, &'static str> {
+    fn chain(&self, used: &Used) -> Result<Vec<Op>, ComputedFrame> {
         let nothing = [const { None }; AXES];
         let shift = match &self.shift {
             Some(shift) => shift,
             None if used.shift().is_none() => &nothing,
-            None => return Err("beside a shift that is not known there"),
+            None => return Err(ComputedFrame::BesideUnknownShift),
         };
-        let turn = self.turn.as_ref().ok_or("beside a rotation that is not known there")?;
+        let turn = self.turn.as_ref().ok_or(ComputedFrame::BesideUnknownRotation)?;
         let mut steps = Vec::new();
         if !shift.iter().flatten().all(is_zero) {
             steps.push(FrameStep::Translate(Box::new(shift.clone())));
@@ -94,7 +95,7 @@ fn keeps(body: &[Stmt], axes: &Shift) -> bool {
 }
 
 /// A slot as a chain that begins anew, with what is in force of the other ones.
-pub(super) fn as_chain(op: &Op, used: &Used, held: &mut Held) -> Result<Vec<Op>, &'static str> {
+pub(super) fn as_chain(op: &Op, used: &Used, held: &mut Held) -> Result<Vec<Op>, ComputedFrame> {
     match op {
         // What no block fills is empty.
         Op::ClearFrame(FrameSlot::Chain) => return Ok(vec![Op::ClearFrame(FrameSlot::Chain)]),
@@ -105,7 +106,7 @@ pub(super) fn as_chain(op: &Op, used: &Used, held: &mut Held) -> Result<Vec<Op>,
             Slot::Shift { axes, .. } if used.shift().is_some() => {
                 let mut to = (**axes).clone();
                 if (0..AXES).any(|axis| used.moved[axis] && to[axis].is_none()) {
-                    let before = held.shift.take().ok_or("that leaves an axis as it is")?;
+                    let before = held.shift.take().ok_or(ComputedFrame::AxisKept)?;
                     to.iter_mut().zip(before).for_each(|(to, before)| *to = to.take().or(before));
                 }
                 held.shift = Some(to);
@@ -113,24 +114,24 @@ pub(super) fn as_chain(op: &Op, used: &Used, held: &mut Held) -> Result<Vec<Op>,
             Slot::Rotation { plane, centre, angle } => {
                 held.turn = Some(Some((*plane, (**centre).clone(), angle.clone())));
             }
-            _ => return Err("in another form than the target has"),
+            _ => return Err(ComputedFrame::OtherForm),
         },
-        _ => return Err("in another form than the target has"),
+        _ => return Err(ComputedFrame::OtherForm),
     }
     held.chain(used)
 }
 
 /// A rotation about a point.
-fn about((plane, centre, angle): &Turn) -> Result<Vec<FrameStep>, &'static str> {
+fn about((plane, centre, angle): &Turn) -> Result<Vec<FrameStep>, ComputedFrame> {
     if angle.distance != Fact::Known(Distance::Absolute) {
-        return Err("that is turned further");
+        return Err(ComputedFrame::RotatedFurther);
     }
-    let Fact::Known(in_plane) = plane else { return Err("in a plane that is not known") };
+    let Fact::Known(in_plane) = plane else { return Err(ComputedFrame::PlaneUnknown) };
     let (first, second, _) = in_plane.axes();
     let mut there: [Option<Expr>; AXES] = [const { None }; AXES];
     let mut back = there.clone();
     for axis in [first, second] {
-        let Some(at) = &centre[axis as usize] else { return Err("about the place where the tool stands") };
+        let Some(at) = &centre[axis as usize] else { return Err(ComputedFrame::AboutTool) };
         there[axis as usize] = Some(at.clone());
         back[axis as usize] = Some(negative(at));
     }

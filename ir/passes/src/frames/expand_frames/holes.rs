@@ -12,6 +12,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num, ONE, POW10, Unit};
 use ncc_ir::geometry::hole_positions::HolePositions;
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point};
 
@@ -22,7 +23,7 @@ impl Frames<'_> {
         let (_, _, normal) = plane.axes();
         let n = normal as usize;
         if !leaves_alone(&self.set.chain, n) {
-            return Err(cannot("a cycle in a frame that turns, mirrors or scales its drilling axis"));
+            return Err(cannot(FramesLack::DrillingAxisTurned));
         }
         let mut out = cycle.clone();
         out.plane = Fact::Known(plane);

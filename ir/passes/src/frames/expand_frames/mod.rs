@@ -34,6 +34,7 @@ use ncc_ir::canon::{AXES, Axis, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::kinds::{
     conduct, flow, frames, machine, miscellaneous, modes, polar, tooling, variables,
 };
@@ -340,7 +341,7 @@ impl Frames<'_> {
                 Op::SetFrame(frame) if !frame.added => self.chained = false,
                 Op::ClearFrame(FrameSlot::Chain) => self.chained = false,
                 Op::ClearFrame(_) => return Ok((false, Vec::new())),
-                _ => return Err(cannot("a shift, rotation, scale or mirror beside a chain of frames")),
+                _ => return Err(cannot(FramesLack::BesideChain)),
             }
         }
         let here = self.set.whole.place_known(&self.inner.at.position);
@@ -381,7 +382,7 @@ impl Frames<'_> {
             let plane = in_force.and_then(|plane| self.inner.at.plane(plane));
             let stays = |n: usize| new.shift()[n] == self.set.whole.shift()[n] && leaves_alone(&new, n);
             if !plane.is_some_and(|plane| stays(plane.axes().2 as usize)) {
-                return Err(cannot("a frame that moves the drilling axis of the cycle in force"));
+                return Err(cannot(FramesLack::DrillingAxisMoved));
             }
         }
         let reported = sets && fresh && worked_in != Chain::NONE;
@@ -440,10 +441,10 @@ impl Frames<'_> {
     /// coordinates that it has without one, and the local shift, which that ends, is said again.
     fn origin_back(&self, slots: &Slots) -> Result<Vec<Op>, Fault> {
         if slots.is_turned() {
-            return Err(cannot("the end of an origin shift in a turned or scaled frame"));
+            return Err(cannot(FramesLack::ShiftEndInTurnedFrame));
         }
         if self.inner.at.cycle.is_some() || self.inner.at.cycle_in_doubt {
-            return Err(cannot("the end of an origin shift while a cycle is in force"));
+            return Err(cannot(FramesLack::ShiftEndInCycle));
         }
         let here = self.set.whole.place_known(&self.inner.at.position);
         let unit = self.inner.unit();
@@ -454,7 +455,7 @@ impl Frames<'_> {
                 continue;
             }
             if axis == Axis::Z && self.inner.waiting {
-                return Err(cannot("the end of an origin shift along Z before a length offset is taken up"));
+                return Err(cannot(FramesLack::ShiftEndBeforeLength));
             }
             let at = here[i].ok_or(Fault::PositionUnknown { axis: axis.letter() as char })?;
             axes[i] = Some(Expr::Num(exact(at, unit_of(axis, unit))));
@@ -473,14 +474,14 @@ impl Frames<'_> {
         let said = std::mem::replace(&mut self.set.said, Slots::NONE);
         let chain = std::mem::take(&mut self.set.said_chain);
         if said.origin != [None; AXES] || said.steps != Chain::NONE {
-            return Err(cannot("this frame beside coordinates of the present point"));
+            return Err(cannot(FramesLack::BesidePresentPoint));
         }
         let mut ops = frame_forms::between(&said, &Slots::NONE, &self.target.caps, self.inner.unit());
         if chain {
             ops.push(Op::ClearFrame(FrameSlot::Chain));
         }
         if !ops.is_empty() && self.inner.at.cycle.is_some() {
-            return Err(cannot("another form of frame while a cycle is in force"));
+            return Err(cannot(FramesLack::OtherFormInCycle));
         }
         Ok(ops)
     }
@@ -510,7 +511,7 @@ impl Frames<'_> {
             Op::StraightFeed(m) => Op::StraightFeed(self.moved(m)?),
             Op::SynchronisedFeed(m) => {
                 if self.set.chain.turn().is_some() {
-                    return Err(cannot("a thread in a turned or scaled frame"));
+                    return Err(cannot(FramesLack::Thread));
                 }
                 Op::SynchronisedFeed(Box::new(Synchronised { to: self.point(&m.to)?, ..(**m).clone() }))
             }
@@ -522,17 +523,17 @@ impl Frames<'_> {
             Op::StartCycle(cycle) => Op::StartCycle(Box::new(self.cycle(cycle)?)),
             Op::Pattern(pattern) => return self.pattern(pattern),
             Op::Probe(_) if self.set.chain != Chain::NONE => {
-                return Err(cannot("probing in a frame that is worked in"));
+                return Err(cannot(FramesLack::Probing));
             }
             Op::Detour(_) if self.set.chain != Chain::NONE => {
-                return Err(cannot("a rapid move by a detour in a frame that is worked in"));
+                return Err(cannot(FramesLack::Detour));
             }
             polar!() if self.set.chain != Chain::NONE => {
-                return Err(cannot("a point by radius and angle in a frame that is worked in"));
+                return Err(cannot(FramesLack::PolarPoint));
             }
             polar!() => return Ok(Vec::new()),
             flow!() if self.set.chain != Chain::NONE => {
-                return Err(cannot("a frame where the program does not go straight on"));
+                return Err(cannot(FramesLack::NotStraightOn));
             }
             Op::GoToReference(reference) if !reference.via.is_empty() => {
                 let via = self.point(&reference.via)?;
@@ -547,12 +548,12 @@ impl Frames<'_> {
                         Op::StartCutterRadiusCompensation { side: side.other(), radius: radius.clone() }
                     }
                     None => {
-                        return Err(cannot("cutter radius compensation in a frame that does not leave arcs"));
+                        return Err(cannot(FramesLack::CompensationWithoutArcs));
                     }
                 }
             }
             Op::SetData(data) if matches!(**data, Data::Offset { mode: DataMode::Here, .. }) => {
-                return Err(cannot("a work offset set by the position under a frame"));
+                return Err(cannot(FramesLack::OffsetByPosition));
             }
             machine!()
             | Op::SetFeedRate(_)

@@ -5,6 +5,7 @@ use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::Coord;
 use ncc_ir::track::Tracker;
 
@@ -46,11 +47,11 @@ impl Present for Now<'_> {
 pub(super) fn value_of(at: &Tracker, value: &Expr) -> Result<Nanos, Fault> {
     at.nanos(value).ok_or_else(|| match value.literal() {
         Some(n) if n.unit == Unit::Entry => Fault::EntryFactNeeded { fact: ModeName::Units },
-        Some(_) | None => cannot("a computed word in a frame"),
+        Some(_) | None => cannot(FramesLack::ComputedWord),
     })
 }
 
 /// The target lacks this.
-pub(super) fn cannot(what: &str) -> Fault {
-    Fault::TargetLacks { what: what.into() }
+pub(super) fn cannot(lack: FramesLack) -> Fault {
+    Fault::lacks(lack)
 }

@@ -10,6 +10,7 @@ use crate::support::write::Rebuild;
 use ncc_exec::Chain;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::Fault;
+use ncc_ir::lack::{FramesLack, OutsideFrame};
 use ncc_ir::program::{Op, Stmt};
 
 impl Frames<'_> {
@@ -32,17 +33,17 @@ impl Frames<'_> {
     /// # Errors
     /// It cannot stand there.
     pub(super) fn outside(&mut self, stmt: Stmt, made: &mut Rebuild) -> Result<(), Fault> {
-        let named = match stmt.op {
-            Op::SetOriginOffsets(_) => "another work offset",
-            Op::GoToReference(_) => "a return to a point of the machine",
-            Op::UseMachineCoordinates { .. } => "a move in machine coordinates",
-            _ => "a value put into a table",
+        let what = match stmt.op {
+            Op::SetOriginOffsets(_) => OutsideFrame::WorkOffset,
+            Op::GoToReference(_) => OutsideFrame::ReferencePoint,
+            Op::UseMachineCoordinates { .. } => OutsideFrame::MachineCoordinates,
+            _ => OutsideFrame::TableValue,
         };
         let in_cycle = self.inner.at.cycle.is_some() || self.inner.at.cycle_in_doubt;
         let coordinates = self.set.said.origin != [None; AXES] || self.set.said.steps != Chain::NONE;
         if !matches!(stmt.op, Op::SetOriginOffsets(_)) || stmt.skip.is_some() || in_cycle || coordinates {
             made.leave_out(stmt);
-            return Err(cannot(&format!("{named} while a rotation, factors or a mirror are in force")));
+            return Err(cannot(FramesLack::UnderTurnedFrame { what }));
         }
         let said = self.set.said.clone();
         let bare = Slots { rotation: None, scale: None, mirror: [None; 3], ..said.clone() };

@@ -17,6 +17,7 @@ use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::{FrameSlot, FrameStep, Op, Slot, Stmt};
 
 impl Frames<'_> {
@@ -25,7 +26,7 @@ impl Frames<'_> {
     /// # Errors
     /// The target has no words that are right in each case.
     pub(super) fn change_in_doubt(&mut self, stmt: &Stmt) -> Result<Vec<Op>, Fault> {
-        let refused = || cannot("a frame in a block that can be skipped");
+        let refused = || cannot(FramesLack::InSkippedBlock);
         let (caps, at) = (&self.target.caps, &self.inner.at);
         // A shift that stands as coordinates of the present point has another end.
         let by_local = Slots { local: [0; AXES], ..self.set.said.clone() } == Slots::NONE;

@@ -9,6 +9,7 @@ use ncc_ir::canon::{AXES, Axis, Distance, Fact};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, Num};
+use ncc_ir::lack::FramesLack;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point};
 
@@ -67,7 +68,7 @@ impl Frames<'_> {
                 continue;
             }
             if takes_up && word.is_none() {
-                return Err(cannot("a length offset that waits in a turned frame"));
+                return Err(cannot(FramesLack::LengthInTurnedFrame));
             }
             // Along its own axis an increment is one outside as well.
             if from().eq([i])
@@ -103,7 +104,7 @@ impl Frames<'_> {
         let plane = at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
         let (first, second, _) = plane.axes();
         if self.set.unplaced.is_some() {
-            return Err(cannot("an arc as the first move of another rotation"));
+            return Err(cannot(FramesLack::ArcFirstInRotation));
         }
         let mut out = arc.clone();
         // How a third axis goes with several turns depends on the very angle.
@@ -120,7 +121,7 @@ impl Frames<'_> {
             return Ok(out);
         }
         let sense = self.set.chain.sense(plane, arc.turn);
-        out.turn = sense.ok_or_else(|| cannot("an arc in a frame that does not leave it an arc"))?;
+        out.turn = sense.ok_or_else(|| cannot(FramesLack::ArcNoLonger))?;
         out.plane = Fact::Known(plane);
         let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
         let centre = at.centre(arc).ok_or_else(|| unknown(first))?;
@@ -174,7 +175,7 @@ impl Frames<'_> {
 
 /// The same increment the other way.
 fn negative(word: &Coord) -> Result<Coord, Fault> {
-    let n = word.value.literal().ok_or_else(|| cannot("a computed word in a frame"))?;
+    let n = word.value.literal().ok_or_else(|| cannot(FramesLack::ComputedWord))?;
     let value = Num { mantissa: n.mantissa.wrapping_neg(), ..n };
     Ok(Coord { value: value.into(), distance: Fact::Known(Distance::Incremental) })
 }

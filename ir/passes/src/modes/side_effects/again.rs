@@ -1,9 +1,9 @@
 //! What the target's control alone has switched off, started again.
 
-use crate::modes::side_effects::OPTIONAL_STOP;
 use crate::modes::side_effects::SideEffects;
 use crate::modes::side_effects::kinds::starts_spindle;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::SpindleLack;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -18,7 +18,7 @@ impl SideEffects {
     ) {
         // A label alone cuts nothing.
         if let Some(at) = self.lost_stop.take_if(|_| !label) {
-            diags.push(Diagnostic::new(Fault::TargetLacks { what: OPTIONAL_STOP.into() }, at));
+            diags.push(Diagnostic::new(Fault::lacks(SpindleLack::OptionalStopTurning), at));
         }
         if self.again.iter().all(Option::is_none) {
             return;

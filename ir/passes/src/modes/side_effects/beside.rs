@@ -11,12 +11,6 @@ use crate::support::mode_analysis::{self, Known};
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
-/// What is said of a stop in a compensated contour.
-pub(super) const STOP_BESIDE: &str = "a stop in a compensated contour, with M05 or M03 beside it";
-
-/// What is said of an optional stop that switches off what may be on.
-pub(super) const OPTIONAL_STOP: &str = "an optional stop that may stop a turning spindle";
-
 impl SideEffects {
     /// What holds after each call and label, if compensation may be on somewhere.
     pub(super) fn entries_of(&self, procedures: &[Procedure]) -> Option<Known> {

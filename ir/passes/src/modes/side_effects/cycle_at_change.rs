@@ -16,6 +16,7 @@ use crate::modes::side_effects::SideEffects;
 use crate::modes::side_effects::insert::{insert, insertion};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::HolesLack;
 use ncc_ir::program::kinds::{flow, moves};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
@@ -75,8 +76,7 @@ impl SideEffects {
     pub(super) fn needs_cycle(&mut self, op: &Op, diags: &mut Vec<Diagnostic>) {
         let needs = matches!(op, Op::Hole(_) | Op::Pattern(_) | Op::Position(_) | Op::Control(_) | flow!());
         if let Some(at) = self.cycle.cancelled.take_if(|_| needs) {
-            let what = "a canned cycle that stays active over a tool change".into();
-            diags.push(Diagnostic::new(Fault::TargetLacks { what }, at));
+            diags.push(Diagnostic::new(Fault::lacks(HolesLack::ActiveOverToolChange), at));
         }
     }
 }

@@ -6,6 +6,7 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
+use ncc_ir::lack::LengthsLack;
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
@@ -67,8 +68,7 @@ impl SideEffects {
                 diags.push(Diagnostic::new(Fault::MustBeStated { behaviour }, at));
             }
             Some(LengthNext::Lost(at)) => {
-                let what = "a move of Z by a length that is not called up again after a place of the machine";
-                diags.push(Diagnostic::new(Fault::TargetLacks { what: what.into() }, at));
+                diags.push(Diagnostic::new(Fault::lacks(LengthsLack::NotStatedAgain), at));
             }
         }
     }

@@ -17,15 +17,13 @@ use std::collections::{BTreeSet, HashMap};
 
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::lack::MachineLack;
 use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Control, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 
 use crate::modes::side_effects::SideEffects;
 use crate::modes::side_effects::kinds::cuts;
-
-/// What is refused: the beginning of the message.
-pub const REFUSED: &str = "Z at machine zero after a tool change";
 
 /// Procedures by their names, each with its place.
 type Places<'p> = HashMap<&'p str, (usize, &'p Procedure)>;
@@ -161,7 +159,7 @@ impl WayUp {
     /// Refuses a statement that needs Z, once for each change.
     fn refuse(&mut self, stmt: &Stmt, found: &mut Vec<Diagnostic>) {
         if std::mem::take(&mut self.up) && self.refused.insert(stmt.span) {
-            found.push(Diagnostic::new(Fault::TargetLacks { what: REFUSED.into() }, stmt.span));
+            found.push(Diagnostic::new(Fault::lacks(MachineLack::ZAfterToolChange), stmt.span));
         }
     }
 }

@@ -29,6 +29,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Numbers, Scope, Var};
 use ncc_ir::program::valid::returns_alone;
 use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Type};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 /// By how much a number moves that the target does not have.
@@ -73,10 +74,7 @@ fn among(ranges: &[[u32; 2]], n: u32) -> bool {
 }
 
 fn no_room(name: &str, at: Span) -> Diagnostic {
-    Diagnostic::new(
-        Fault::Computes { what: format!("the variable {name}, for which there is no room").into() },
-        at,
-    )
+    Diagnostic::new(Fault::computes(RunTimeValue::VariableWithoutRoom { name: name.into() }), at)
 }
 
 impl<'c> Plan<'c> {
@@ -120,8 +118,8 @@ impl<'c> Plan<'c> {
             if self.homes[at] == Home::None
                 && let Some(seen) = self.inventories[at].seen.iter().find(|s| matches!(s.var, Var::Local(_)))
             {
-                let what = format!("the variable {} of what calls this, which has its own", seen.var.name());
-                return Err(Diagnostic::new(Fault::Computes { what: what.into() }, seen.at));
+                let what = RunTimeValue::VariableOfCaller { name: seen.var.name().into() };
+                return Err(Diagnostic::new(Fault::computes(what), seen.at));
             }
         }
         self.go_further()?;
@@ -235,10 +233,7 @@ impl<'c> Plan<'c> {
         let rows: Vec<&(Numbers, Span)> =
             self.inventories.iter().flat_map(|inventory| &inventory.numbered).collect();
         let Some((_, at)) = rows.first().copied().cloned() else { return Ok(()) };
-        let refused = || {
-            let what = "a variable whose number is computed, among those that have other numbers".into();
-            Diagnostic::new(Fault::Computes { what }, at)
-        };
+        let refused = || Diagnostic::new(Fault::computes(RunTimeValue::ComputedNumberAmongRenamed), at);
         let keeps_own = !self.computes.local.is_empty();
         for (at, inventory) in self.inventories.iter().enumerate() {
             let own = inventory.numbered.iter().any(|(row, _)| row.scope == Scope::Local);

@@ -9,6 +9,7 @@ use ncc_ir::computed::computes::{ComputeFeature, Computes, Handed};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Binary, Element, Expr, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Program, Stmt, Text};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 /// Puts the target's variables in. Those of the main procedure, and those that all procedures see, come back: the
@@ -198,7 +199,7 @@ impl Rename<'_, '_> {
                 let known: Option<Vec<u32>> = element.at.iter().map(whole).collect();
                 if let Some(known) = known {
                     if known.iter().zip(&**sizes).any(|(at, size)| at >= size) {
-                        self.refuse("an element that its array does not have", at);
+                        self.refuse(RunTimeValue::NoSuchElement, at);
                         return None;
                     }
                     let place = known.iter().zip(&**sizes).fold(0, |place, (at, size)| place * size + at);
@@ -262,8 +263,8 @@ impl Rename<'_, '_> {
         None
     }
 
-    fn refuse(&mut self, what: &str, at: Span) {
-        self.refused.get_or_insert(Diagnostic::new(Fault::Computes { what: what.into() }, at));
+    fn refuse(&mut self, what: RunTimeValue, at: Span) {
+        self.refused.get_or_insert(Diagnostic::new(Fault::computes(what), at));
     }
 
     fn expr(&mut self, e: &mut Expr, at: Span) {

@@ -12,6 +12,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{Binary, Expr, Many, Node, Scope, Target, Var};
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Control, Op, Procedure, Program, Stmt, Text};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 /// What a procedure begins with: its arguments have values or not.
@@ -60,8 +61,8 @@ pub(super) fn parameters(program: &Program, entries: &BTreeMap<usize, Known>) ->
     let is_parameter = |name: &str| main.parameters.iter().any(|own| *own.name() == *name);
     let asked = asked_in(program, entries.clone());
     if let Some(other) = asked.iter().find(|asked| !is_parameter(&asked.name)) {
-        let what = format!("the question whether a call gives the argument {}", other.name).into();
-        return Err(Diagnostic::new(Fault::Computes { what }, other.at));
+        let what = RunTimeValue::ArgumentGiven { name: (*other.name).into() };
+        return Err(Diagnostic::new(Fault::computes(what), other.at));
     }
     by_number(&main.body)
 }
@@ -75,8 +76,7 @@ fn by_number(body: &[Stmt]) -> Result<(), Diagnostic> {
         let is = |node: &Node| matches!(node, Node::Element(element) if local(&element.of));
         each(&stmt.op, &mut |e| found |= e.has(&is));
         if found {
-            let what = "a variable whose number is computed, among the arguments of a macro".into();
-            return Err(Diagnostic::new(Fault::Computes { what }, stmt.span));
+            return Err(Diagnostic::new(Fault::computes(RunTimeValue::ComputedNumberOfArguments), stmt.span));
         }
         if let Op::Control(control) = &stmt.op {
             control.bodies().try_for_each(|body| by_number(body))?;

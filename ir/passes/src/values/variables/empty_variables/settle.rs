@@ -8,6 +8,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::arguments::{self, Argument};
 use ncc_ir::program::{Control, Op, Piece, Stmt};
+use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
 /// Puts in what is known.
@@ -209,8 +210,8 @@ struct Values<'f> {
 
 impl Values<'_> {
     fn refused(&self, name: &str) -> Diagnostic {
-        let what = format!("the variable {name}, which may have no value where it is read").into();
-        Diagnostic::new(Fault::Computes { what }, self.at)
+        let what = RunTimeValue::VariableMaybeEmpty { name: name.into() };
+        Diagnostic::new(Fault::computes(what), self.at)
     }
 
     /// The first variable of an expression that is one thing or the other.
