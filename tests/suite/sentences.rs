@@ -23,7 +23,7 @@ const OTHER: &[&str] = &["assert", "expect(", "panic!", "unreachable!", "about",
 /// Whether a string has three words side by side, each of two letters or more.
 fn is_sentence(text: &str) -> bool {
     let word = |word: &str| {
-        let word = word.trim_matches(|c: char| !c.is_alphabetic());
+        let word = word.trim_matches(|c: char| "`.,:;!?()".contains(c));
         word.chars().count() > 1 && word.chars().all(|c| c.is_lowercase() || c == '\'')
     };
     let words: Vec<bool> = text.split_whitespace().map(word).collect();
@@ -53,7 +53,11 @@ fn sentences(text: &str) -> usize {
             }
             count += usize::from(is_sentence(&string[..end]) && !OTHER.iter().any(|o| before.contains(o)));
             rest = string.get(end + 1..).unwrap_or("");
-        } else if rest.starts_with("'\"'") || rest.starts_with("'{'") || rest.starts_with("'}'") || rest.starts_with("';'") {
+        } else if rest.starts_with("'\"'")
+            || rest.starts_with("'{'")
+            || rest.starts_with("'}'")
+            || rest.starts_with("';'")
+        {
             rest = &rest[3..];
         } else {
             if rest.starts_with([';', '{', '}']) {
@@ -103,7 +107,9 @@ fn words_for_users_are_no_code_of_a_library() {
         let _ = writeln!(text, "{name} {count}");
         match allowed.get(name.as_str()) {
             Some(most) if count <= most => {}
-            Some(most) => failures.add(name, format!("{count} sentences, were {most}: they belong into messages/")),
+            Some(most) => {
+                failures.add(name, format!("{count} sentences, were {most}: they belong into messages/"))
+            }
             None if before.is_empty() => {}
             None => failures.add(name, format!("{count} sentences: they belong into messages/")),
         }
