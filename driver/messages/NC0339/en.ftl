@@ -3,4 +3,4 @@ NC0339 = { $kind ->
        *[call] calls
     } are nested { $depth } deep; older controls take { $sure }
     .label = a control that takes fewer stops with an alarm
-    .help = state what your control takes: `--from-option { $option }={ $sure }`, or more
+    .help = state what your control takes: `--to-option { $option }={ $sure }`, or more

@@ -1,5 +1,5 @@
 NC0809-incremental = the program ends in incremental mode
-    .label = G91 here, and no G90 after it
+    .label = switched on here, and absolute mode never after it
     .related = the program ends here
     .help = program absolute mode before the end: the next program may start in incremental mode
 NC0809-cycle = the program ends with a canned cycle active

@@ -1,6 +1,10 @@
 common-also-line = also in line { $last }
 common-also-lines = also in lines { $lines } and { $last }
-common-also-more = also in lines { $lines }, { $last } and { $more } more { $more ->
+common-also-more = also in lines { $lines } and { $more } more { $more ->
+        [one] place
+       *[other] places
+    }
+common-also-places = also at { $more } more { $more ->
         [one] place
        *[other] places
     }

@@ -7,7 +7,6 @@ use codespan_reporting::diagnostic::{Diagnostic as Boxed, Label, Severity};
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-
 use ncc_ir::source::Span;
 
 use super::about::{About, Loudness, Told};
@@ -19,8 +18,7 @@ use crate::source::called_files::Called;
 /// Of one code, so many diagnostics are shown; the rest is counted.
 pub const MOST: usize = 20;
 
-/// So many further places of the same fault are kept, and so many are listed; the rest is counted.
-const FURTHER: usize = 32;
+/// So many further places of the same fault are listed; the rest is counted.
 const LISTED: usize = 8;
 
 /// So many characters are underlined at most.
@@ -47,17 +45,15 @@ pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) ->
     let words: Vec<Span> = all.iter().filter(|d| unknown(&d.fault)).map(|d| d.span).collect();
     let follows = |fault: &Fault| matches!(fault, Fault::TooManyCodes { .. } | Fault::CodesExclude { .. });
     all.retain(|d| !(follows(&d.fault) && words.binary_search_by_key(&d.span.start, |w| w.start).is_ok()));
-    // Of a statement and an expression in it, the expression is the cause.
-    let statement = |d: &Diagnostic| matches!(d.fault, Fault::MacroLanguage { .. });
-    let within: Vec<bool> = (0..all.len())
-        .map(|at| {
-            let next = all[at + 1..].iter().find(|d| statement(d));
-            statement(all[at]) && next.is_some_and(|d| d.span.end <= all[at].span.end)
-        })
-        .collect();
-    let mut within = within.into_iter();
-    all.retain(|_| !within.next().unwrap_or(false));
-    all
+    // Of a statement and an expression in it, the expression is the cause: it is the next one from the end.
+    let mut next: Option<Span> = None;
+    let cause = |d: &&Diagnostic| match d.fault {
+        Fault::MacroLanguage { .. } => next.replace(d.span).is_none_or(|inner| inner.end > d.span.end),
+        _ => true,
+    };
+    let mut causes: Vec<&Diagnostic> = all.into_iter().rev().filter(cause).collect();
+    causes.reverse();
+    causes
 }
 
 /// Diagnostics that are one to the reader: the same fault at several places.
@@ -85,7 +81,10 @@ fn grouped<'d>(all: Vec<&'d Diagnostic>, called: Option<&Called>) -> (Vec<Group<
             !by_text && file(first) == file(d) && (first.fault == d.fault || alike(&first.fault, &d.fault))
         };
         match known.iter().find(same) {
-            Some(at) if groups[*at].further.len() < FURTHER => groups[*at].further.push(d),
+            // Each name is in the headline.
+            Some(at) if groups[*at].further.len() < LISTED || groups[*at].first.fault != d.fault => {
+                groups[*at].further.push(d);
+            }
             Some(at) => groups[*at].more += 1,
             None if known.len() < MOST => {
                 known.push(groups.len());
@@ -202,17 +201,19 @@ fn also(group: &Group, lines: &Lines) -> Option<String> {
         group.further.iter().filter_map(|d| Some(lines.line(d.span.start)?.number)).collect();
     numbers.dedup();
     numbers.retain(|number| *number != first);
-    let more = group.more + numbers.len().saturating_sub(LISTED);
+    let more = (group.more + numbers.len().saturating_sub(LISTED)) as u64;
     numbers.truncate(LISTED);
-    let last = numbers.pop()?;
-    let form = match (numbers.is_empty(), more) {
-        (_, 1..) => "also-more",
-        (true, 0) => "also-line",
-        (false, 0) => "also-lines",
-    };
     let numbers: Vec<String> = numbers.iter().map(u64::to_string).collect();
-    let message = Message::common(form).text("lines", numbers.join(", ")).text("last", last.to_string());
-    Some(message.count("more", more as u64).headline())
+    let message = match (numbers.split_last(), more) {
+        (None, 0) => return None,
+        (None, _) => Message::common("also-places").count("more", more),
+        (Some(_), 1..) => Message::common("also-more").text("lines", numbers.join(", ")).count("more", more),
+        (Some((last, [])), 0) => Message::common("also-line").text("last", last),
+        (Some((last, first)), 0) => {
+            Message::common("also-lines").text("lines", first.join(", ")).text("last", last)
+        }
+    };
+    Some(message.headline())
 }
 
 /// Whether two faults at one place are one to the reader: several steps may find the same, and a

@@ -330,7 +330,7 @@ impl<'t> Tokens<'t> {
         let (before, rest) = self.raw.source().split_at(start);
         let (found, len) = first_char(rest);
         // `Y3O.`: the letter, and not the point behind it, is what is wrong.
-        if let (b'.', [.., b'0'..=b'9', b'O' | b'o']) = (rest[0], before) {
+        if let ([b'.', ..], [.., b'0'..=b'9', b'O' | b'o']) = (rest, before) {
             return Some(Err(Refusal { fault: Fault::LetterOForZero, start: start - 1, end: start }));
         }
         // An error token of the lexer may be longer than one character.
