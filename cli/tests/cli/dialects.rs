@@ -194,7 +194,7 @@ fn an_option_says_what_a_tool_change_leaves_of_the_spindle() {
     run("fanuc to fanuc part.nc --to-option spindle_at_change=stops").exits(1).says("goes on turning");
 }
 
-/// What `dialects new` prints is a dialect that can be used at once, and that passes its test.
+/// `dialects new` prints a dialect that works at once and passes its test.
 #[test]
 fn a_new_dialect_is_its_base_until_rows_are_added() {
     let folder = folder();

@@ -1,3 +1,3 @@
-NC0208 = decimal point in { $word }
+NC0208 = decimal point in `{ $word }`
     .label = this word takes a whole number
     .help = write it without a decimal point

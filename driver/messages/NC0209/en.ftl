@@ -1,2 +1,2 @@
-NC0209 = { $word } is out of range
+NC0209 = `{ $word }` is out of range
     .label = this word cannot have this value

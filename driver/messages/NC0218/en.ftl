@@ -1,3 +1,3 @@
-NC0218 = program { $name } calls itself
+NC0218 = program `{ $name }` calls itself
     .label = this call never ends
     .related = through this call

@@ -1,3 +1,3 @@
-NC0219 = two programs have the name { $name }
+NC0219 = two programs have the name `{ $name }`
     .label = the second one
     .related = first here

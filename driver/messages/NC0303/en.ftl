@@ -1,4 +1,4 @@
-NC0303 = { $word } read as { $value }
+NC0303 = `{ $word }` read as { $value }
     .label = no decimal point: a setting of the control decides
     .account = numbers without a decimal point, read by the control's usual setting
     .help = write a decimal point, or see the options of `ncc dialects show { $source }`

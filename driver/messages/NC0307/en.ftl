@@ -1,3 +1,3 @@
-NC0307 = { $option } assumed to be { $value }
+NC0307 = `{ $option }` assumed to be `{ $value }`
     .label = the sources leave it open
-    .help = decide it with `--{ $side }-option { $plain }=…`; see `ncc dialects show`
+    .help = decide it with `--{ $side }-option { $option }=…`; see `ncc dialects show`

@@ -1,3 +1,3 @@
-NC0338 = { $cycle } beside { $motion } drills a hole
+NC0338 = `{ $cycle }` beside `{ $motion }` drills a hole
     .label = on other controls the motion code cancels the cycle
-    .help = delete { $motion }; or state `--from-option cycle_beside_motion=drilled` or `=cancelled`
+    .help = delete `{ $motion }`; or state `--from-option cycle_beside_motion=drilled` or `=cancelled`

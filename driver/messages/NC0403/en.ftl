@@ -1,3 +1,3 @@
-NC0403 = { $word } rounded to { $written }
+NC0403 = `{ $word }` rounded to `{ $written }`
     .label = finer than the least increment of { $target }
     .account = numbers, to the digits of { $target }

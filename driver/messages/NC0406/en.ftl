@@ -1,6 +1,6 @@
-NC0406 = program { $name } written { $times } { $times ->
+NC0406 = program `{ $name }` written { $times } { $times ->
         [one] time
        *[other] times
     } in place of its call
     .label = the call
-    .account = program { $plain } where it is called
+    .account = program { $name } where it is called

@@ -1,3 +1,3 @@
-NC0444 = { $code } left out
+NC0444 = `{ $code }` left out
     .label = stated to have no effect on the cut
-    .account = { $plain } left out, as stated
+    .account = { $code } left out, as stated

@@ -1,2 +1,2 @@
-NC0504 = { $word } is out of range on { $target }
+NC0504 = `{ $word }` is out of range on { $target }
     .label = cannot be written

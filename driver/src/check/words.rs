@@ -1,4 +1,4 @@
-//! Which entry of `messages/` a finding has, and the values in it; and what was not checked.
+//! Chooses the entry of `messages/` for a finding, with its values. Lists the checks that were not made.
 
 use ncc_check::{Checked, Finding, LeftOn, Outside, Unchecked, What};
 use ncc_ir::expr::num::Nanos;

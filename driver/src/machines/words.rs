@@ -1,12 +1,12 @@
-//! What is wrong with a profile, in words: which entry of `messages/`, and the values in it.
+//! Chooses the entry of `messages/` for a fault of a profile, with its values.
 
 use ncc_machines::Wrong;
 
 use crate::render::messages::message::{Help, Message};
 
-/// What is wrong, in words.
+/// A fault of a profile in words.
 pub struct Words {
-    /// What is wrong, in a line.
+    /// The headline.
     pub message: String,
     /// Why this place.
     pub label: String,
@@ -14,7 +14,7 @@ pub struct Words {
     pub help: Option<String>,
 }
 
-/// What is wrong, in words. `schemas`: where every key of the file is listed.
+/// The words of a fault. `schemas` names the command that lists every key of the file.
 pub fn words(wrong: &Wrong, schemas: &str) -> Words {
     let message = message(wrong);
     let help = match wrong {

@@ -74,7 +74,7 @@ fn grouped<'d>(all: Vec<&'d Diagnostic>, called: Option<&Called>) -> (Vec<Group<
     for d in all {
         let code = d.fault.code();
         let known = of_code.entry(code).or_default();
-        // What to type depends on the text of the place.
+        // The help quotes the text of its own place.
         let by_text = matches!(d.fault, Fault::LetterOForZero);
         let same = |at: &&usize| {
             let first = groups[**at].first;

@@ -14,9 +14,14 @@ pub fn plain_upto(text: &str, longest: usize) -> String {
     shown
 }
 
-/// Text from the source, not too long, in the quotes of code.
+/// Text from the source, not too long.
+pub fn shown(text: &str) -> String {
+    plain_upto(text, 60)
+}
+
+/// The same, in the quotes of code.
 pub fn quoted(text: &str) -> String {
-    format!("`{}`", plain_upto(text, 60))
+    format!("`{}`", shown(text))
 }
 
 /// A character that can be shown: pictures for control characters, so that none reaches a terminal.

@@ -5,7 +5,6 @@
 //!
 //! Not here: which dialect a milling program is written in (`guess`).
 
-use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use codespan_reporting::diagnostic::Severity;
@@ -20,7 +19,7 @@ use crate::problem::{Problem, as_write};
 use crate::render::human::boxed;
 use crate::render::json::Entry;
 use crate::render::line;
-use crate::render::messages::message::Value;
+use crate::render::messages::message::{Help, Message};
 use crate::render::questions::{Asked, AskedAnswer};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
@@ -108,18 +107,19 @@ impl Refusal {
                 format!("line {line}: {}", shown.sign.label)
             })
             .collect();
+        let message = message(finding);
         let told = Told {
             code: format!("NC{CODE:04}"),
             severity: Severity::Error,
             verdict: None,
             rank: None,
-            message: headline(finding),
-            entry: format!("NC{CODE:04}"),
-            values: BTreeMap::from([("looks", Value::Text(kind(finding)))]),
+            message: message.headline(),
+            entry: message.entry(),
+            values: message.values(),
             place: Place { span: spans[0], start, end, text, label },
             related: Vec::new(),
             details: signs,
-            advice: advice(finding),
+            advice: message.helps(Some(helps(finding))),
             excerpt,
         };
         Ok(Refusal { told, lines, kind: kind(finding) })
@@ -194,24 +194,22 @@ fn control(system: System) -> &'static str {
     }
 }
 
-fn headline(finding: &Finding) -> String {
+/// The message, with what it looks like.
+fn message(finding: &Finding) -> Message {
+    let m = Message::new(CODE).text("looks", kind(finding));
     match (finding.certain || finding.kind == Kind::Text, finding.kind) {
-        (true, _) => format!("this looks like {}", kind(finding)),
-        (false, Kind::Lathe) => "is this a lathe program?".to_owned(),
-        (false, _) => format!("is this {}?", kind(finding)),
+        (true, _) => m,
+        (false, Kind::Lathe) => m.form("lathe"),
+        (false, _) => m.form("doubt"),
     }
 }
 
 /// One action; in doubt the one that answers the question.
-fn advice(finding: &Finding) -> Vec<String> {
+fn helps(finding: &Finding) -> Vec<Help> {
     let supported = match finding.kind {
-        Kind::Heidenhain | Kind::Okuma | Kind::Mazatrol => {
-            "ncc has no dialect for it; post the program again for a control of `ncc dialects`"
-        }
-        Kind::Text => "name the part program itself",
-        Kind::Lathe | Kind::WireEdm | Kind::Printer => {
-            "ncc supports milling programs only; post again for a mill"
-        }
+        Kind::Heidenhain | Kind::Okuma | Kind::Mazatrol => "help-control",
+        Kind::Text => "help-text",
+        Kind::Lathe | Kind::WireEdm | Kind::Printer => "help-mill",
     };
-    vec![supported.to_owned(), "if it is a milling program: `--assume milling`".to_owned()]
+    vec![Help::new(supported), Help::new("help")]
 }

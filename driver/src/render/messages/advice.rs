@@ -1,4 +1,4 @@
-//! What to do about a fault: which helps of its entry in `messages/`, the first one what most people will want.
+//! Chooses the helps of a fault from its entry in `messages/`. The first help serves most users.
 
 use ncc_dialects::{
     ARC_TOLERANCE, ARC_WITHOUT_CENTRE, CALL_DEPTH, DECIMAL_POINT, Dialect, FIRST_TOOL, MACRO_DEPTH,
@@ -24,7 +24,7 @@ use crate::review::words::decimal;
 const ARC_TOLERANCES: [(u64, &str); 4] =
     [(30_000_000, "0.03"), (50_000_000, "0.05"), (100_000_000, "0.1"), (200_000_000, "0.2")];
 
-/// What to do. Empty where the message says it already.
+/// The helps of a fault, each an action. Empty if the message suffices.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     message(fault, at).helps(helps(fault, at))
 }

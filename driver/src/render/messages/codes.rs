@@ -4,7 +4,7 @@
 //! M46 on a fanuc    open: the machine builder defines it, and the user may state what it does
 //! ```
 
-use ncc_dialects::{CodeRow, Dialect, Meaning};
+use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
 
 /// Whether a code is an M code that the user may say something of: the dialect does not have it, or refuses it.
 pub(super) fn is_open(code: &str, dialect: &Dialect) -> bool {
@@ -21,5 +21,5 @@ pub fn may_be_stated(row: Option<&CodeRow>) -> bool {
 /// Whether a code returns to a reference point, by way of a point that its axis words name: `G28`, `G30`.
 pub(super) fn is_return(code: &str, from: &Dialect) -> bool {
     let means = from.code.iter().find(|row| row.code == code).and_then(|row| row.means);
-    matches!(means, Some(Meaning::GoToReference { .. })) && ["G28", "G30"].contains(&code)
+    matches!(means, Some(Meaning::GoToReference { .. })) && from.family == Family::Word
 }

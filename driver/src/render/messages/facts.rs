@@ -1,4 +1,4 @@
-//! Which entry of `messages/` a fault has, and the values in it. The helps are chosen in `advice`.
+//! Chooses the entry of `messages/` for a fault, with its values. `advice` chooses the helps.
 //!
 //! ```text
 //! Fault::WordWithoutNumber { letter: 'X' }    NC0106, letter = X, source = fanuc, target = siemens
@@ -17,7 +17,7 @@ use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
 use crate::render::reasons::{self, lacks, run_time, unexecuted};
 use crate::render::spelled::{character, found_words, kept, mode, work_offset};
-use crate::render::text::{plain, plain_upto, quoted};
+use crate::render::text::{plain, plain_upto, shown};
 
 /// So much is shown of the words of a block in a headline, in characters.
 const WORDS: usize = 24;
@@ -73,38 +73,30 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         | Fault::NotTheSame { .. } => m,
 
         Fault::UnexpectedCharacter { found } => m.text("found", character(*found)),
-        Fault::BadNumber { text } => m.text("text", quoted(text)),
+        Fault::BadNumber { text } => m.text("text", shown(text)),
         Fault::BlockTooLong { limit } => m.count("limit", *limit),
         Fault::WordWithoutNumber { letter } | Fault::WordTwice { letter } => m.text("letter", *letter),
         Fault::Syntax { found, expected } => {
             m.text("found", found_words(found)).text("expected", plain(expected))
         }
-        Fault::OpeningMarkMissing { mark } | Fault::TextBeforeStart { mark } => m.text("mark", quoted(mark)),
+        Fault::OpeningMarkMissing { mark } | Fault::TextBeforeStart { mark } => m.text("mark", shown(mark)),
         Fault::LabelTwice { name } => m.text("name", plain(name)),
-        Fault::ComparedLast { what } => m.text("what", quoted(what)),
+        Fault::ComparedLast { what } => m.text("what", shown(what)),
 
         Fault::UnknownCode { code } => {
-            let m = m.text("code", quoted(code)).text("plain", plain(code));
+            let m = m.text("code", shown(code));
             if is_open(code, at.from) { m.form("machine") } else { m }
         }
-        Fault::NotSupported { code, name } => {
-            m.text("code", quoted(code)).text("plain", plain(code)).text("name", plain(name))
-        }
-        Fault::CodesExclude { first, second } => {
-            m.text("first", quoted(first)).text("second", quoted(second))
-        }
+        Fault::NotSupported { code, name } => m.text("code", shown(code)).text("name", plain(name)),
+        Fault::CodesExclude { first, second } => m.text("first", shown(first)).text("second", shown(second)),
         Fault::WordUnused { word } | Fault::PointNotAllowed { word } | Fault::OutOfRange { word } => {
-            m.text("word", quoted(word))
+            m.text("word", shown(word))
         }
         // Any axis will do.
         Fault::WordMissing { code, word } if is_return(code, at.from) => {
-            m.form("return").text("code", plain(code)).text("plain", plain(word))
+            m.form("return").text("code", plain(code))
         }
-        Fault::WordMissing { code, word } => m
-            .text("code", quoted(code))
-            .text("bare", plain(code))
-            .text("word", quoted(word))
-            .text("plain", plain(word)),
+        Fault::WordMissing { code, word } => m.text("code", shown(code)).text("word", shown(word)),
         Fault::TooManyCodes { letter, limit } => m.text("letter", *letter).count("limit", *limit),
         Fault::ArcEndOffCircle { radii: [start, end], allowed: _ }
         | Fault::ArcRadiiDiffer { radii: [start, end], allowed: _ } => {
@@ -114,10 +106,10 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::CompensatedThere { kind } => m.text("what", reasons::kind(*kind)),
         Fault::NoCorner { why } => m.text("what", unexecuted::no_corner(*why)),
         Fault::PositionUnknown { axis } => m.text("axis", *axis),
-        Fault::CallUnknown { name } => m.text("name", quoted(name)).text("plain", plain(name)),
-        Fault::CallsTooDeep { name, most } => m.text("name", quoted(name)).count("most", *most),
+        Fault::CallUnknown { name } => m.text("name", shown(name)),
+        Fault::CallsTooDeep { name, most } => m.text("name", shown(name)).count("most", *most),
         Fault::CallsDeeper { name, depth, most, macros } => m
-            .text("name", quoted(name))
+            .text("name", shown(name))
             .text("kind", kind_of_call(*macros))
             .count("depth", *depth)
             .count("most", *most),
@@ -125,7 +117,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("kind", kind_of_call(*macros)).count("depth", *depth).count("sure", *sure)
         }
         Fault::CallRecursive { name } | Fault::ProgramTwice { name } | Fault::LabelUnknown { name } => {
-            m.text("name", quoted(name))
+            m.text("name", shown(name))
         }
         Fault::MacroLanguage { what } => m.text("what", plain(what)),
         Fault::NotExecuted { what } => m.text("what", plain(&unexecuted::text(what))),
@@ -149,15 +141,11 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::ContourUnreachable { why } => unreachable(*why, m),
 
         Fault::AssumedMode { fact, value } => m.text("mode", mode(*fact)).text("value", plain(value)),
-        Fault::AssumedNoEffect { code } | Fault::CodeLeftOut { code } => {
-            m.text("code", quoted(code)).text("plain", plain(code))
-        }
-        Fault::AssumedBareNumber { word, value } => m.text("word", quoted(word)).text("value", plain(value)),
+        Fault::AssumedNoEffect { code } | Fault::CodeLeftOut { code } => m.text("code", shown(code)),
+        Fault::AssumedBareNumber { word, value } => m.text("word", shown(word)).text("value", plain(value)),
         Fault::AssumedWorkOffset { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
-        Fault::AssumedRow { code, meaning } => m.text("code", quoted(code)).text("meaning", plain(meaning)),
-        Fault::AssumedOption { option, value } => {
-            m.text("option", quoted(option)).text("plain", plain(option)).text("value", quoted(value))
-        }
+        Fault::AssumedRow { code, meaning } => m.text("code", shown(code)).text("meaning", plain(meaning)),
+        Fault::AssumedOption { option, value } => m.text("option", shown(option)).text("value", shown(value)),
         Fault::AssumedParameter { parameter, value } => {
             m.text("parameter", plain(parameter)).text("value", plain(value))
         }
@@ -199,16 +187,14 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("named", named.to_string()).text("waiting", waiting.to_string())
         }
         Fault::AssumedReturn { code, words, zero, last } => {
-            let m = m.text("code", quoted(code)).text("words", plain_upto(words, WORDS));
+            let m = m.text("code", shown(code)).text("words", plain_upto(words, WORDS));
             match (last, zero) {
                 (true, _) => m,
                 (false, true) => m.form("straight"),
                 (false, false) => m.form("incremental"),
             }
         }
-        Fault::AssumedCycle { cycle, motion } => {
-            m.text("cycle", quoted(cycle)).text("motion", quoted(motion))
-        }
+        Fault::AssumedCycle { cycle, motion } => m.text("cycle", shown(cycle)).text("motion", shown(motion)),
         Fault::AssumedControl { taken, other } => m.text("taken", plain(taken)).text("other", plain(other)),
         Fault::AssumedRadius { entry } => m.text("entry", entry.to_string()),
         Fault::ToolNumbered { name, number } => {
@@ -218,12 +204,10 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("tool", tool.to_string()).text("edge", edge.to_string()).text("entry", entry.to_string())
         }
 
-        Fault::Rounded { word, written } => m.text("word", quoted(word)).text("written", quoted(written)),
+        Fault::Rounded { word, written } => m.text("word", shown(word)).text("written", shown(written)),
         Fault::PatternExpanded { holes } => m.count("holes", *holes),
         Fault::CycleExpanded { kind } => m.text("kind", plain(kind)),
-        Fault::CallExpanded { name, times } => {
-            m.text("name", quoted(name)).text("plain", plain(name)).count("times", *times)
-        }
+        Fault::CallExpanded { name, times } => m.text("name", shown(name)).count("times", *times),
         Fault::SkipLevelLost { level } => m.text("level", level.to_string()),
         Fault::NumbersLeftOut { count } => m.count("count", *count),
         Fault::RepeatExpanded { times } => m.count("times", *times),
@@ -252,7 +236,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::SecondWorkOffset { first, second } => {
             m.text("first", first.to_string()).text("second", second.to_string())
         }
-        Fault::TargetRange { word } => m.text("word", quoted(word)),
+        Fault::TargetRange { word } => m.text("word", shown(word)),
         Fault::ProfileDenies { fact, machine } => m.text("machine", plain(machine)).text("fact", plain(fact)),
         Fault::NotInMap { what, number, name } => {
             let m = m.text("thing", numbered(*what, 1)).text("number", number.to_string());

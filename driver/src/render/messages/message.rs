@@ -7,40 +7,22 @@
 //! Message::new(106).text("letter", "X")    "`X` without a number"
 //! ```
 //!
-//! The form is Fluent's: a headline, and attributes for the label, the further places (`related`), the helps and the
-//! phrase in the account (`account`). A code
-//! may have several entries, told apart by a form: `NC0225-units`. Another language is another file in the folder of
-//! the code. Not here: which entry and which values a fault has (`facts`, `advice`).
+//! The form is Fluent's: a headline, and attributes for the label, the further places (`related`), the helps, and the
+//! phrase in the summary (`account`). A code may have several entries: `NC0225-units` has the form `units`. Another
+//! language is another file in the folder of the code. Not here: which entry and which values a fault has (`facts`,
+//! `advice`).
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use fluent_bundle::{FluentArgs, FluentBundle, FluentResource, FluentValue};
 use serde::Serialize;
 
+use super::files::FILES;
+
 /// In place of a code: words that belong to no code.
 const COMMON: u16 = 0;
-
-macro_rules! entries {
-    ($($code:literal)*) => {
-        /// The entries of each code.
-        pub(crate) const ENTRIES: &[(u16, &str)] =
-            &[$(($code, include_str!(concat!("../../../messages/NC0", stringify!($code), "/en.ftl")))),*];
-    };
-}
-
-entries! {
-    101 102 103 104 105 106 107 108 109 110 111 112 113 114 115
-    201 202 203 204 205 206 207 208 209 210 211 212 213 214 215 216 217 218 219 220 221 222 223 224 225 226
-    227 228 229 230 231 232 233 234 235 236 237 238 240 241 250
-    301 302 303 304 305 306 307 308 309 310 311 312 313 320 321 322 323 324 325 326 327 328 329 330 331 332
-    336 337 338 339 340 342 343 345 346 350
-    401 402 403 404 405 406 407 408 409 410 411 412 413 414 415 416 417 418 419 420 421 422 423 424 425 426 427
-    430 431 432 433 440 442 443 444 450
-    501 502 503 504 505 506 507 508 509 510 520 521 522 523
-    601 602 603 604 605 606 607 608 609 610
-    701 702 703 704 705 706 707 708 709 710 711 712 713 714 715 716 717 718 719
-    801 802 803 804 805 806 807 808 809 810 811 812 813 814
-}
 
 /// A value in a message.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -126,13 +108,9 @@ impl Message {
         }
     }
 
-    /// Its values by their names, without the backquotes of quoted text, for programs that make words of their own.
+    /// Its values by their names, for programs that make words of their own.
     pub(crate) fn values(&self) -> BTreeMap<&'static str, Value> {
-        let bare = |value: &Value| match value {
-            Value::Text(text) => Value::Text(text.trim_matches('`').to_owned()),
-            Value::Count(count) => Value::Count(*count),
-        };
-        self.values.iter().map(|(name, value)| (*name, bare(value))).collect()
+        self.values.iter().cloned().collect()
     }
 
     /// The headline.
@@ -181,12 +159,20 @@ impl Message {
 /// A message with the entries of its code.
 struct Opened<'m> {
     message: &'m Message,
-    bundle: FluentBundle<FluentResource>,
+    bundle: Rc<FluentBundle<FluentResource>>,
+}
+
+thread_local! {
+    /// The codes that were read before: a report formats some of them thousands of times.
+    static READ: RefCell<BTreeMap<u16, Rc<FluentBundle<FluentResource>>>> = const { RefCell::new(BTreeMap::new()) };
 }
 
 impl Opened<'_> {
     fn new(message: &Message) -> Opened<'_> {
-        Opened { message, bundle: bundle(message.code) }
+        let read = |code| {
+            READ.with_borrow_mut(|all| all.entry(code).or_insert_with(|| Rc::new(bundle(code))).clone())
+        };
+        Opened { message, bundle: read(message.code) }
     }
 
     /// The words of an attribute, or of the headline, if the entry has it.
@@ -216,7 +202,7 @@ impl Opened<'_> {
 fn bundle(code: u16) -> FluentBundle<FluentResource> {
     let text = match code {
         COMMON => include_str!("../../../messages/common/en.ftl"),
-        _ => ENTRIES.iter().find(|(known, _)| *known == code).map_or("", |(_, text)| *text),
+        _ => FILES.iter().find(|files| files.code == code).map_or("", |files| files.words),
     };
     let parsed = FluentResource::try_new(text.to_owned());
     debug_assert!(parsed.is_ok(), "messages/NC{code:04}/en.ftl does not parse");

@@ -12,6 +12,7 @@ pub mod codes;
 mod context;
 pub mod facts;
 mod file_needs;
+pub mod files;
 pub mod message;
 #[cfg(test)]
 mod samples;

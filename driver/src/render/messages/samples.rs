@@ -14,7 +14,7 @@ use ncc_ir::unexecuted::{FlowUnexecuted, ValueUnexecuted};
 use super::advice::advice;
 use super::context::Context;
 use super::facts::message;
-use super::message::ENTRIES;
+use super::files::{FILES, Files};
 use super::words::words;
 
 /// A headline has at most so many characters, and a label: the form of a message, with short values.
@@ -310,9 +310,9 @@ fn every_fault_has_its_words() {
 /// An entry is of its own code, and every attribute is one that something shows.
 #[test]
 fn entries_belong_to_their_code() {
-    for (code, text) in ENTRIES {
+    for Files { code, words, .. } in FILES {
         let id = format!("NC{code:04}");
-        for line in text.lines().filter(|line| line.starts_with(|c: char| !c.is_whitespace())) {
+        for line in words.lines().filter(|line| line.starts_with(|c: char| !c.is_whitespace())) {
             assert!(line.starts_with(&id), "{id}: {line}");
         }
     }

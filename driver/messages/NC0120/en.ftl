@@ -1,0 +1,13 @@
+NC0120 = this looks like { $looks }
+    .help-control = ncc has no dialect for it; post the program again for a control of `ncc dialects`
+    .help-text = name the part program itself
+    .help-mill = ncc supports milling programs only; post again for a mill
+    .help = if it is a milling program: `--assume milling`
+NC0120-doubt = is this { $looks }?
+    .help-control = ncc has no dialect for it; post the program again for a control of `ncc dialects`
+    .help-text = name the part program itself
+    .help-mill = ncc supports milling programs only; post again for a mill
+    .help = if it is a milling program: `--assume milling`
+NC0120-lathe = is this a lathe program?
+    .help-mill = ncc supports milling programs only; post again for a mill
+    .help = if it is a milling program: `--assume milling`
