@@ -317,3 +317,17 @@ fn entries_belong_to_their_code() {
         }
     }
 }
+
+/// How deep calls may go is a fact of the target, also where it is assumed.
+#[test]
+fn the_depth_of_calls_is_stated_for_the_target() {
+    let dialect = |id: &str| ncc_dialects::builtin(id).unwrap();
+    let at = Context { from: dialect("mach9"), to: dialect("linuxcnc"), snippet: "", beside: ("", "") };
+    for fault in [
+        Fault::CallDepth { depth: 6, sure: 4, macros: false },
+        Fault::CallsDeeper { name: "2000".into(), depth: 10, most: 4, macros: false },
+    ] {
+        let help = advice(&fault, at);
+        assert!(help.iter().all(|help| !help.contains("--from-option")), "{help:?}");
+    }
+}
