@@ -75,7 +75,10 @@ const PROGRAMS: [(&str, Must); 51] = [
     ("interp-good--good-arc.medium.metric.center-format", Must::Equal),
     ("interp-good--good-arc.small.metric.center-format", Must::Equal),
     // Feeds by the time of moves that are other ones beside a contour.
-    ("interp-inverse-time-with-comp", Must::RefusedByName("Compensation(FeedModeListed)")),
+    (
+        "interp-inverse-time-with-comp",
+        Must::RefusedByName("Expanded { what: Function { function: \"SET_FEED_MODE\" } }"),
+    ),
     ("interp-m98m99-02-variables", Must::Equal),
     ("interp-m98m99-04-M98-but-no-sub", Must::Refused("CallUnknown")),
     (
