@@ -172,6 +172,7 @@ pub mod lack;
 pub mod operator_text;
 pub mod program;
 pub mod rank;
+pub mod reason;
 pub mod run_time;
 pub mod source;
 pub mod track;

@@ -121,7 +121,7 @@ fn the_angle_is_written_by_its_letter() {
         match word {
             Some(word) => assert!(written.contains(word), "{value}\n{written}{said}"),
             None => {
-                assert!(outcome.release.is_err() && said.contains("a spindle stopped at an angle"), "{said}")
+                assert!(outcome.release.is_err() && said.contains("has no oriented spindle stop"), "{said}")
             }
         }
     }

@@ -27,7 +27,7 @@ fn a_sinumerik_knows_a_subprogram_by_its_extension() {
     let called = ncc(folder, &["siemens", "to", "linuxcnc", "slot.spf", "--units", "mm"]).exits(0).out;
     let whole = "\no<slot> sub\nG90 G0 X5 Y5\nG1 X10 F100\no<slot> endsub\nM2\n%\n";
     assert!(called.ends_with(whole) && !called.contains("G54\n"), "{called}");
-    ncc(folder, &["siemens", "to", "mach9", "slot.spf"]).exits(1).says("without its main program");
+    ncc(folder, &["siemens", "to", "mach9", "slot.spf"]).exits(1).says("but the text has no main program");
     // One of a Fanuc goes back too.
     fs::write(folder.join("slot.nc"), "%\nO9001\nG90 G0 X5. Y5.\nG1 X10. F100.\nM99\n%\n").unwrap();
     let other = ncc(folder, &["fanuc", "to", "siemens", "slot.nc", "--units", "mm"]).exits(0).out;
@@ -105,7 +105,9 @@ fn a_macro_is_a_file_that_a_linuxcnc_calls() {
     let named = ncc(folder, &["fanuc", "to", "linuxcnc", "Slot.nc"]).exits(0).out;
     assert!(named.contains("\no<slot> sub\n"), "{named}");
     fs::write(folder.join("a slot.nc"), &nameless).unwrap();
-    ncc(folder, &["fanuc", "to", "linuxcnc", "a slot.nc"]).exits(1).says("a subprogram called a slot");
+    ncc(folder, &["fanuc", "to", "linuxcnc", "a slot.nc"])
+        .exits(1)
+        .says("linuxcnc has no subprogram called a slot");
 }
 
 #[test]
@@ -194,7 +196,9 @@ fn a_linuxcnc_knows_a_subprogram_by_the_name_of_its_file() {
     assert!(again.contains("\no<slot> sub\n") && again.ends_with("\no<slot> endsub\nM2\n%\n"), "{again}");
     // No letter gives the tenth.
     fs::write(folder.join("slot.ngc"), text.replace("#2", "#10")).unwrap();
-    ncc(folder, &["linuxcnc", "to", "fanuc", "slot.ngc"]).exits(1).says("which no letter gives");
+    ncc(folder, &["linuxcnc", "to", "fanuc", "slot.ngc"])
+        .exits(1)
+        .says("fanuc has no letter for argument 10");
     // Under another name, or with more in the file, it is a program with a subprogram in it.
     ncc(folder, &["linuxcnc", "to", "siemens", "other.ngc"]).says("NC0607");
     fs::write(folder.join("slot.ngc"), text.replace("M2\n", "o<slot> call [1] [2]\nM2\n")).unwrap();

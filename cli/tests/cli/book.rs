@@ -94,11 +94,14 @@ fn console(folder: &Path, command: &str) -> String {
     }
 }
 
+/// With `UPDATE_EXPECT=1` the pages get what is printed.
 #[test]
 fn consoles_print_what_their_pages_show() {
+    let update = std::env::var_os("UPDATE_EXPECT").is_some();
     let mut commands = 0;
     for path in pages() {
         let text = fs::read_to_string(&path).unwrap();
+        let mut updated = text.clone();
         let folder = tempfile::tempdir().unwrap();
         if text.contains(" corpus/") && text.contains("```console") {
             copy(&root().join("corpus"), &folder.path().join("corpus"));
@@ -114,7 +117,17 @@ fn consoles_print_what_their_pages_show() {
                 commands += 1;
                 format!("$ {command}\n{}", console(folder.path(), command))
             });
-            assert_eq!(printed.collect::<String>(), text, "{}", path.display());
+            let printed = printed.collect::<String>();
+            match update {
+                true => {
+                    updated = updated
+                        .replace(&format!("```console\n{text}```"), &format!("```console\n{printed}```"))
+                }
+                false => assert_eq!(printed, text, "{}", path.display()),
+            }
+        }
+        if updated != text {
+            fs::write(&path, updated).unwrap();
         }
     }
     assert!(commands >= 5, "{commands}");

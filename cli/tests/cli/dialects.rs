@@ -191,7 +191,9 @@ fn an_option_says_what_a_tool_change_leaves_of_the_spindle() {
     assert!(out.contains("M05\nT2 M06\n"), "{out}");
     let out = run(&format!("fanuc to fanuc part.nc {stopped} --to-option spindle_at_change=stops"));
     assert!(out.exits(0).out.contains("T2 M06\nX50.\n"));
-    run("fanuc to fanuc part.nc --to-option spindle_at_change=stops").exits(1).says("goes on turning");
+    run("fanuc to fanuc part.nc --to-option spindle_at_change=stops")
+        .exits(1)
+        .says("tool change with the spindle turning");
 }
 
 /// `dialects new` prints a dialect that works at once and passes its test.

@@ -74,7 +74,7 @@ fn what_a_program_asks_of_the_machine_differs_between_machines() {
     run("diff", "asks.nc", "asks.nc").exits(0);
     run("diff", "asks.nc", "says.nc").exits(1);
     run("verify", "asks.nc", "says.nc").exits(1);
-    run("diff", "decides.nc", "says.nc").exits(5).says("a way that depends on the machine's own values");
+    run("diff", "decides.nc", "says.nc").exits(5).says("the machine decides this branch");
     let timed = ncc(folder.path(), &["time", "--from", "fanuc", "asks.nc"]).exits(0).out;
     assert!(timed.contains("the machine's offset.1.x, which the program asks for"), "{timed}");
 }
@@ -159,21 +159,23 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
         assert_eq!(kept.err.matches("warning[NC0608]").count(), 2, "{}", kept.err);
         assert!(!kept.err.contains("NC0605"), "{}", kept.err);
     }
-    asking("#31=#7\nIF [#0 NE #31] GOTO 8\n#7=5.\nN8").exits(1).says("whether a call gives the argument 31");
-    asking("IF [#27 EQ #0] THEN #27=5.").exits(1).says("whether a call gives the argument 27");
+    asking("#31=#7\nIF [#0 NE #31] GOTO 8\n#7=5.\nN8")
+        .exits(1)
+        .says("siemens cannot ask whether a call passes 31");
+    asking("IF [#27 EQ #0] THEN #27=5.").exits(1).says("siemens cannot ask whether a call passes 27");
     write(&folder, "none.toml", "[variables]\n\"#7\" = { among = [1], vacant = true }\n");
     asking("IF [#7 EQ #0] THEN #7=5.").exits(0);
-    run("fanuc to siemens asks.nc --args none.toml").exits(1).says("--args leaves without a value");
+    run("fanuc to siemens asks.nc --args none.toml").exits(1).says("argument 7 has no value in `--args`");
     // A number that is computed may be that of an argument.
     write(&folder, "number.nc", &text.replace("Z-#26", "Z-#[#30+26]"));
-    run("fanuc to siemens number.nc").exits(1).says("a variable whose number is computed");
+    run("fanuc to siemens number.nc").exits(1).says("a computed variable number among macro arguments");
     // Ways that meet again have what the caller has in force.
     let ways = "%\nO9044\nIF [#11 EQ 1] GOTO 10\nG90 G0 Y#25\nGOTO 99\nN10 G90 G0 X#24\nN99 M99\n%\n";
     write(&folder, "ways.nc", ways);
     run("fanuc to siemens ways.nc").exits(0);
     // What no letter gives is no argument.
     write(&folder, "rest.nc", &text.replace("#26", "#27"));
-    run("fanuc to siemens rest.nc").exits(1).says("the variable 27, which may have no value");
+    run("fanuc to siemens rest.nc").exits(1).says("variable 27 may be empty where it is read");
 }
 
 /// A subprogram that only moves goes back to its caller, and states nothing of what that has in force.
@@ -199,7 +201,7 @@ fn a_subprogram_by_itself_goes_back() {
     // On one of two ways it does.
     let either = "IF [#1 EQ 1] GOTO 5\nG80\nGOTO 6\nN5 G4 P10\nN6";
     write(&folder, "sub.nc", &format!("%\nO1000\nG90 G99 G81 X10. Z-5. R2. F100.\n{either}\nM99\n%\n"));
-    run("linuxcnc").exits(1).says("a cycle that is left in force");
+    run("linuxcnc").exits(1).says("the cycle stays active for a caller");
 }
 
 /// What nothing in a program calls is not executed, and that is told; what it is given, nobody knows.
@@ -219,7 +221,7 @@ fn what_nothing_calls_is_told() {
     }
     run("fanuc to fanuc macro.nc").exits(0);
     for to in ["siemens", "linuxcnc"] {
-        run(&format!("fanuc to {to} macro.nc")).exits(1).says("the variable 9, which may have no value");
+        run(&format!("fanuc to {to} macro.nc")).exits(1).says("variable 9 may be empty where it is read");
     }
 }
 

@@ -14,7 +14,7 @@ const REFUSED: [(&str, &str); 7] = [
     ("interp-g76", "NC0120"),
     ("interp-g84-g18-g99", "cycle along another axis"),
     ("interp-g84-g19-g99", "cycle along another axis"),
-    ("interp-inverse-time-with-comp", "under cutter radius compensation"),
+    ("interp-inverse-time-with-comp", "SET_FEED_MODE in a contour that ncc computes"),
     ("interp-m98m99-10-M98-P001", "two programs have the name `2`"),
 ];
 

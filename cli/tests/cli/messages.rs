@@ -219,18 +219,18 @@ fn text_for_a_device() {
     }
     // What was executed has its values written out, which no such text has.
     let told = run(&["fanuc", "to", "fanuc", "sizes.nc", "-o", "flat.nc", "--pass", "flatten"]).exits(1).err;
-    assert!(told.contains("text for a device with these characters"), "{told}");
+    assert!(told.contains("has no output with these characters"), "{told}");
     // A Haas writes eight digits, and needs nothing opened.
     write("digits.nc", &source.replace("[44]", "[54]"));
     let told = run(&["fanuc", "to", "haas", "digits.nc", "-o", "no.nc"]).exits(1).err;
-    assert!(told.contains("a value for a device with these digits"), "{told}");
+    assert!(told.contains("haas has no output value with these digits"), "{told}");
     assert!(
         run(&["haas", "to", "haas", "digits.nc", "-o", "no.nc"]).exits(1).err.contains("more digits than")
     );
     write("unopened.nc", &source.replace("POPEN\n", ""));
     run(&["haas", "to", "haas", "unopened.nc", "-o", "open.nc"]).exits(0);
     let told = run(&["haas", "to", "fanuc", "unopened.nc", "-o", "no.nc"]).exits(1).err;
-    assert!(told.contains("text for a device that the program does not open"), "{told}");
+    assert!(told.contains("output to a device that the program does not open"), "{told}");
 }
 
 /// What the output takes for granted of the target's control is told as what the source does.

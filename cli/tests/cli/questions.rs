@@ -171,7 +171,7 @@ fn a_batch_stops_for_each_program_by_itself() {
 fn other_verbs_never_stop() {
     let folder = programs();
     let at = folder.path();
-    let line = "units.nc: not stated, and it changes the cut; read as units = mm (else `--units inch`)\n";
+    let line = "units.nc: not stated, and it changes the cut; ncc took units = mm (else `--units inch`)\n";
     fs::write(at.join("loose.nc"), UNITS.replace("G01 X1.5", "g1x1.5")).unwrap();
     for verb in [
         "time --from fanuc units.nc",
@@ -189,7 +189,7 @@ fn other_verbs_never_stop() {
     assert!(verified.err.starts_with(line), "{}", verified.err);
     let arguments = "git-diff --from fanuc part.nc units.nc 0 100644 loose.nc 0 100644";
     let told = say(at, arguments).exits(0);
-    assert!(told.err.contains("read as units = mm"), "{}", told.err);
+    assert!(told.err.contains("ncc took units = mm"), "{}", told.err);
     // What is answered is not told.
     for verb in ["time --from fanuc units.nc --units inch", "check --from fanuc plain.nc"] {
         assert!(!say(at, verb).exits(0).err.contains("not stated"), "{verb}");

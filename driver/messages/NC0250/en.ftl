@@ -1,3 +1,20 @@
-NC0250 = this corner cannot be made: { $what }
+# A reason's entry lacks a label or a help: those of the first entry are shown.
+NC0250 = this corner cannot be made
     .label = this corner
     .help = check the size of the corner; a line or arc in the same plane must follow it
+NC0250-NoSize = this corner has size 0
+    .label = its size here
+    .help = delete the corner, or give it a size
+NC0250-PlaneChanges = the plane changes at this corner
+    .label = both moves must be in one plane
+NC0250-NoMotion = a move without motion at this corner
+    .label = the corner needs two moves
+NC0250-LeavesPlane = a move leaves the plane at this corner
+    .label = both moves must be in the plane
+NC0250-TurnsBack = the path turns back at this corner
+    .label = no corner fits between the moves
+NC0250-TooLarge = this corner is longer than its moves
+    .label = its size here
+    .help = make the corner smaller
+NC0250-NoNextMove = no move in the plane follows this corner
+    .label = a line or arc must follow it

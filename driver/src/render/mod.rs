@@ -17,7 +17,6 @@ pub mod line;
 pub mod messages;
 pub mod numbers;
 pub mod questions;
-pub(crate) mod reasons;
 pub mod report;
 pub mod scaffold;
 pub mod source;

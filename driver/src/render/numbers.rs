@@ -1,6 +1,5 @@
 //! Lengths and angles in messages.
 
-use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::ONE;
 use ncc_ir::program::numbered::Numbered;
@@ -10,12 +9,6 @@ use super::text::plain;
 /// Nanos in millimetres, to four digits after the point.
 pub fn millimetres(nanos: i64) -> String {
     signed(nanos.abs())
-}
-
-/// The headline of a rotary turn that controls do not make alike, by so many nanos of a degree.
-pub fn rotary_turn(axis: Axis, by: i64, or: i64) -> String {
-    let axis = char::from(axis.letter());
-    format!("does {axis} turn by {} degrees here, or by {}?", signed(by), signed(or))
 }
 
 /// A length or an angle with its sign, as [`millimetres`].

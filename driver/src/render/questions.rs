@@ -15,7 +15,8 @@ use serde::Serialize;
 
 use super::about::{About, Told};
 use super::json::JsonPlace;
-use super::numbers::{rotary_turn, signed};
+use super::messages::message::Message;
+use super::numbers::signed;
 use super::source::Excerpt;
 use super::spelled::{Counted, return_path};
 use super::text::{plain, plain_upto};
@@ -106,7 +107,7 @@ pub fn ask(about: &mut About, questions: &[Question]) -> io::Result<Vec<Asked>> 
                 column,
                 end_column: column + text.chars().count() as u64,
                 text,
-                label: "both readings differ here first".to_owned(),
+                label: Message::common("question-label").headline(),
             },
             answers,
             line: excerpt.line(&lines, question.span.start).to_owned(),
@@ -147,7 +148,7 @@ pub fn note(questions: &[Question]) -> String {
             format!("{}{other}", taken(question))
         })
         .collect();
-    format!("not stated, and it changes the cut; read as {}", own.join("; "))
+    Message::common("readings-taken").text("readings", own.join("; ")).headline()
 }
 
 /// ncc's own reading, in the few words that fit a program's head.
@@ -163,41 +164,49 @@ pub fn taken(question: &Question) -> String {
 
 fn headline(question: &Question, text: &str) -> String {
     let [first, second] = question.readings.each_ref();
-    match (question.fact, &first.answer, &second.answer) {
+    let asked = |form| Message::new(question.fact.code()).form(form);
+    let both = |form, one: String, two: String| asked(form).text("one", one).text("two", two);
+    let results = (result(&first.result), result(&second.result));
+    let message = match (question.fact, &first.answer, &second.answer) {
         (Fact::Control, Answer::From(own), Answer::From(other)) => {
-            format!("{own} or {other}? The text fits both")
+            both("question", (*own).to_owned(), (*other).to_owned())
         }
-        (Fact::DecimalPoint, ..) => match (result(&first.result), result(&second.result)) {
+        (Fact::DecimalPoint, ..) => match results {
             (Some(one), Some(two)) if is_word(first) => {
-                format!("is {} {one} or {two}?", plain_upto(text, 20))
+                both("question-word", one, two).text("word", plain_upto(text, 20))
             }
-            _ => "numbers without a decimal point: least increments or units?".to_owned(),
+            _ => asked("question"),
         },
-        (Fact::ReturnPath, ..) => match (&first.result, result(&first.result), result(&second.result)) {
-            (Shown::Path { code, .. }, Some(one), Some(two)) => {
-                format!("{} {one}, or {two}?", plain(code))
+        (Fact::ReturnPath, ..) => match (&first.result, results) {
+            (Shown::Path { code, .. }, (Some(one), Some(two))) => {
+                both("question-path", one, two).text("code", plain(code))
             }
-            _ => "which of G90 and G91 counts in this block?".to_owned(),
+            _ => asked("question"),
         },
         (Fact::CycleBesideMotion, ..) => match &first.result {
             Shown::Hole { cycle, motion, .. } => {
-                format!("{} beside {}: a hole, or a move without one?", plain(cycle), plain(motion))
+                asked("question-hole").text("cycle", plain(cycle)).text("motion", plain(motion))
             }
-            _ => "does the cycle beside a motion drill?".to_owned(),
+            _ => asked("question"),
         },
         (Fact::ToolChange, ..) => match (&first.result, &second.result) {
             (Shown::Made(Made::Tool(named)), Shown::Made(Made::Tool(waiting))) => {
-                format!("does M06 put in T{named} or T{waiting}? The next H is H{waiting}")
+                both("question-tools", named.to_string(), waiting.to_string())
             }
-            _ => "does M06 put in the tool of its block, or the one that waits?".to_owned(),
+            _ => asked("question"),
         },
         (Fact::RotaryTurn, ..) => match [&first.result, &second.result] {
-            [Shown::Turn(axis, by), Shown::Turn(_, or)] => rotary_turn(*axis, *by, *or),
-            _ => "how far does a rotary axis turn here?".to_owned(),
+            [Shown::Turn(axis, by), Shown::Turn(_, or)] => Message::new(question.fact.code())
+                .text("axis", char::from(axis.letter()))
+                .text("by", signed(*by))
+                .text("or", signed(*or)),
+            _ => asked("question"),
         },
-        (Fact::Centres, ..) => "arc centres (I J K): from the start of the arc or from zero?".to_owned(),
-        (Fact::Units | Fact::Control, ..) => "mm or inch? The program never states its unit".to_owned(),
-    }
+        (Fact::Centres, ..) => asked("question"),
+        // Which control it is was answered: the unit is the question.
+        (Fact::Units | Fact::Control, ..) => Message::new(Fact::Units.code()).form("question"),
+    };
+    message.headline()
 }
 
 fn is_word(reading: &Reading) -> bool {
@@ -208,7 +217,7 @@ fn answers(both: &[AskedAnswer; 2]) -> String {
     let one = |answer: &AskedAnswer| {
         let option = match &answer.option {
             Some(option) => format!("`{option}`"),
-            None => "write decimal points".to_owned(),
+            None => Message::common("answer-points").headline(),
         };
         match &answer.result {
             Some(result) => format!("{option} ({result})"),
@@ -256,38 +265,47 @@ fn name(units: Units) -> &'static str {
 
 /// What a reading makes, in numbers.
 fn result(shown: &Shown) -> Option<String> {
-    Some(match shown {
-        Shown::Nothing => return None,
-        Shown::Word { value, feed } => word(*value, *feed),
+    let made = |form| Message::common(form);
+    let message = match shown {
+        Shown::Nothing | Shown::Made(Made::Otherwise) => return None,
+        Shown::Word { value, feed } => return Some(word(*value, *feed)),
         Shown::Turn(axis, by) => {
-            format!("{} turns by {} degrees", char::from(axis.letter()), signed(*by))
+            made("result-turn").text("axis", char::from(axis.letter())).text("by", signed(*by))
         }
-        Shown::Hole { cycle, drills: true, .. } => format!("{} drills", plain(cycle)),
+        Shown::Hole { cycle, drills: true, .. } => made("result-drills").text("cycle", plain(cycle)),
         Shown::Hole { cycle, motion, drills: false } => {
-            format!("{} moves all axes, {} is cancelled", plain(motion), plain(cycle))
+            made("result-moves").text("motion", plain(motion)).text("cycle", plain(cycle))
         }
         Shown::Path { words, zero, absolute, .. } => {
-            return_path(words, *zero, if *absolute { Counted::OfPart } else { Counted::FromHere })
+            return Some(return_path(
+                words,
+                *zero,
+                if *absolute { Counted::OfPart } else { Counted::FromHere },
+            ));
         }
-        Shown::Made(made) => match *made {
+        Shown::Made(what) => match *what {
             Made::End(axis, at) => {
-                let unit = if matches!(axis.letter(), b'A'..=b'C') { "degrees" } else { "mm" };
-                format!("{} ends at {} {unit}", char::from(axis.letter()), decimal(at))
+                let form = if matches!(axis.letter(), b'A'..=b'C') { "result-angle" } else { "result-end" };
+                made(form).text("axis", char::from(axis.letter())).text("at", decimal(at))
             }
             Made::Centre(axis, at) => {
-                format!("the centre is at {} {} mm", char::from(axis.letter()), decimal(at))
+                made("result-centre").text("axis", char::from(axis.letter())).text("at", decimal(at))
             }
-            Made::Feed(rate, FeedMode::PerMinute) => format!("the feed is {} mm/min", decimal(rate)),
-            Made::Feed(rate, FeedMode::PerRevolution) => format!("the feed is {} mm a turn", decimal(rate)),
-            Made::Feed(rate, FeedMode::InverseTime) => format!("the feed is {} a minute", decimal(rate)),
-            Made::Dwell(time) => format!("the dwell is {} s", decimal(time)),
-            Made::Spindle(true) => "the spindle turns".to_owned(),
-            Made::Spindle(false) => "the spindle stands".to_owned(),
-            Made::Tool(number) => format!("tool {number} cuts"),
-            Made::Refused(code) => format!("refused, NC{code:04}"),
+            Made::Feed(rate, mode) => made(match mode {
+                FeedMode::PerMinute => "result-feed-per-minute",
+                FeedMode::PerRevolution => "result-feed-per-revolution",
+                FeedMode::InverseTime => "result-inverse-time-feed",
+            })
+            .text("rate", decimal(rate)),
+            Made::Dwell(time) => made("result-dwell").text("time", decimal(time)),
+            Made::Spindle(true) => made("result-spindle-on"),
+            Made::Spindle(false) => made("result-spindle-off"),
+            Made::Tool(number) => made("result-tool").text("number", number.to_string()),
+            Made::Refused(code) => made("result-refused").text("code", format!("NC{code:04}")),
             Made::Otherwise => return None,
         },
-    })
+    };
+    Some(message.headline())
 }
 
 fn word(value: Num, feed: bool) -> String {

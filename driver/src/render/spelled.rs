@@ -4,6 +4,7 @@ use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::diag::ModeName;
 
+use super::messages::message::Message;
 use super::numbers::{millimetres, plural};
 use super::text::{plain, plain_upto, quoted};
 
@@ -42,10 +43,11 @@ pub enum Counted {
 /// The path of a return to a reference point; `zero`: all of its words are nothing.
 pub fn return_path(words: &str, zero: bool, counted: Counted) -> String {
     let words = plain_upto(words, 24);
+    let path = |form| Message::common(form).text("words", words.as_str()).headline();
     match counted {
-        Counted::OfPart => format!("by way of {words} of the part"),
-        Counted::FromHere if zero => "from where it stands".to_owned(),
-        Counted::FromHere => format!("by {words} from where it stands"),
+        Counted::OfPart => path("path-of-part"),
+        Counted::FromHere if zero => path("path-from-here"),
+        Counted::FromHere => path("path-by-words"),
     }
 }
 

@@ -9,8 +9,7 @@ use super::drive::{Course, Length, Plan};
 use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
-use crate::render::messages::words::unreachable;
-use crate::render::reasons::{lacks, unexecuted};
+use crate::render::messages::words::{Context, unreachable, words};
 use crate::render::spelled;
 
 /// Of the program and its control: what the front-end took for granted.
@@ -80,13 +79,11 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
                 let why = unreachable(*why);
                 lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
             }
-            Fault::TargetLacks { lack } => {
-                let lack = lacks::text(lack);
-                lines.push(format!("from line {line} on timed along the programmed contour: {lack}"));
-            }
-            Fault::NotExecuted { what } => {
-                let what = unexecuted::text(what);
-                lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
+            Fault::TargetLacks { .. } | Fault::NotExecuted { .. } => {
+                let dialect = plan.job.from.dialect;
+                let at = Context { from: dialect, to: dialect, snippet: "", beside: ("", "") };
+                let why = words(fault, at).message;
+                lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
             }
             _ => lines.push(format!("from line {line} on timed along the programmed contour")),
         }

@@ -2,7 +2,7 @@
 //!
 //! `G33 X10. Z-5. F1.` for a control that cuts threads along one axis alone is refused as
 //! `Lack::Threads(ThreadsLack::AxisCount)`. Each wing has its reasons in a file. The driver alone has their words
-//! (`render/reasons`) and chooses the help by the variant.
+//! (`messages/`) and chooses the help by the variant.
 
 mod arcs;
 mod compensation;
@@ -23,6 +23,8 @@ mod threads;
 mod tools;
 mod words;
 
+use crate::reason::wings;
+
 pub use arcs::ArcsLack;
 pub use compensation::{CompensationLack, ExpandedContour};
 pub use corners::CornersLack;
@@ -42,59 +44,45 @@ pub use threads::{TapValue, ThreadsLack};
 pub use tools::ToolsLack;
 pub use words::WordsLack;
 
-macro_rules! lacks {
-    ($( $(#[$doc:meta])* $name:ident($reason:ident), )*) => {
-        /// What a target lacks.
-        #[derive(Clone, Debug, PartialEq, Eq)]
-        pub enum Lack {
-            $( $(#[$doc])* $name($reason), )*
-        }
-
-        $(
-            impl From<$reason> for Lack {
-                fn from(reason: $reason) -> Lack {
-                    Lack::$name(reason)
-                }
-            }
-        )*
-    };
-}
-
-lacks! {
-    /// Canned cycles and holes.
-    Holes(HolesLack),
-    /// Hole patterns.
-    Patterns(PatternsLack),
-    /// Tapping cycles and spindle-synchronised moves.
-    Threads(ThreadsLack),
-    /// Arcs.
-    Arcs(ArcsLack),
-    /// Rounded and chamfered corners.
-    Corners(CornersLack),
-    /// Cutter compensation.
-    Compensation(CompensationLack),
-    /// Shifts, rotations, scales, mirrors and tilted planes.
-    Frames(FramesLack),
-    /// Machine coordinates, reference points and probing.
-    Machine(MachineLack),
-    /// Tools, tool changes and edges.
-    Tools(ToolsLack),
-    /// Tool length offsets.
-    Lengths(LengthsLack),
-    /// Values in the control's tables.
-    Tables(TablesLack),
-    /// Units, distance modes, planes and path modes.
-    Modes(ModesLack),
-    /// Feeds and dwells.
-    Feeds(FeedsLack),
-    /// Spindle and coolant.
-    Spindle(SpindleLack),
-    /// Program flow and calls.
-    Flow(FlowLack),
-    /// Messages, alarms and text for devices.
-    Operator(OperatorLack),
-    /// Blocks, axis words and numbers.
-    Words(WordsLack),
-    /// Polar coordinates.
-    Polar(PolarLack),
+wings! {
+    /// What a target lacks.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum Lack {
+        /// Canned cycles and holes.
+        Holes(HolesLack),
+        /// Hole patterns.
+        Patterns(PatternsLack),
+        /// Tapping cycles and spindle-synchronised moves.
+        Threads(ThreadsLack),
+        /// Arcs.
+        Arcs(ArcsLack),
+        /// Rounded and chamfered corners.
+        Corners(CornersLack),
+        /// Cutter compensation.
+        Compensation(CompensationLack),
+        /// Shifts, rotations, scales, mirrors and tilted planes.
+        Frames(FramesLack),
+        /// Machine coordinates, reference points and probing.
+        Machine(MachineLack),
+        /// Tools, tool changes and edges.
+        Tools(ToolsLack),
+        /// Tool length offsets.
+        Lengths(LengthsLack),
+        /// Values in the control's tables.
+        Tables(TablesLack),
+        /// Units, distance modes, planes and path modes.
+        Modes(ModesLack),
+        /// Feeds and dwells.
+        Feeds(FeedsLack),
+        /// Spindle and coolant.
+        Spindle(SpindleLack),
+        /// Program flow and calls.
+        Flow(FlowLack),
+        /// Messages, alarms and text for devices.
+        Operator(OperatorLack),
+        /// Blocks, axis words and numbers.
+        Words(WordsLack),
+        /// Polar coordinates.
+        Polar(PolarLack),
+    }
 }

@@ -1,7 +1,7 @@
 //! What ncc does not execute: the reasons, as data.
 //!
 //! `G41` in a canned cycle is not executed, as `Unexecuted::Cycle(CycleUnexecuted::CompensationInCycle)`: controls differ
-//! about it, or no manual describes it. The driver alone has the words (`render/reasons`).
+//! about it, or no manual describes it. The driver alone has the words (`messages/`).
 
 mod compensation;
 mod corners;
@@ -12,6 +12,8 @@ mod moves;
 mod tools;
 mod values;
 
+use crate::reason::wings;
+
 pub use compensation::CompensationUnexecuted;
 pub use corners::{CornerUnexecuted, NoCorner};
 pub use cycles::CycleUnexecuted;
@@ -21,39 +23,25 @@ pub use moves::MoveUnexecuted;
 pub use tools::ToolUnexecuted;
 pub use values::ValueUnexecuted;
 
-macro_rules! reasons {
-    ($( $(#[$doc:meta])* $name:ident($reason:ident), )*) => {
-        /// What ncc does not execute.
-        #[derive(Clone, Debug, PartialEq, Eq)]
-        pub enum Unexecuted {
-            $( $(#[$doc])* $name($reason), )*
-        }
-
-        $(
-            impl From<$reason> for Unexecuted {
-                fn from(reason: $reason) -> Unexecuted {
-                    Unexecuted::$name(reason)
-                }
-            }
-        )*
-    };
-}
-
-reasons! {
-    /// Program flow.
-    Flow(FlowUnexecuted),
-    /// Values of words and expressions.
-    Value(ValueUnexecuted),
-    /// Canned cycles and holes.
-    Cycle(CycleUnexecuted),
-    /// Cutter compensation.
-    Compensation(CompensationUnexecuted),
-    /// Frames, tilted planes and tool centre point control.
-    Frame(FrameUnexecuted),
-    /// Moves, machine coordinates and the spindle.
-    Move(MoveUnexecuted),
-    /// Tools and their tables.
-    Tool(ToolUnexecuted),
-    /// Rounded and chamfered corners.
-    Corner(CornerUnexecuted),
+wings! {
+    /// What ncc does not execute.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum Unexecuted {
+        /// Program flow.
+        Flow(FlowUnexecuted),
+        /// Values of words and expressions.
+        Value(ValueUnexecuted),
+        /// Canned cycles and holes.
+        Cycle(CycleUnexecuted),
+        /// Cutter compensation.
+        Compensation(CompensationUnexecuted),
+        /// Frames, tilted planes and tool centre point control.
+        Frame(FrameUnexecuted),
+        /// Moves, machine coordinates and the spindle.
+        Move(MoveUnexecuted),
+        /// Tools and their tables.
+        Tool(ToolUnexecuted),
+        /// Rounded and chamfered corners.
+        Corner(CornerUnexecuted),
+    }
 }

@@ -128,9 +128,7 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         Fault::NotExecuted {
             what: Unexecuted::Value(ValueUnexecuted::PeckClearanceUnknown | ValueUnexecuted::BreakLiftUnknown),
         } => vec![Help::new("help-option")],
-        Fault::TargetLacks { lack } => {
-            unwritable::help(lack, at.from, at.to).into_iter().map(Help::Words).collect()
-        }
+        Fault::TargetLacks { lack } => unwritable::helps(lack, at),
         Fault::RotaryTurnOpen { .. } => rotary_turn(at),
         Fault::NoFileOfTool { needs } => file_needs::helps(*needs),
         Fault::NotInMap { what, .. } => vec![Help::new(match what {

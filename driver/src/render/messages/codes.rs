@@ -4,7 +4,8 @@
 //! M46 on a fanuc    open: the machine builder defines it, and the user may state what it does
 //! ```
 
-use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
+use ncc_dialects::{CodeRow, Dialect, Family, Meaning, NameMeaning};
+use ncc_ir::canon::Units;
 
 /// Whether a code is an M code that the user may say something of: the dialect does not have it, or refuses it.
 pub(super) fn is_open(code: &str, dialect: &Dialect) -> bool {
@@ -22,4 +23,27 @@ pub fn may_be_stated(row: Option<&CodeRow>) -> bool {
 pub(super) fn is_return(code: &str, from: &Dialect) -> bool {
     let means = from.code.iter().find(|row| row.code == code).and_then(|row| row.means);
     matches!(means, Some(Meaning::GoToReference { .. })) && from.family == Family::Word
+}
+
+/// The code by which programs of this dialect say something, as a help shows it: `G21`, `MCALL`, or the function of the
+/// text forms.
+pub(super) fn code_for(meaning: Meaning, from: &Dialect) -> String {
+    if let Some(row) = from.code_for(meaning) {
+        return row.code.to_string();
+    }
+    let modal = from.name.iter().find(|row| row.means == Some(NameMeaning::CallModal));
+    match (meaning, modal) {
+        // A modal call without a name ends it.
+        (Meaning::EndCycle, Some(row)) => row.name.clone(),
+        _ => meaning.to_string(),
+    }
+}
+
+/// Codes of the source's control that the helps of reasons show, by the names of their values.
+pub(super) fn typed(from: &Dialect) -> [(&'static str, String); 3] {
+    [
+        ("mm", code_for(Meaning::UseLengthUnits(Units::Mm), from)),
+        ("inch", code_for(Meaning::UseLengthUnits(Units::Inch), from)),
+        ("cancel_cycle", code_for(Meaning::EndCycle, from)),
+    ]
 }

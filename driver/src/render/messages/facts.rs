@@ -7,15 +7,16 @@
 use ncc_dialects::Meaning;
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::{PathMode, Units};
-use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
+use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
+use ncc_ir::diag::{ArgumentCheck, Fault, ModeName, NoValue};
+use ncc_ir::expr::value::Wrong;
 use ncc_ir::geometry::offset_path::Unreachable;
 
-use super::codes::{is_open, is_return};
+use super::codes::{code_for, is_open, is_return, typed};
 use super::context::Context;
 use super::file_needs;
 use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
-use crate::render::reasons::{self, lacks, run_time, unexecuted};
 use crate::render::spelled::{character, found_words, kept, mode, work_offset};
 use crate::render::text::{plain, plain_upto, shown};
 
@@ -102,9 +103,9 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         | Fault::ArcRadiiDiffer { radii: [start, end], allowed: _ } => {
             m.text("start", millimetres(*start)).text("end", millimetres(*end))
         }
-        Fault::RefusedCompensated { what } => m.text("what", plain(&reasons::refused(what))),
-        Fault::CompensatedThere { kind } => m.text("what", reasons::kind(*kind)),
-        Fault::NoCorner { why } => m.text("what", unexecuted::no_corner(*why)),
+        Fault::RefusedCompensated { what } => refused(what, m),
+        Fault::CompensatedThere { kind } => m.form(kind_of_statement(*kind)),
+        Fault::NoCorner { why } => m.reason(why),
         Fault::PositionUnknown { axis } => m.text("axis", *axis),
         Fault::CallUnknown { name } => m.text("name", shown(name)),
         Fault::CallsTooDeep { name, most } => m.text("name", shown(name)).count("most", *most),
@@ -120,16 +121,15 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("name", shown(name))
         }
         Fault::MacroLanguage { what } => m.text("what", plain(what)),
-        Fault::NotExecuted { what } => m.text("what", plain(&unexecuted::text(what))),
-        Fault::NoValue { why } => m.text("what", reasons::no_value(*why)),
-        Fault::Computes { what } => m.text("what", run_time::text(what)),
+        Fault::NotExecuted { what } => m.reason(what).typed(typed(at.from)),
+        Fault::NoValue { why } => no_value(*why, m),
+        Fault::Computes { what } => m.reason(what).typed(typed(at.from)),
         Fault::VariableUnset { name } | Fault::VariableGiven { name } | Fault::ValueNotRead { name } => {
             m.text("name", name.to_string())
         }
         Fault::NotCalled { name } => m.text("name", name.to_string()),
         Fault::EntryFactNeeded { fact: ModeName::Units } => {
-            let code =
-                |units| at.from.code_for(Meaning::UseLengthUnits(units)).map_or("", |row| row.code.as_str());
+            let code = |units| code_for(Meaning::UseLengthUnits(units), at.from);
             m.form("units").text("mm", code(Units::Mm)).text("inch", code(Units::Inch))
         }
         Fault::BeginsOtherwise { fact } | Fault::EntryFactNeeded { fact } | Fault::ModeNotSet { fact } => {
@@ -232,7 +232,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::MachineCutExpanded { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
         Fault::CompensationExpanded { radius } => m.text("radius", millimetres(*radius)),
 
-        Fault::TargetLacks { lack } => m.text("what", plain(&lacks::text(lack))),
+        Fault::TargetLacks { lack } => m.reason(lack).typed(typed(at.from)),
         Fault::SecondWorkOffset { first, second } => {
             m.text("first", first.to_string()).text("second", second.to_string())
         }
@@ -269,6 +269,38 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("name", name.to_string()).count("place", *place)
         }
     }
+}
+
+/// What the source's control refuses under cutter compensation.
+fn refused(what: &CompensationRefusal, m: Message) -> Message {
+    match what {
+        CompensationRefusal::Code { code } => m.text("code", plain(code)),
+        CompensationRefusal::Kind(kind) => m.form(kind_of_statement(*kind)),
+    }
+}
+
+/// The form for a kind of statement that some controls refuse under cutter compensation.
+fn kind_of_statement(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Path => "path",
+        Kind::ReturnLevel => "return-level",
+        Kind::WorkOffset => "work-offset",
+        Kind::Length => "length",
+        Kind::LocalShift => "local-shift",
+        Kind::Overrides => "overrides",
+    }
+}
+
+/// Why an expression has no value.
+fn no_value(why: NoValue, m: Message) -> Message {
+    m.form(match why {
+        NoValue::Wrong(Wrong::DivisionByZero) => "division",
+        NoValue::Wrong(Wrong::NotDefined) => "not-defined",
+        NoValue::Wrong(Wrong::TooLarge) => "too-large",
+        NoValue::Wrong(Wrong::Arguments) => "arguments",
+        NoValue::Wrong(Wrong::NothingGiven) => "empty",
+        NoValue::Index => "index",
+    })
 }
 
 /// `--from-option` or `--to-option`.

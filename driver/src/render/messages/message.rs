@@ -8,8 +8,9 @@
 //! ```
 //!
 //! The form is Fluent's: a headline, and attributes for the label, the further places (`related`), the helps, and the
-//! phrase in the summary (`account`). A code may have several entries: `NC0225-units` has the form `units`. Another
-//! language is another file in the folder of the code. Not here: which entry and which values a fault has (`facts`,
+//! phrase in the summary (`account`). A code may have several entries: `NC0225-units` has the form `units`, and
+//! `NC0501-Arcs-Radius` is for the reason `Lack::Arcs(ArcsLack::Radius)`. Another language is another file in the folder
+//! of the code. Not here: which entry and which values a fault has (`facts`,
 //! `advice`).
 
 use std::cell::RefCell;
@@ -17,9 +18,11 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use fluent_bundle::{FluentArgs, FluentBundle, FluentResource, FluentValue};
+use ncc_ir::reason::{Reason, Values};
 use serde::Serialize;
 
 use super::files::FILES;
+use crate::render::text::plain;
 
 /// In place of a code: words that belong to no code.
 const COMMON: u16 = 0;
@@ -64,13 +67,17 @@ impl Help {
 pub(crate) struct Message {
     code: u16,
     form: &'static str,
+    /// The reason of a refusal, which has an entry of its own.
+    reason: Option<String>,
     values: Vec<(&'static str, Value)>,
+    /// Codes that its helps may show: they belong to the reader's control, not to the fault.
+    typed: Vec<(&'static str, String)>,
 }
 
 impl Message {
     /// The only or the first entry of a code.
     pub(crate) fn new(code: u16) -> Message {
-        Message { code, form: "", values: Vec::new() }
+        Message { code, form: "", reason: None, values: Vec::new(), typed: Vec::new() }
     }
 
     /// Words that belong to no code: `common-also`.
@@ -82,6 +89,22 @@ impl Message {
     #[must_use]
     pub(crate) fn form(mut self, form: &'static str) -> Message {
         self.form = form;
+        self
+    }
+
+    /// The entry of this reason, with the values of its fields: `Arcs-Radius`.
+    #[must_use]
+    pub(crate) fn reason(mut self, reason: &impl Reason) -> Message {
+        let mut values = Values::new();
+        reason.values(&mut values);
+        self.reason = Some(reason.name());
+        values.into_iter().fold(self, |message, (name, text)| message.text(name, plain(&text)))
+    }
+
+    /// With codes that its helps may show.
+    #[must_use]
+    pub(crate) fn typed(mut self, codes: impl IntoIterator<Item = (&'static str, String)>) -> Message {
+        self.typed.extend(codes);
         self
     }
 
@@ -101,6 +124,9 @@ impl Message {
 
     /// The name of its entry: `NC0225-units`.
     pub(crate) fn entry(&self) -> String {
+        if let Some(reason) = &self.reason {
+            return format!("NC{:04}-{reason}", self.code);
+        }
         match (self.code, self.form) {
             (COMMON, form) => format!("common-{form}"),
             (code, "") => format!("NC{code:04}"),
@@ -126,6 +152,13 @@ impl Message {
     /// The phrase in the account of a translation: the entry's `account`, or its headline.
     pub(crate) fn account(&self) -> String {
         Opened::new(self).words(Some("account"), &[]).unwrap_or_else(|| self.headline())
+    }
+
+    /// Whether the entry has this attribute itself.
+    #[cfg(test)]
+    pub(crate) fn has(&self, attribute: &str) -> bool {
+        let opened = Opened::new(self);
+        opened.bundle.get_message(&self.entry()).is_some_and(|entry| entry.get_attribute(attribute).is_some())
     }
 
     /// The words at further places, if the entry has some.
@@ -182,9 +215,20 @@ impl Opened<'_> {
         debug_assert!(entry.is_some(), "messages/ has no {id}");
         let pattern = match attribute {
             None => entry?.value()?,
-            Some(attribute) => entry?.get_attribute(attribute)?.value(),
+            Some(attribute) => match entry?.get_attribute(attribute) {
+                Some(attribute) => attribute.value(),
+                // What no reason needs of its own is in the first entry of the code.
+                None => {
+                    let first =
+                        self.message.reason.as_ref().map(|_| format!("NC{:04}", self.message.code))?;
+                    self.bundle.get_message(&first)?.get_attribute(attribute)?.value()
+                }
+            },
         };
         let mut values = FluentArgs::new();
+        for (name, code) in &self.message.typed {
+            values.set(*name, code.as_str());
+        }
         for (name, value) in self.message.values.iter().chain(own) {
             match value {
                 Value::Text(text) => values.set(*name, text.as_str()),

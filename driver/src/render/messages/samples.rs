@@ -1,20 +1,24 @@
 //! Each message once, with values: every entry of `messages/` is found, has its values, and keeps its length.
 
+use ncc_dialects::Dialect;
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::canon::Axis;
 use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
 use ncc_ir::diag::{ArgumentCheck, Fault, FileNeeds, ModeName};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::geometry::offset_path::Unreachable;
-use ncc_ir::lack::FramesLack;
+use ncc_ir::lack::{ExpandedContour, FramesLack, Lack, OutsideFrame, TapValue};
 use ncc_ir::program::numbered::Numbered;
-use ncc_ir::run_time::RunTimeFlow;
-use ncc_ir::unexecuted::{FlowUnexecuted, ValueUnexecuted};
+use ncc_ir::reason::{Reason, Values, Variants};
+use ncc_ir::run_time::{ComputedFrame, RunTime, RunTimeFlow};
+use ncc_ir::unexecuted::{FlowUnexecuted, NoCorner, Unexecuted, ValueUnexecuted};
 
 use super::advice::advice;
+use super::codes::typed;
 use super::context::Context;
 use super::facts::message;
 use super::files::{FILES, Files};
+use super::message::{Help, Message};
 use super::words::words;
 
 /// A headline has at most so many characters, and a label: the form of a message, with short values.
@@ -24,6 +28,11 @@ const LABEL: usize = 60;
 /// A text in the samples, as short as a word of a block.
 fn t() -> Box<str> {
     "X1.".into()
+}
+
+/// A dialect.
+fn dialect(id: &str) -> &'static Dialect {
+    ncc_dialects::builtin(id).unwrap()
 }
 
 /// Faults of each code, and of each form of a code.
@@ -102,6 +111,7 @@ fn text_and_meaning() -> Vec<Fault> {
         Computes { what: RunTimeFlow::Jump.into() },
         Endless,
         RefusedCompensated { what: CompensationRefusal::Code { code: "G28".into() } },
+        RefusedCompensated { what: CompensationRefusal::Kind(Kind::ReturnLevel) },
         BeginsOtherwise { fact: ModeName::Distance },
         RadiusUnknown { entry: Some(12) },
         RadiusUnknown { entry: None },
@@ -274,7 +284,6 @@ fn target_and_verification() -> Vec<Fault> {
 /// Formatting checks by itself that an entry is there, parses, and has a value for each of its variables.
 #[test]
 fn every_fault_has_its_words() {
-    let dialect = |id: &str| ncc_dialects::builtin(id).unwrap();
     let mut codes: Vec<u16> = Vec::new();
     let mut long = Vec::new();
     for fault in samples() {
@@ -312,16 +321,122 @@ fn every_fault_has_its_words() {
 fn entries_belong_to_their_code() {
     for Files { code, words, .. } in FILES {
         let id = format!("NC{code:04}");
-        for line in words.lines().filter(|line| line.starts_with(|c: char| !c.is_whitespace())) {
+        for line in words.lines().filter(|line| line.starts_with(|c: char| !c.is_whitespace() && c != '#')) {
             assert!(line.starts_with(&id), "{id}: {line}");
         }
+    }
+}
+
+/// Each reason has an entry with the values of its fields, in the form of a message; no entry is without a reason.
+#[test]
+fn every_reason_has_its_words() {
+    let wings = |code: u16, wings: &[(&'static str, Variants)]| -> Vec<Named> {
+        let named = |(wing, variants): &(&str, Variants)| {
+            variants
+                .iter()
+                .map(|(name, fields)| Named { code, name: format!("{wing}-{name}"), fields })
+                .collect()
+        };
+        wings.iter().flat_map::<Vec<Named>, _>(named).collect()
+    };
+    let mut all = wings(501, Lack::WINGS);
+    all.extend(wings(226, Unexecuted::WINGS));
+    all.extend(wings(233, RunTime::WINGS));
+    all.extend(NoCorner::VARIANTS.iter().map(|(name, fields)| Named {
+        code: 250,
+        name: (*name).to_owned(),
+        fields,
+    }));
+    let mut long = Vec::new();
+    for reason in &all {
+        for what in reason.values_of_nested() {
+            let at = dialect("fanuc");
+            let mut message = Message::new(reason.code)
+                .reason(&Sample { name: &reason.name, fields: reason.fields, nested: what })
+                .text("source", "fanuc")
+                .text("target", "siemens")
+                .typed(typed(at));
+            if what.is_some_and(|what| what.contains("Function") || what == "BeforeLeadOut") {
+                message = message.text("function", "G4");
+            }
+            for (words, most) in [(message.headline(), HEADLINE), (message.label(), LABEL)] {
+                assert!(
+                    !words.is_empty() && !words.contains('\n') && !words.contains("  "),
+                    "{reason:?}: {words:?}"
+                );
+                if words.chars().count() > most {
+                    long.push(format!("{} {}: {words}", words.chars().count(), reason.name));
+                }
+            }
+            let option = |help: Help| help.text("option", "tap_dwell").text("value", "left-out");
+            assert!(message.helps(Some(vec![Help::new("help")])).iter().all(|help| !help.is_empty()));
+            if message.has("help-option") {
+                message.helps(Some(vec![option(Help::new("help-option"))]));
+            }
+        }
+    }
+    assert_eq!(long, [""; 0], "longer than the form of a message allows");
+
+    let mut known: Vec<String> =
+        all.iter().map(|reason| format!("NC{:04}-{}", reason.code, reason.name)).collect();
+    known.extend([501, 226, 233, 250].map(|code| format!("NC{code:04}")));
+    let entries = FILES.iter().filter(|files| [501, 226, 233, 250].contains(&files.code));
+    let entries = entries.flat_map(|files| files.words.lines()).filter(|line| line.starts_with("NC"));
+    let mut entries: Vec<String> =
+        entries.map(|line| line.split(' ').next().unwrap_or("").to_owned()).collect();
+    known.sort_unstable();
+    entries.sort_unstable();
+    assert_eq!(entries, known);
+}
+
+/// A reason by its name.
+#[derive(Debug)]
+struct Named {
+    code: u16,
+    name: String,
+    fields: &'static [&'static str],
+}
+
+impl Named {
+    /// The names of the reason within this one, if it has one: each has words of its own.
+    fn values_of_nested(&self) -> Vec<Option<&'static str>> {
+        let nested = match &*self.name {
+            "Compensation-Expanded" => ExpandedContour::VARIANTS,
+            "Frames-UnderTurnedFrame" => OutsideFrame::VARIANTS,
+            "Threads-TapUnknown" => TapValue::VARIANTS,
+            "Word-Frame" => ComputedFrame::VARIANTS,
+            _ => return vec![None],
+        };
+        nested.iter().map(|(name, _)| Some(*name)).collect()
+    }
+}
+
+/// A reason with short values.
+struct Sample<'a> {
+    name: &'a str,
+    fields: &'static [&'static str],
+    nested: Option<&'static str>,
+}
+
+impl Reason for Sample<'_> {
+    fn name(&self) -> String {
+        self.name.to_owned()
+    }
+
+    fn values(&self, values: &mut Values) {
+        let short = |name: &'static str| match name {
+            "axis" => "A",
+            "kind" => "peck-drilling",
+            "function" => "SET_FEED_MODE",
+            _ => "12",
+        };
+        values.extend(self.fields.iter().map(|name| (*name, self.nested.unwrap_or(short(name)).to_owned())));
     }
 }
 
 /// How deep calls may go is a fact of the target, also where it is assumed.
 #[test]
 fn the_depth_of_calls_is_stated_for_the_target() {
-    let dialect = |id: &str| ncc_dialects::builtin(id).unwrap();
     let at = Context { from: dialect("mach9"), to: dialect("linuxcnc"), snippet: "", beside: ("", "") };
     for fault in [
         Fault::CallDepth { depth: 6, sure: 4, macros: false },

@@ -1,11 +1,9 @@
 //! What to type where a code is not supported.
 
 use ncc_dialects::{
-    BLOCK_WITHOUT_WAY, CodeRow, DWELL_REFUSED, Dialect, LOOKED_OVER, MACHINE_LENGTH, MACHINE_WITHOUT_AXIS,
-    Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, Role,
+    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, Role,
 };
 use ncc_ir::expr::system::System;
-use ncc_ir::lack::{CompensationLack, FeedsLack, Lack, LengthsLack, MachineLack};
 
 use super::message::Help;
 
@@ -65,19 +63,6 @@ fn option_help(help: &'static str, option: &str, value: &str) -> Help {
     Help::new(help).text("option", option).text("value", value)
 }
 
-/// The ways out of a move in machine coordinates in which the tool's length counts.
-pub(super) fn machine_length(from: &Dialect) -> Vec<String> {
-    let own = from.option.iter().find(|row| row.name == MACHINE_LENGTH);
-    let suppressed = format!(
-        "if the control leaves the length out of such blocks (MD 10760 = 1): `--from-option {MACHINE_LENGTH}=suppressed`"
-    );
-    let cancel = "else cancel the length in this block, and activate it with the next absolute Z: for example `SUPA Z0 D0`";
-    match own {
-        Some(_) => vec![suppressed, cancel.to_owned()],
-        None => vec!["cancel the length in this block, and activate it with the next absolute Z".to_owned()],
-    }
-}
-
 /// The helps of NC0205, for a code that lacks a word.
 pub(super) fn missing(code: &str, word: &str, from: &Dialect) -> Vec<Help> {
     if word == "D" && matches!(code, "G41" | "G42") {
@@ -128,33 +113,6 @@ pub(super) fn m_code() -> [Help; 2] {
 /// The option for a control that moves without compensation where no radius is named.
 fn without_radius() -> Help {
     option_help("help-no-radius", RADIUS_UNSAID, NO_RADIUS)
-}
-
-/// The way out of a refusal of lengths and feeds, as text to type.
-pub(super) fn way_out(lack: &Lack) -> Option<&'static str> {
-    match lack {
-        Lack::Lengths(LengthsLack::LengthInUse) => Some("set this length before the tool change"),
-        Lack::Machine(MachineLack::IncrementAfterMachineMove) => {
-            Some("write this Z absolutely: `G90` and the Z of its end point")
-        }
-        Lack::Feeds(FeedsLack::EndedByModeCode) => {
-            Some("write F again before this block: `F100.` for 100 a minute")
-        }
-        _ => None,
-    }
-}
-
-/// What to do about blocks of a compensated contour that go nowhere, or not in the plane.
-pub(super) fn without_way(lack: CompensationLack, from: &Dialect) -> Vec<String> {
-    let leave_out =
-        "leave out the blocks here that move by less than the target's least increment, or not in the plane";
-    let mut ways = vec![leave_out.to_owned()];
-    if lack == CompensationLack::WithoutMotion && from.option.iter().any(|row| row.name == BLOCK_WITHOUT_WAY)
-    {
-        let option = format!("--from-option {BLOCK_WITHOUT_WAY}={LOOKED_OVER}");
-        ways.push(format!("if the control looks over blocks without a way (MD 20252): `{option}`"));
-    }
-    ways
 }
 
 /// The help for the entry of a length that is active at the start, where a code lacks its word.
