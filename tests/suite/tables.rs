@@ -67,7 +67,8 @@ fn program(path: &Path) -> Result<(), String> {
 
     let json: serde_json::Value = serde_json::from_slice(&run("json")?).map_err(|e| e.to_string())?;
     let lines = json["programs"][0]["assumed"].as_array().ok_or("no assumptions")?;
-    let of_others = |line: &&str| line.starts_with("for the bound") || line.starts_with("the tool starts");
+    let of_others =
+        |line: &&str| line.starts_with("for the upper bound") || line.starts_with("the tool starts");
     let told: Vec<&str> = lines.iter().filter_map(|l| l.as_str()).filter(|l| !of_others(l)).collect();
     let assumed = said(&text, "assumed:");
     if told != assumed {

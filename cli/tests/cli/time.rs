@@ -134,7 +134,7 @@ fn what_a_profile_marks_as_assumed_is_told() {
     let folder = folder();
     let folder = folder.path();
     let done = time(folder, &["--from", "mach9", "good.cn", "--machine", "fanuc-vmc"]).exits(0);
-    assert!(done.out.contains("typical figures, of no machine in particular"), "{}", done.out);
+    assert!(done.out.contains("typical figures, not those of one machine"), "{}", done.out);
     write(
         folder,
         "own.toml",
@@ -144,7 +144,7 @@ fn what_a_profile_marks_as_assumed_is_told() {
           [[axis]]\nletter = \"Z\"\nrapid = { value = 9000, assumed = true }\n",
     );
     let done = time(folder, &["good.cn", "--machine", "own.toml"]).exits(0);
-    let line = "marked so in the machine's profile: tool_change, rapid of X Z\n";
+    let line = "marked as assumed in the machine profile: tool_change, rapid of X Z\n";
     assert!(done.out.contains(line), "{}", done.out);
 }
 

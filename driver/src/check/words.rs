@@ -68,45 +68,44 @@ pub(super) fn message(finding: &Finding) -> Message {
 /// What was not checked, and why: a line each. `line` gives the number of a place's line.
 pub fn not_checked(checked: &Checked, dialect: &str, line: &dyn Fn(u32) -> u64) -> Vec<(String, String)> {
     let mut told: Vec<(String, String)> = Vec::new();
-    let mut say = |what: String, why: &str| match told.iter_mut().find(|(_, known)| known == why) {
-        Some((known, _)) if !known.split(", ").any(|k| k == what) => {
-            known.push_str(", ");
-            known.push_str(&what);
+    let mut tell = |what: Message, why: Message| {
+        let (what, why) = (what.headline(), why.headline());
+        match told.iter_mut().find(|(_, known)| *known == why) {
+            Some((known, _)) if !known.split(", ").any(|k| k == what) => {
+                known.push_str(", ");
+                known.push_str(&what);
+            }
+            Some(_) => {}
+            None => told.push((what, why)),
         }
-        Some(_) => {}
-        None => told.push((what, why.to_owned())),
     };
-    let travel = |index: u8| format!("travel of {}", Unchecked::axis(index).letter() as char);
+    let words = Message::common;
+    let travel =
+        |index: u8| words("unchecked-travel").text("axis", char::from(Unchecked::axis(index).letter()));
     for unchecked in &checked.unchecked {
         match unchecked {
-            Unchecked::NoMachine => {
-                say("travel, feed and speed ranges".to_owned(), "no machine is named (--machine)");
-            }
-            Unchecked::NoPlane => say("rapids".to_owned(), "no plane is named (--rapid-plane)"),
-            Unchecked::Travel(axis) => say(travel(*axis), "the profile does not state it"),
+            Unchecked::NoMachine => tell(words("unchecked-ranges"), words("unchecked-no-machine")),
+            Unchecked::NoPlane => tell(words("unchecked-rapids"), words("unchecked-no-plane")),
+            Unchecked::Travel(axis) => tell(travel(*axis), words("unchecked-not-stated")),
             Unchecked::Offset(number, axis) => {
-                say(travel(*axis), &format!("the profile does not state the zero of work offset {number}"));
+                tell(travel(*axis), words("unchecked-no-offset").text("offset", number.to_string()));
             }
-            Unchecked::Length(-1) => say(travel(2), "the tool whose length is in force is not known"),
+            Unchecked::Length(-1) => tell(travel(2), words("unchecked-tool-unknown")),
             Unchecked::Length(entry) => {
-                say(travel(2), &format!("the profile does not state the length of tool {entry}"));
+                tell(travel(2), words("unchecked-no-length").text("tool", entry.to_string()));
             }
-            Unchecked::Frame(axis) => say(travel(*axis), "zero is not known after blocks that were not read"),
-            Unchecked::Start(axis) => say(travel(*axis), "where it starts is not said"),
-            Unchecked::Tilted(axis) => {
-                say(travel(*axis), "points of the tool's tip or of a tilted plane say nothing of the axes")
-            }
-            Unchecked::MaxFeed => say("feeds".to_owned(), "the profile states no highest feed"),
-            Unchecked::MaxSpeed => say("speeds".to_owned(), "the profile states no highest speed"),
-            Unchecked::Endless => {
-                say("the rest".to_owned(), "the program does not come to an end");
-            }
+            Unchecked::Frame(axis) => tell(travel(*axis), words("unchecked-frame")),
+            Unchecked::Start(axis) => tell(travel(*axis), words("unchecked-start")),
+            Unchecked::Tilted(axis) => tell(travel(*axis), words("unchecked-tilted")),
+            Unchecked::MaxFeed => tell(words("unchecked-feeds"), words("unchecked-no-feed")),
+            Unchecked::MaxSpeed => tell(words("unchecked-speeds"), words("unchecked-no-speed")),
+            Unchecked::Endless => tell(words("unchecked-rest"), words("unchecked-endless")),
         }
     }
     if let Some(first) = checked.first_refusal {
         let why =
-            format!("blocks were not read as {dialect}, the first of them in line {}", line(first.start));
-        say("what needs the state of the control, until it is said anew".to_owned(), &why);
+            words("unchecked-not-read").text("dialect", dialect).text("line", line(first.start).to_string());
+        tell(words("unchecked-modes"), why);
     }
     told
 }

@@ -9,6 +9,7 @@ use super::drive::{Course, Length, Plan};
 use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
+use crate::render::messages::message::Message;
 use crate::render::messages::words::{Context, unreachable, words};
 use crate::render::spelled;
 
@@ -36,24 +37,26 @@ pub fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
         .map(letter)
         .collect();
     if !silent.is_empty() {
-        lines.push(format!("the tool starts at program zero in {}", silent.join(" ")));
+        lines.push(Message::common("time-start").text("axes", silent.join(" ")).headline());
     }
     let off: Vec<String> = (1..16)
         .filter(|level| course.skip_levels >> level & 1 == 1 && plan.skip >> level & 1 == 0)
         .map(|level| level.to_string())
         .collect();
     if !off.is_empty() {
-        let word = if off.len() == 1 { "switch" } else { "switches" };
-        lines.push(format!("block-skip {word} {} off", off.join(", ")));
+        let count = u64::try_from(off.len()).unwrap_or(u64::MAX);
+        lines.push(
+            Message::common("time-skip-off").count("count", count).text("levels", off.join(", ")).headline(),
+        );
     }
     if course.stops {
-        lines.push("stops for the operator take no time".to_owned());
+        lines.push(Message::common("time-stops").headline());
     }
     if course.turns_onto_planes {
-        lines.push("turning the tool onto tilted planes takes no time".to_owned());
+        lines.push(Message::common("time-tilt").headline());
     }
     if course.tip {
-        lines.push("points of the tool's tip are timed as points of the linear axes".to_owned());
+        lines.push(Message::common("time-tip").headline());
     }
     lines.extend(of_contours(plan, course));
     lines.extend(of_offsets(plan, course));
@@ -67,41 +70,47 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
         return Vec::new();
     }
     if !plan.centre {
-        return vec!["contours under cutter compensation are timed along the programmed contour".to_owned()];
+        return vec![Message::common("time-contours").headline()];
     }
     let mut lines: Vec<String> = Vec::new();
     let mut unknown: Vec<String> = Vec::new();
+    let mut edge = false;
     for (line, fault) in &course.as_programmed {
         match fault {
-            Fault::RadiusUnknown { entry: Some(entry) } => unknown.push(format!("entry {entry}")),
-            Fault::RadiusUnknown { entry: None } => unknown.push("an edge".to_owned()),
-            Fault::ContourUnreachable { why } => {
-                let why = unreachable(*why);
-                lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
-            }
+            Fault::RadiusUnknown { entry: Some(entry) } => unknown.push(format!("D{entry}")),
+            Fault::RadiusUnknown { entry: None } => edge = true,
+            Fault::ContourUnreachable { why } => lines.push(from_line(*line, Some(unreachable(*why)))),
             Fault::TargetLacks { .. } | Fault::NotExecuted { .. } => {
                 let dialect = plan.job.from.dialect;
                 let at = Context { from: dialect, to: dialect, snippet: "", beside: ("", "") };
-                let why = words(fault, at).message;
-                lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
+                lines.push(from_line(*line, Some(words(fault, at).message)));
             }
-            _ => lines.push(format!("from line {line} on timed along the programmed contour")),
+            _ => lines.push(from_line(*line, None)),
         }
     }
     unknown.sort();
     unknown.dedup();
+    if edge {
+        lines.insert(0, Message::common("time-edge-radius").headline());
+    }
     if !unknown.is_empty() {
-        let radii = unknown.join(", ");
-        lines.insert(
-            0,
-            format!("timed along the programmed contour, for the radius of {radii} is not stated"),
-        );
+        lines.insert(0, Message::common("time-radius").text("entries", unknown.join(", ")).headline());
     }
     lines.dedup();
     if !plan.job.compensating().known && course.follows_centre {
-        lines.push("outer corners of compensated contours are gone round by an arc".to_owned());
+        lines.push(Message::common("time-outer-corners").headline());
     }
     lines
+}
+
+/// From where on contours are timed as programmed, and why if that is known.
+fn from_line(line: u32, why: Option<String>) -> String {
+    match why {
+        Some(why) => Message::common("time-as-programmed-why").text("why", why),
+        None => Message::common("time-as-programmed"),
+    }
+    .text("line", line.to_string())
+    .headline()
 }
 
 /// Of the table of work offsets. Where a program keeps to one of them and to its own coordinates, nothing
@@ -112,11 +121,14 @@ fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
     }
     let table = &plan.tables.work_offsets;
     if !course.offsets.iter().any(|number| table.contains_key(number)) {
-        let zero = if course.in_machine { "machine zero" } else { "one" };
-        return vec![match course.offsets.first() {
-            Some(only) if course.offsets.len() == 1 => format!("{} is {zero}", offset(plan, *only)),
-            Some(_) | None => format!("all work offsets are {zero}"),
-        }];
+        let message = match (course.offsets.first(), course.in_machine) {
+            (Some(only), _) if course.offsets.len() == 1 => {
+                Message::common("time-offset-zero").text("offset", offset(plan, *only))
+            }
+            (_, true) => Message::common("time-offsets-zero"),
+            (_, false) => Message::common("time-offsets-equal"),
+        };
+        return vec![message.headline()];
     }
     let silent = |number: &u16| -> Vec<String> {
         let stated = table.get(number).copied().unwrap_or_default();
@@ -127,7 +139,10 @@ fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
     };
     let open = course.offsets.iter().map(|number| (*number, silent(number)));
     open.filter(|(_, axes)| !axes.is_empty())
-        .map(|(number, axes)| format!("{} = 0 in {}", offset(plan, number), axes.join(" ")))
+        .map(|(number, axes)| {
+            let message = Message::common("time-offset-axes").text("offset", offset(plan, number));
+            message.text("axes", axes.join(" ")).headline()
+        })
         .collect()
 }
 
@@ -146,26 +161,29 @@ fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
         return Vec::new();
     }
     if !used.iter().any(|length| is_stated(length)) {
-        return vec!["all tools are of one length".to_owned()];
+        return vec![Message::common("time-lengths-equal").headline()];
     }
     let open = used.into_iter().filter(|length| !is_stated(length));
     open.map(|length| match length {
         Length::Entry(entry) => {
             let tool = plan.tables.edge_entries.iter().find(|(_, own)| *own == entry);
-            format!("length of tool {} = 0 mm", tool.map_or(entry, |(tool, _)| tool))
+            Message::common("time-length").text("tool", tool.map_or(entry, |(tool, _)| tool).to_string())
         }
-        Length::Edge(tool, edge) if *tool < 0 => format!("length of edge {edge} at the start = 0 mm"),
-        Length::Edge(tool, edge) => format!("length of edge {edge} of tool {tool} = 0 mm"),
+        Length::Edge(tool, edge) if *tool < 0 => {
+            Message::common("time-length-edge-at-start").text("edge", edge.to_string())
+        }
+        Length::Edge(tool, edge) => {
+            Message::common("time-length-edge").text("edge", edge.to_string()).text("tool", tool.to_string())
+        }
     })
+    .map(|message| message.headline())
     .collect()
 }
 
 /// Of the machine: what its profile states, but marks as assumed.
 pub fn of_profile(profile: &Profile) -> Vec<String> {
     if profile.schema.typical {
-        return vec![
-            "rates, accelerations and times are typical figures, of no machine in particular".to_owned(),
-        ];
+        return vec![Message::common("time-typical").headline()];
     }
     let mut marked: Vec<(&'static str, Vec<String>)> = Vec::new();
     let of_time = ["[rates]", "[times]", "[spindle]", "[[axis]]"];
@@ -187,7 +205,7 @@ pub fn of_profile(profile: &Profile) -> Vec<String> {
         [] => Vec::new(),
         marked => {
             let words: Vec<String> = marked.iter().map(word).collect();
-            vec![format!("marked so in the machine's profile: {}", words.join(", "))]
+            vec![Message::common("time-marked").text("facts", words.join(", ")).headline()]
         }
     }
 }
@@ -205,16 +223,17 @@ pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<St
     let mut lines = in_words(&facts, moved);
     if plan.model != Model::Ideal && course.corners.open {
         let tolerance = machine.path_tolerance.unwrap_or_default();
-        lines.push(format!(
-            "where the program rounds corners and does not say how far, {} mm",
-            short(tolerance, 3)
-        ));
+        lines.push(Message::common("time-path-tolerance").text("tolerance", short(tolerance, 3)).headline());
     }
     if plan.model == Model::Ideal && course.bounds.is_some() {
         // The upper bound needs more than the model does.
         let (_, all) = machine.assumed(Model::Trapezoidal);
         let needed: Vec<AssumedFact> = all.into_iter().filter(|f| f.fact == Fact::Acceleration).collect();
-        lines.extend(in_words(&needed, moved).into_iter().map(|line| format!("for the bound, {line}")));
+        lines.extend(
+            in_words(&needed, moved)
+                .into_iter()
+                .map(|line| Message::common("time-bound").text("fact", line).headline()),
+        );
     }
     lines
 }
@@ -230,7 +249,7 @@ fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
             "" if fact.value == 0.0 => "no".to_owned(),
             "" => "yes".to_owned(),
             _ if fact.fact == Fact::LookAhead && fact.value >= f64::from(WHOLE_PATH) => {
-                "the whole path".to_owned()
+                Message::common("time-whole-path").headline()
             }
             unit => format!("{} {unit}", short(fact.value, 3)),
         };
