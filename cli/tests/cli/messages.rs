@@ -135,7 +135,7 @@ fn a_verdict_can_be_denied() {
     let folder = folder();
     let done = ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--deny", "assumed"]).exits(1);
     assert_eq!(done.out, "");
-    done.says("error[NC03").says("--deny assumed").says("may not pass");
+    done.says("error[NC03").says("--deny assumed").says("verdicts that are not allowed");
     // What is denied stops even if it is allowed too.
     ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--deny", "assumed", "--allow", "assumed"])
         .exits(1);

@@ -3,7 +3,7 @@
 use ncc_check::{Checked, Finding, LeftOn, Outside, Unchecked, What};
 use ncc_ir::expr::num::Nanos;
 
-use crate::render::messages::message::Message;
+use crate::render::messages::message::{Message, Part};
 
 /// A value in nanos, as a decimal without zeros at its end.
 pub fn decimal(nanos: Nanos) -> String {
@@ -79,33 +79,31 @@ pub fn not_checked(checked: &Checked, dialect: &str, line: &dyn Fn(u32) -> u64) 
             None => told.push((what, why)),
         }
     };
-    let words = Message::common;
-    let travel =
-        |index: u8| words("unchecked-travel").text("axis", char::from(Unchecked::axis(index).letter()));
+    let words = |form| Message::part(Part::Unchecked, form);
+    let travel = |index: u8| words("travel").text("axis", char::from(Unchecked::axis(index).letter()));
     for unchecked in &checked.unchecked {
         match unchecked {
-            Unchecked::NoMachine => tell(words("unchecked-ranges"), words("unchecked-no-machine")),
-            Unchecked::NoPlane => tell(words("unchecked-rapids"), words("unchecked-no-plane")),
-            Unchecked::Travel(axis) => tell(travel(*axis), words("unchecked-not-stated")),
+            Unchecked::NoMachine => tell(words("ranges"), words("no-machine")),
+            Unchecked::NoPlane => tell(words("rapids"), words("no-plane")),
+            Unchecked::Travel(axis) => tell(travel(*axis), words("not-stated")),
             Unchecked::Offset(number, axis) => {
-                tell(travel(*axis), words("unchecked-no-offset").text("offset", number.to_string()));
+                tell(travel(*axis), words("no-offset").text("offset", number.to_string()));
             }
-            Unchecked::Length(-1) => tell(travel(2), words("unchecked-tool-unknown")),
+            Unchecked::Length(-1) => tell(travel(2), words("tool-unknown")),
             Unchecked::Length(entry) => {
-                tell(travel(2), words("unchecked-no-length").text("tool", entry.to_string()));
+                tell(travel(2), words("no-length").text("tool", entry.to_string()));
             }
-            Unchecked::Frame(axis) => tell(travel(*axis), words("unchecked-frame")),
-            Unchecked::Start(axis) => tell(travel(*axis), words("unchecked-start")),
-            Unchecked::Tilted(axis) => tell(travel(*axis), words("unchecked-tilted")),
-            Unchecked::MaxFeed => tell(words("unchecked-feeds"), words("unchecked-no-feed")),
-            Unchecked::MaxSpeed => tell(words("unchecked-speeds"), words("unchecked-no-speed")),
-            Unchecked::Endless => tell(words("unchecked-rest"), words("unchecked-endless")),
+            Unchecked::Frame(axis) => tell(travel(*axis), words("frame")),
+            Unchecked::Start(axis) => tell(travel(*axis), words("start")),
+            Unchecked::Tilted(axis) => tell(travel(*axis), words("tilted")),
+            Unchecked::MaxFeed => tell(words("feeds"), words("no-feed")),
+            Unchecked::MaxSpeed => tell(words("speeds"), words("no-speed")),
+            Unchecked::Endless => tell(words("rest"), words("endless")),
         }
     }
     if let Some(first) = checked.first_refusal {
-        let why =
-            words("unchecked-not-read").text("dialect", dialect).text("line", line(first.start).to_string());
-        tell(words("unchecked-modes"), why);
+        let why = words("not-read").text("dialect", dialect).text("line", line(first.start).to_string());
+        tell(words("modes"), why);
     }
     told
 }

@@ -308,7 +308,7 @@ pub struct Outcome {
     /// translation, or were answered with ncc's own readings.
     pub questions: Vec<Question>,
     /// What a user types so that a refused program that computes goes through as straight blocks, if it does.
-    pub straight: Option<&'static str>,
+    pub straight: Option<Straight>,
     /// What the verification covered; `None` if it was not asked for or did not come to its end.
     pub verified: Option<Verified>,
     /// Whether the output may be used, and if not, why.
@@ -462,6 +462,17 @@ pub enum Failure {
     Refused,
     /// Source and output were not shown to do the same: exit code 3.
     VerificationFailed,
+}
+
+/// How a refused program that computes can be translated: executed, and written as the resulting blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Straight {
+    /// With `--pass flatten`.
+    Flattened,
+    /// The same, with the block-skip switch stated, on or off.
+    Switch,
+    /// The same, where the control ignores blocks without motion.
+    WithoutMotion,
 }
 
 /// An output: its head, which can be written only when all the rest is known, and the rest.

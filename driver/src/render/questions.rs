@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::about::{About, Told};
 use super::json::JsonPlace;
-use super::messages::message::Message;
+use super::messages::message::{Message, Part};
 use super::numbers::signed;
 use super::source::Excerpt;
 use super::spelled::{Counted, return_path};
@@ -107,7 +107,7 @@ pub fn ask(about: &mut About, questions: &[Question]) -> io::Result<Vec<Asked>> 
                 column,
                 end_column: column + text.chars().count() as u64,
                 text,
-                label: Message::common("question-label").headline(),
+                label: Message::part(Part::Question, "label").headline(),
             },
             answers,
             line: excerpt.line(&lines, question.span.start).to_owned(),
@@ -148,7 +148,7 @@ pub fn note(questions: &[Question]) -> String {
             format!("{}{other}", taken(question))
         })
         .collect();
-    Message::common("readings-taken").text("readings", own.join("; ")).headline()
+    Message::part(Part::Question, "readings-taken").text("readings", own.join("; ")).headline()
 }
 
 /// ncc's own reading, in the few words that fit a program's head.
@@ -217,7 +217,7 @@ fn answers(both: &[AskedAnswer; 2]) -> String {
     let one = |answer: &AskedAnswer| {
         let option = match &answer.option {
             Some(option) => format!("`{option}`"),
-            None => Message::common("answer-points").headline(),
+            None => Message::part(Part::Question, "answer-points").headline(),
         };
         match &answer.result {
             Some(result) => format!("{option} ({result})"),
@@ -265,7 +265,7 @@ fn name(units: Units) -> &'static str {
 
 /// What a reading makes, in numbers.
 fn result(shown: &Shown) -> Option<String> {
-    let made = |form| Message::common(form);
+    let made = |form| Message::part(Part::Question, form);
     let message = match shown {
         Shown::Nothing | Shown::Made(Made::Otherwise) => return None,
         Shown::Word { value, feed } => return Some(word(*value, *feed)),

@@ -4,7 +4,7 @@ use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::diag::ModeName;
 
-use super::messages::message::Message;
+use super::messages::message::{Message, Part};
 use super::numbers::{millimetres, plural};
 use super::text::{plain, plain_upto, quoted};
 
@@ -43,7 +43,7 @@ pub enum Counted {
 /// The path of a return to a reference point; `zero`: all of its words are nothing.
 pub fn return_path(words: &str, zero: bool, counted: Counted) -> String {
     let words = plain_upto(words, 24);
-    let path = |form| Message::common(form).text("words", words.as_str()).headline();
+    let path = |form| Message::part(Part::Question, form).text("words", words.as_str()).headline();
     match counted {
         Counted::OfPart => path("path-of-part"),
         Counted::FromHere if zero => path("path-from-here"),

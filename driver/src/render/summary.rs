@@ -11,11 +11,11 @@ use ncc_ir::source::Span;
 use super::about::{About, Loudness};
 use super::human::told;
 use super::messages::facts::message;
+use super::messages::message::{Message, Part};
 use super::messages::words::Context;
-use super::numbers::plural;
 use super::questions::taken;
 use super::source::Lines;
-use crate::job::{Failure, Outcome};
+use crate::job::{Failure, Outcome, Straight};
 use crate::questions::Question;
 use crate::render::head::{assumption, by_name};
 use crate::source::called_files::Called;
@@ -43,13 +43,14 @@ enum Heading {
 impl Heading {
     const ALL: [Heading; 4] = [Heading::Lost, Heading::Check, Heading::Usual, Heading::NoEffect];
 
-    fn words(self) -> &'static str {
-        match self {
+    fn words(self) -> String {
+        summary(match self {
             Heading::Lost => "lost",
-            Heading::Check => "check at the machine",
-            Heading::Usual => "usual defaults",
-            Heading::NoEffect => "no effect on the cut",
-        }
+            Heading::Check => "check",
+            Heading::Usual => "usual",
+            Heading::NoEffect => "no-effect",
+        })
+        .headline()
     }
 
     /// Whether each phrase has a line, with its places; else they share one.
@@ -96,17 +97,17 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
         (Err(_), _) => return print_failure(out, about, outcome),
         (Ok(()), Some(verified)) => {
             write!(out, ", ")?;
-            coloured(out, Color::Green, "verified")?;
-            let set_ups = format!("{} test {}", verified.worlds, plural(verified.worlds.into(), "set-up"));
-            let skips = match verified.skip_settings {
-                0 | 1 => String::new(),
-                n => format!(" and {n} settings of the block-skip switches"),
+            coloured(out, Color::Green, &summary("verified").headline())?;
+            let events = match verified.skip_settings {
+                0 | 1 => summary("events"),
+                n => summary("events-skips").text("skips", n.to_string()),
             };
-            writeln!(out, ": the same {} events in source and output, in {set_ups}{skips}", verified.events)?;
+            let events = events.text("events", verified.events.to_string()).count("set-ups", verified.worlds);
+            writeln!(out, ": {}", events.headline())?;
         }
         (Ok(()), None) => {
             write!(out, ", ")?;
-            coloured(out, Color::Red, "NOT VERIFIED")?;
+            coloured(out, Color::Red, &summary("not-verified").headline())?;
             writeln!(out)?;
         }
     }
@@ -128,23 +129,23 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
     let called = about.job.called.as_ref();
     for (i, question) in outcome.questions.iter().enumerate() {
         let own = Group { phrase: taken(question), count: 1, places: vec![question.span.start] };
-        headed(out, Color::Red, if i == 0 { "not answered" } else { "" })?;
+        headed(out, Color::Red, &if i == 0 { summary("not-answered").headline() } else { String::new() })?;
         writeln!(out, "{} ({})", own.phrase, line_list(&own, &lines, called))?;
     }
     for (heading, groups) in groups {
         let colour = if heading == Heading::Lost { Color::Red } else { Color::Yellow };
         if !heading.each() {
-            headed(out, colour, heading.words())?;
+            headed(out, colour, &heading.words())?;
             writeln!(out, "{}", list(&groups))?;
             continue;
         }
         for (i, group) in groups.iter().take(MOST_PHRASES).enumerate() {
-            headed(out, colour, if i == 0 { heading.words() } else { "" })?;
+            headed(out, colour, &if i == 0 { heading.words() } else { String::new() })?;
             writeln!(out, "{} ({})", group.phrase, line_list(group, &lines, called))?;
         }
         if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
             headed(out, colour, "")?;
-            writeln!(out, "… and {more} more; --verbose or --report says all")?;
+            writeln!(out, "{}", summary("more-phrases").text("more", more.to_string()).headline())?;
         }
     }
     Ok(())
@@ -186,11 +187,12 @@ fn list(groups: &[Group]) -> String {
     let mut column = HEADING + 2 + text.len();
     let mut phrases: Vec<String> = groups.iter().take(MOST_PHRASES).map(|g| g.phrase.clone()).collect();
     if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
-        phrases.push(format!("… and {more} more"));
+        phrases.push(summary("more-in-list").text("more", more.to_string()).headline());
     }
     let last = phrases.len().saturating_sub(1);
+    let all = format!(" {}", summary("all-in-list").headline());
     for (i, phrase) in phrases.iter().enumerate() {
-        let end = if i == last { " (`-v` lists them)" } else { ";" };
+        let end = if i == last { all.as_str() } else { ";" };
         let wide = phrase.chars().count() + end.len() + 1;
         if i > 0 && column + wide > WIDTH {
             text += &format!("\n{:1$}", "", HEADING + 2);
@@ -220,23 +222,22 @@ fn failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Re
     let questions = outcome.questions.len() as u64;
     match outcome.release {
         Err(Failure::VerificationFailed) => {
-            coloured(out, Color::Red, "verification failed")?;
-            writeln!(out, "; nothing was written")
+            coloured(out, Color::Red, &summary("verification-failed").headline())?;
+            writeln!(out, "; {}", summary("nothing-written").headline())
         }
         Err(Failure::Refused) | Ok(()) => {
-            coloured(out, Color::Red, "not translated")?;
-            let count = |n: u64, noun: &str| (n > 0).then(|| format!("{n} {}", plural(n, noun)));
-            let losses = count(losses, "verdict").map(|verdicts| format!("{verdicts} that may not pass"));
-            let reasons: Vec<String> = [count(questions, "question"), count(errors, "error"), losses]
-                .into_iter()
-                .flatten()
-                .collect();
-            writeln!(out, ": {}; nothing was written", reasons.join(", "))?;
-            if let Some(options) = outcome.straight {
-                writeln!(
-                    out,
-                    "  help: with {options} it goes through: ncc executes it, and writes straight blocks"
-                )?;
+            coloured(out, Color::Red, &summary("not-translated").headline())?;
+            let count = |n: u64, form| (n > 0).then(|| summary(form).count("count", n).headline());
+            let reasons = [count(questions, "questions"), count(errors, "errors"), count(losses, "losses")];
+            let reasons: Vec<String> = reasons.into_iter().flatten().collect();
+            writeln!(out, ": {}; {}", reasons.join(", "), summary("nothing-written").headline())?;
+            if let Some(straight) = outcome.straight {
+                let form = match straight {
+                    Straight::Flattened => "straight",
+                    Straight::Switch => "straight-switch",
+                    Straight::WithoutMotion => "straight-without-motion",
+                };
+                writeln!(out, "  help: {}", summary(form).headline())?;
             }
             Ok(())
         }
@@ -277,6 +278,11 @@ fn groups(outcome: &Outcome, under: Heading, at: Context) -> Vec<Group> {
     groups
 }
 
+/// Words of this account.
+fn summary(form: &'static str) -> Message {
+    Message::part(Part::Summary, form)
+}
+
 /// `line 6`, `lines 9, 19, 30 and 12 more`.
 fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
     let file = |place: u32| called.and_then(|called| called.file(place));
@@ -289,8 +295,11 @@ fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
         numbers.dedup();
         let others = group.count - group.places.iter().filter(in_it).count();
         let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
-        let more = if others > 0 { format!(" and {others} elsewhere") } else { String::new() };
-        return format!("{} line {}{more}", first.name, list.join(", "));
+        let message = match others {
+            0 => summary("file-line"),
+            others => summary("file-line-more").text("more", others.to_string()),
+        };
+        return message.text("file", first.name.as_str()).text("lines", list.join(", ")).headline();
     }
     let mut numbers: Vec<u64> =
         group.places.iter().filter_map(|place| lines.line(*place)).map(|line| line.number).collect();
@@ -298,15 +307,16 @@ fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
     numbers.dedup();
     let more = group.count - group.places.len();
     let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
-    match (list.as_slice(), more) {
-        ([only], 0) => format!("line {only}"),
-        ([], _) => format!("{} places", group.count),
+    let message = match (list.as_slice(), more) {
+        ([only], 0) => summary("line").text("line", only),
+        ([], _) => summary("places").text("more", group.count.to_string()),
         (list, 0) => {
             let (last, first) = list.split_last().map_or(("", list), |(last, first)| (last.as_str(), first));
-            format!("lines {} and {last}", first.join(", "))
+            summary("lines").text("lines", first.join(", ")).text("last", last)
         }
-        (list, more) => format!("lines {} and {more} more", list.join(", ")),
-    }
+        (list, more) => summary("lines-more").text("lines", list.join(", ")).text("more", more.to_string()),
+    };
+    message.headline()
 }
 
 /// A fault as a phrase after its heading. Details that differ from place to place are left out.

@@ -9,7 +9,7 @@ use super::drive::{Course, Length, Plan};
 use super::duration::short;
 use crate::job::Job;
 use crate::render::head::assumption;
-use crate::render::messages::message::Message;
+use crate::render::messages::message::{Message, Part};
 use crate::render::messages::words::{Context, unreachable, words};
 use crate::render::spelled;
 
@@ -37,7 +37,7 @@ pub fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
         .map(letter)
         .collect();
     if !silent.is_empty() {
-        lines.push(Message::common("time-start").text("axes", silent.join(" ")).headline());
+        lines.push(Message::part(Part::Time, "start").text("axes", silent.join(" ")).headline());
     }
     let off: Vec<String> = (1..16)
         .filter(|level| course.skip_levels >> level & 1 == 1 && plan.skip >> level & 1 == 0)
@@ -46,17 +46,20 @@ pub fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     if !off.is_empty() {
         let count = u64::try_from(off.len()).unwrap_or(u64::MAX);
         lines.push(
-            Message::common("time-skip-off").count("count", count).text("levels", off.join(", ")).headline(),
+            Message::part(Part::Time, "skip-off")
+                .count("count", count)
+                .text("levels", off.join(", "))
+                .headline(),
         );
     }
     if course.stops {
-        lines.push(Message::common("time-stops").headline());
+        lines.push(Message::part(Part::Time, "stops").headline());
     }
     if course.turns_onto_planes {
-        lines.push(Message::common("time-tilt").headline());
+        lines.push(Message::part(Part::Time, "tilt").headline());
     }
     if course.tip {
-        lines.push(Message::common("time-tip").headline());
+        lines.push(Message::part(Part::Time, "tip").headline());
     }
     lines.extend(of_contours(plan, course));
     lines.extend(of_offsets(plan, course));
@@ -70,7 +73,7 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
         return Vec::new();
     }
     if !plan.centre {
-        return vec![Message::common("time-contours").headline()];
+        return vec![Message::part(Part::Time, "contours").headline()];
     }
     let mut lines: Vec<String> = Vec::new();
     let mut unknown: Vec<String> = Vec::new();
@@ -91,14 +94,14 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
     unknown.sort();
     unknown.dedup();
     if edge {
-        lines.insert(0, Message::common("time-edge-radius").headline());
+        lines.insert(0, Message::part(Part::Time, "edge-radius").headline());
     }
     if !unknown.is_empty() {
-        lines.insert(0, Message::common("time-radius").text("entries", unknown.join(", ")).headline());
+        lines.insert(0, Message::part(Part::Time, "radius").text("entries", unknown.join(", ")).headline());
     }
     lines.dedup();
     if !plan.job.compensating().known && course.follows_centre {
-        lines.push(Message::common("time-outer-corners").headline());
+        lines.push(Message::part(Part::Time, "outer-corners").headline());
     }
     lines
 }
@@ -106,8 +109,8 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
 /// From where on contours are timed as programmed, and why if that is known.
 fn from_line(line: u32, why: Option<String>) -> String {
     match why {
-        Some(why) => Message::common("time-as-programmed-why").text("why", why),
-        None => Message::common("time-as-programmed"),
+        Some(why) => Message::part(Part::Time, "as-programmed-why").text("why", why),
+        None => Message::part(Part::Time, "as-programmed"),
     }
     .text("line", line.to_string())
     .headline()
@@ -123,10 +126,10 @@ fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
     if !course.offsets.iter().any(|number| table.contains_key(number)) {
         let message = match (course.offsets.first(), course.in_machine) {
             (Some(only), _) if course.offsets.len() == 1 => {
-                Message::common("time-offset-zero").text("offset", offset(plan, *only))
+                Message::part(Part::Time, "offset-zero").text("offset", offset(plan, *only))
             }
-            (_, true) => Message::common("time-offsets-zero"),
-            (_, false) => Message::common("time-offsets-equal"),
+            (_, true) => Message::part(Part::Time, "offsets-zero"),
+            (_, false) => Message::part(Part::Time, "offsets-equal"),
         };
         return vec![message.headline()];
     }
@@ -140,7 +143,7 @@ fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
     let open = course.offsets.iter().map(|number| (*number, silent(number)));
     open.filter(|(_, axes)| !axes.is_empty())
         .map(|(number, axes)| {
-            let message = Message::common("time-offset-axes").text("offset", offset(plan, number));
+            let message = Message::part(Part::Time, "offset-axes").text("offset", offset(plan, number));
             message.text("axes", axes.join(" ")).headline()
         })
         .collect()
@@ -161,20 +164,20 @@ fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
         return Vec::new();
     }
     if !used.iter().any(|length| is_stated(length)) {
-        return vec![Message::common("time-lengths-equal").headline()];
+        return vec![Message::part(Part::Time, "lengths-equal").headline()];
     }
     let open = used.into_iter().filter(|length| !is_stated(length));
     open.map(|length| match length {
         Length::Entry(entry) => {
             let tool = plan.tables.edge_entries.iter().find(|(_, own)| *own == entry);
-            Message::common("time-length").text("tool", tool.map_or(entry, |(tool, _)| tool).to_string())
+            Message::part(Part::Time, "length").text("tool", tool.map_or(entry, |(tool, _)| tool).to_string())
         }
         Length::Edge(tool, edge) if *tool < 0 => {
-            Message::common("time-length-edge-at-start").text("edge", edge.to_string())
+            Message::part(Part::Time, "length-edge-at-start").text("edge", edge.to_string())
         }
-        Length::Edge(tool, edge) => {
-            Message::common("time-length-edge").text("edge", edge.to_string()).text("tool", tool.to_string())
-        }
+        Length::Edge(tool, edge) => Message::part(Part::Time, "length-edge")
+            .text("edge", edge.to_string())
+            .text("tool", tool.to_string()),
     })
     .map(|message| message.headline())
     .collect()
@@ -183,7 +186,7 @@ fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
 /// Of the machine: what its profile states, but marks as assumed.
 pub fn of_profile(profile: &Profile) -> Vec<String> {
     if profile.schema.typical {
-        return vec![Message::common("time-typical").headline()];
+        return vec![Message::part(Part::Time, "typical").headline()];
     }
     let mut marked: Vec<(&'static str, Vec<String>)> = Vec::new();
     let of_time = ["[rates]", "[times]", "[spindle]", "[[axis]]"];
@@ -205,7 +208,7 @@ pub fn of_profile(profile: &Profile) -> Vec<String> {
         [] => Vec::new(),
         marked => {
             let words: Vec<String> = marked.iter().map(word).collect();
-            vec![Message::common("time-marked").text("facts", words.join(", ")).headline()]
+            vec![Message::part(Part::Time, "marked").text("facts", words.join(", ")).headline()]
         }
     }
 }
@@ -223,7 +226,9 @@ pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<St
     let mut lines = in_words(&facts, moved);
     if plan.model != Model::Ideal && course.corners.open {
         let tolerance = machine.path_tolerance.unwrap_or_default();
-        lines.push(Message::common("time-path-tolerance").text("tolerance", short(tolerance, 3)).headline());
+        lines.push(
+            Message::part(Part::Time, "path-tolerance").text("tolerance", short(tolerance, 3)).headline(),
+        );
     }
     if plan.model == Model::Ideal && course.bounds.is_some() {
         // The upper bound needs more than the model does.
@@ -232,7 +237,7 @@ pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<St
         lines.extend(
             in_words(&needed, moved)
                 .into_iter()
-                .map(|line| Message::common("time-bound").text("fact", line).headline()),
+                .map(|line| Message::part(Part::Time, "bound").text("fact", line).headline()),
         );
     }
     lines
@@ -249,7 +254,7 @@ fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
             "" if fact.value == 0.0 => "no".to_owned(),
             "" => "yes".to_owned(),
             _ if fact.fact == Fact::LookAhead && fact.value >= f64::from(WHOLE_PATH) => {
-                Message::common("time-whole-path").headline()
+                Message::part(Part::Time, "whole-path").headline()
             }
             unit => format!("{} {unit}", short(fact.value, 3)),
         };

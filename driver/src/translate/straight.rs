@@ -13,7 +13,7 @@ use ncc_passes::PASSES;
 use ncc_passes::watch::unwatched;
 
 use super::translation::{FLATTEN, Translation};
-use crate::job::Job;
+use crate::job::{Job, Straight};
 use crate::questions::Policy;
 use crate::source::Readable;
 
@@ -34,11 +34,11 @@ pub(super) fn is_open(translation: &Translation) -> bool {
         && errors.all(|d| matches!(d.fault, Fault::TargetLacks { .. } | Fault::EntryFactNeeded { .. }))
 }
 
-/// What a user types so that the program goes through as straight blocks, if it does.
+/// What a user types so that ncc can write the program as straight blocks, if it can.
 ///
 /// # Errors
 /// Reading the source failed.
-pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option<&'static str>> {
+pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option<Straight>> {
     let passes = PASSES.iter().filter(|pass| pass.name == FLATTEN).collect();
     let mut job = Job { passes, questions: Policy::Assume, tried_upto: Some(MOST), ..job.clone() };
     let mut try_with = |job: &Job| {
@@ -57,15 +57,12 @@ pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option
         })
     };
     match try_with(&job)? {
-        Tried::GoesThrough => return Ok(Some("`--pass flatten`")),
+        Tried::GoesThrough => return Ok(Some(Straight::Flattened)),
         Tried::Refused => return Ok(None),
         Tried::WithoutWay => {
             let stated = job.from.choose(BLOCK_WITHOUT_WAY, LOOKED_OVER).is_ok();
             let goes_through = stated && try_with(&job)? == Tried::GoesThrough;
-            return Ok(goes_through.then_some(
-                "`--pass flatten`, and `--from-option block_without_way=looked-over` if the control looks over blocks without \
-                 a way,",
-            ));
+            return Ok(goes_through.then_some(Straight::WithoutMotion));
         }
         Tried::Switch => {}
     }
@@ -74,7 +71,7 @@ pub(super) fn options(job: &Job, source: &mut dyn Readable) -> io::Result<Option
             return Ok(None);
         }
     }
-    Ok(Some("`--pass flatten`, and `--from-option block_skip=off` or `=on`,"))
+    Ok(Some(Straight::Switch))
 }
 
 /// What becomes of the program in straight blocks.

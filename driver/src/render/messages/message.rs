@@ -24,8 +24,51 @@ use serde::Serialize;
 use super::files::FILES;
 use crate::render::text::plain;
 
-/// In place of a code: words that belong to no code.
-const COMMON: u16 = 0;
+/// A file of words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Home {
+    /// Those of a code.
+    Code(u16),
+    /// Those of a part of the output, which belong to no code.
+    Part(Part),
+}
+
+/// A part of the output with words of its own: the name of its folder and of its entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Part {
+    /// What goes with messages of any code.
+    Common,
+    /// Questions, and what their answers make of a program.
+    Question,
+    /// The account of a translation.
+    Summary,
+    /// What `ncc time` took for granted.
+    Time,
+    /// What `ncc check` did not check.
+    Unchecked,
+}
+
+impl Part {
+    fn name(self) -> &'static str {
+        match self {
+            Part::Common => "common",
+            Part::Question => "question",
+            Part::Summary => "summary",
+            Part::Time => "time",
+            Part::Unchecked => "unchecked",
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Part::Common => include_str!("../../../messages/common/en.ftl"),
+            Part::Question => include_str!("../../../messages/question/en.ftl"),
+            Part::Summary => include_str!("../../../messages/summary/en.ftl"),
+            Part::Time => include_str!("../../../messages/time/en.ftl"),
+            Part::Unchecked => include_str!("../../../messages/unchecked/en.ftl"),
+        }
+    }
+}
 
 /// A value in a message.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -62,10 +105,10 @@ impl Help {
     }
 }
 
-/// A message: its code, which of the code's entries, and the values in it.
+/// A message: its file, which of its entries, and the values in it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Message {
-    code: u16,
+    home: Home,
     form: &'static str,
     /// The reason of a refusal, which has an entry of its own.
     reason: Option<String>,
@@ -77,12 +120,17 @@ pub(crate) struct Message {
 impl Message {
     /// The only or the first entry of a code.
     pub(crate) fn new(code: u16) -> Message {
-        Message { code, form: "", reason: None, values: Vec::new(), typed: Vec::new() }
+        Message { home: Home::Code(code), form: "", reason: None, values: Vec::new(), typed: Vec::new() }
     }
 
-    /// Words that belong to no code: `common-also`.
+    /// Words that belong to no code: `common-also-line`.
+    pub(crate) fn part(part: Part, form: &'static str) -> Message {
+        Message { home: Home::Part(part), form, reason: None, values: Vec::new(), typed: Vec::new() }
+    }
+
+    /// Words that go with messages of any code.
     pub(crate) fn common(form: &'static str) -> Message {
-        Message::new(COMMON).form(form)
+        Message::part(Part::Common, form)
     }
 
     /// The entry of this form: `units` for `NC0225-units`.
@@ -124,13 +172,11 @@ impl Message {
 
     /// The name of its entry: `NC0225-units`.
     pub(crate) fn entry(&self) -> String {
-        if let Some(reason) = &self.reason {
-            return format!("NC{:04}-{reason}", self.code);
-        }
-        match (self.code, self.form) {
-            (COMMON, form) => format!("common-{form}"),
-            (code, "") => format!("NC{code:04}"),
-            (code, form) => format!("NC{code:04}-{form}"),
+        match (self.home, &self.reason, self.form) {
+            (Home::Part(part), _, form) => format!("{}-{form}", part.name()),
+            (Home::Code(code), Some(reason), _) => format!("NC{code:04}-{reason}"),
+            (Home::Code(code), None, "") => format!("NC{code:04}"),
+            (Home::Code(code), None, form) => format!("NC{code:04}-{form}"),
         }
     }
 
@@ -181,7 +227,7 @@ impl Message {
             Help::Words(words) => Some(words),
             Help::Entry(attribute, own) => {
                 let words = opened.words(Some(attribute), &own);
-                debug_assert!(words.is_some(), "NC{:04} has no {attribute}", self.code);
+                debug_assert!(words.is_some(), "{} has no {attribute}", self.entry());
                 words
             }
         };
@@ -196,16 +242,16 @@ struct Opened<'m> {
 }
 
 thread_local! {
-    /// The codes that were read before: a report formats some of them thousands of times.
-    static READ: RefCell<BTreeMap<u16, Rc<FluentBundle<FluentResource>>>> = const { RefCell::new(BTreeMap::new()) };
+    /// The files that were read before: a report formats some of them thousands of times.
+    static READ: RefCell<BTreeMap<Home, Rc<FluentBundle<FluentResource>>>> = const { RefCell::new(BTreeMap::new()) };
 }
 
 impl Opened<'_> {
     fn new(message: &Message) -> Opened<'_> {
-        let read = |code| {
-            READ.with_borrow_mut(|all| all.entry(code).or_insert_with(|| Rc::new(bundle(code))).clone())
+        let read = |home| {
+            READ.with_borrow_mut(|all| all.entry(home).or_insert_with(|| Rc::new(bundle(home))).clone())
         };
-        Opened { message, bundle: read(message.code) }
+        Opened { message, bundle: read(message.home) }
     }
 
     /// The words of an attribute, or of the headline, if the entry has it.
@@ -219,8 +265,10 @@ impl Opened<'_> {
                 Some(attribute) => attribute.value(),
                 // What no reason needs of its own is in the first entry of the code.
                 None => {
-                    let first =
-                        self.message.reason.as_ref().map(|_| format!("NC{:04}", self.message.code))?;
+                    let (Home::Code(code), Some(_)) = (self.message.home, &self.message.reason) else {
+                        return None;
+                    };
+                    let first = format!("NC{code:04}");
                     self.bundle.get_message(&first)?.get_attribute(attribute)?.value()
                 }
             },
@@ -242,18 +290,18 @@ impl Opened<'_> {
     }
 }
 
-/// The entries of a code, ready to be formatted. A file that does not parse has the entries before its fault.
-fn bundle(code: u16) -> FluentBundle<FluentResource> {
-    let text = match code {
-        COMMON => include_str!("../../../messages/common/en.ftl"),
-        _ => FILES.iter().find(|files| files.code == code).map_or("", |files| files.words),
+/// The entries of a file, ready to be formatted. A file that does not parse has the entries before its fault.
+fn bundle(home: Home) -> FluentBundle<FluentResource> {
+    let text = match home {
+        Home::Part(part) => part.words(),
+        Home::Code(code) => FILES.iter().find(|files| files.code == code).map_or("", |files| files.words),
     };
     let parsed = FluentResource::try_new(text.to_owned());
-    debug_assert!(parsed.is_ok(), "messages/NC{code:04}/en.ftl does not parse");
+    debug_assert!(parsed.is_ok(), "the words of {home:?} do not parse");
     let language = "en".parse().unwrap_or_default();
     let mut bundle = FluentBundle::new(vec![language]);
     bundle.set_use_isolating(false);
     let added = bundle.add_resource(parsed.unwrap_or_else(|(resource, _)| resource));
-    debug_assert!(added.is_ok(), "messages/NC{code:04}/en.ftl has an entry twice");
+    debug_assert!(added.is_ok(), "the words of {home:?} have an entry twice");
     bundle
 }

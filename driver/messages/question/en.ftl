@@ -1,0 +1,21 @@
+# Questions, and what each answer makes of the program.
+question-label = both answers differ here first
+question-answer-points = write decimal points
+question-readings-taken = not stated, and it changes the cut; ncc took { $readings }
+question-path-of-part = over { $words } of the part
+question-path-from-here = from the present position
+question-path-by-words = by { $words } from the present position
+question-result-turn = { $axis } turns by { $by } degrees
+question-result-drills = { $cycle } drills
+question-result-moves = { $motion } moves all axes and cancels { $cycle }
+question-result-end = { $axis } ends at { $at } mm
+question-result-angle = { $axis } ends at { $at } degrees
+question-result-centre = the centre is at { $axis } { $at } mm
+question-result-feed-per-minute = the feed is { $rate } mm/min
+question-result-feed-per-revolution = the feed is { $rate } mm/rev
+question-result-inverse-time-feed = the feed is { $rate } moves a minute
+question-result-dwell = the dwell is { $time } s
+question-result-spindle-on = the spindle turns
+question-result-spindle-off = the spindle is stopped
+question-result-tool = tool { $number } cuts
+question-result-refused = refused, { $code }

@@ -1,0 +1,28 @@
+# What `ncc time` took for granted.
+time-start = the tool starts at program zero in { $axes }
+time-skip-off = block-skip { $count ->
+        [one] switch { $levels } is off
+       *[other] switches { $levels } are off
+    }
+time-stops = stops for the operator take no time
+time-tilt = turning the tool axis onto tilted planes takes no time
+time-tip = with tool centre point control, only the linear axes are timed
+time-contours = compensated contours are timed as programmed, not along the tool centre
+time-as-programmed = from line { $line } on, contours are timed as programmed
+time-as-programmed-why = from line { $line } on, contours are timed as programmed: { $why }
+time-radius = compensated contours are timed as programmed: no radius is stated for { $entries }
+time-edge-radius = compensated contours are timed as programmed: no radius is stated for a tool edge
+time-outer-corners = outer corners of compensated contours are arcs
+time-offset-zero = { $offset } is machine zero
+time-offsets-zero = all work offsets are machine zero
+time-offsets-equal = all work offsets are equal
+time-offset-axes = { $offset } = 0 in { $axes }
+time-lengths-equal = all tools have the same length
+time-length = length of tool { $tool } = 0 mm
+time-length-edge = length of edge { $edge } of tool { $tool } = 0 mm
+time-length-edge-at-start = length of edge { $edge } of the first tool = 0 mm
+time-typical = rates, accelerations and times are typical figures, not those of one machine
+time-marked = marked as assumed in the machine profile: { $facts }
+time-path-tolerance = path tolerance where the program states none: { $tolerance } mm
+time-bound = for the upper bound, { $fact }
+time-whole-path = the whole path

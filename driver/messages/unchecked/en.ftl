@@ -1,0 +1,21 @@
+# What `ncc check` did not check, and why.
+unchecked-travel = travel of { $axis }
+unchecked-ranges = travel, feed and speed ranges
+unchecked-rapids = rapid moves
+unchecked-feeds = feeds
+unchecked-speeds = speeds
+unchecked-rest = the rest of the program
+unchecked-modes = rules that need the active modes, after that block
+unchecked-no-machine = no machine is named (`--machine`)
+unchecked-no-plane = no plane is named (`--rapid-plane`)
+unchecked-not-stated = the profile does not state it
+unchecked-no-offset = the profile does not state the zero of work offset { $offset }
+unchecked-tool-unknown = ncc does not know which tool is in the spindle
+unchecked-no-length = the profile does not state the length of tool { $tool }
+unchecked-frame = the zero is not known after blocks that ncc could not read
+unchecked-start = the start position is not stated
+unchecked-tilted = tool centre point control or a tilted plane: ncc does not compute the axes
+unchecked-no-feed = the profile states no highest feed
+unchecked-no-speed = the profile states no highest speed
+unchecked-endless = the program does not end
+unchecked-not-read = ncc cannot read some blocks as { $dialect }, the first in line { $line }
