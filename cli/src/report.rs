@@ -1,4 +1,4 @@
-//! What is printed of a translation, in words or as lines of JSON.
+//! Prints a translation's result, for people or as lines of JSON.
 //!
 //! ```text
 //! an outcome    --format human: questions, messages, the account    --format json: one object a line
@@ -16,7 +16,7 @@ use ncc_driver::render::{About, Loudness, json, line, questions, report};
 use crate::args::Translate;
 use crate::args::typed::Format;
 
-/// Tells of a translation on `err`.
+/// Prints a translation's result on `err`.
 ///
 /// # Errors
 /// Reading the source, or writing.

@@ -1,5 +1,5 @@
-//! The corpus through the engine: a line of JSON for each request, with the code and a hash of every output. Another
-//! build of the engine must give the same: `engine/compare.mjs` holds one in WebAssembly against it.
+//! Runs the corpus through the engine: a line of JSON for each request, with the code and a hash of every output. Another
+//! build of the engine must print the same: `engine/compare.mjs` compares one in WebAssembly.
 //!
 //! ```text
 //! cargo run --release -p ncc-engine --example corpus -- corpus > requests.ndjson
@@ -13,7 +13,7 @@ use ncc_engine::Engine;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-/// What each program is translated into.
+/// The targets of each program.
 const TARGETS: [&str; 3] = ["fanuc", "siemens", "linuxcnc"];
 
 fn main() -> io::Result<()> {

@@ -5,13 +5,13 @@
 /// Number of axes that a program can name.
 pub const AXES: usize = 6;
 
-/// Whether two points are the same. As fast as can be: `==` on arrays calls the library.
+/// Whether two points are equal. A fast comparison: `==` on arrays calls the library.
 #[inline]
 pub fn same_point(a: &[i64; AXES], b: &[i64; AXES]) -> bool {
     a.iter().zip(b).fold(0, |differing, (a, b)| differing | (a ^ b)) == 0
 }
 
-/// An axis. X Y Z are linear, A B C turn about them.
+/// An axis. X Y Z are linear, A B C are rotary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // The names are the meaning.
 pub enum Axis {
@@ -24,7 +24,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// All axes, in the order in which functions take them.
+    /// All axes, in the order of arguments.
     pub const ALL: [Axis; AXES] = [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C];
 
     /// Its address letter.
@@ -32,7 +32,7 @@ impl Axis {
         b"XYZABC"[self as usize]
     }
 
-    /// Whether it turns (its coordinate is in degrees).
+    /// Whether it is rotary (its coordinate is in degrees).
     pub const fn is_rotary(self) -> bool {
         matches!(self, Axis::A | Axis::B | Axis::C)
     }
@@ -51,7 +51,7 @@ impl Axis {
     }
 }
 
-/// The plane of arcs and the two axes of hole positions; its normal is the drilling axis.
+/// The plane of arcs and of hole positions; its normal is the drilling axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Plane {
     /// X then Y, normal Z.
@@ -76,9 +76,9 @@ impl Plane {
 /// How a coordinate is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Distance {
-    /// From program zero.
+    /// From program zero (G90).
     Absolute,
-    /// From where the axis stands.
+    /// From the present position (G91).
     Incremental,
 }
 
@@ -91,42 +91,42 @@ pub enum Units {
     Inch,
 }
 
-/// What a feed word counts.
+/// The unit of a feed word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FeedMode {
-    /// Length a minute.
+    /// Feed per minute (G94).
     PerMinute,
-    /// Length a turn of the spindle.
+    /// Feed per revolution (G95).
     PerRevolution,
-    /// One over the minutes that the move takes.
+    /// Inverse time (G93): 1 divided by the minutes of the move.
     InverseTime,
 }
 
-/// How the corners between moves are taken. From [`PathMode::Continuous`] on the control rounds them;
-/// by how much is its own where the mode does not say it.
+/// Path modes. From [`PathMode::Continuous`] on the control rounds corners;
+/// a parameter of the control decides by how much, unless the mode says it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PathMode {
-    /// Stops at the end of every move at feed until the axes are there.
+    /// Exact stop at the end of every feed move.
     ExactStop,
-    /// Goes through every end point, and need not stop.
+    /// Passes through every end point, without a stop.
     ExactPath,
-    /// Rounds corners as the control sees fit.
+    /// Rounds corners by a parameter of the control.
     Continuous,
-    /// Leaves the programmed path by no more than a stated length.
+    /// Leaves the programmed path by at most a stated length.
     Tolerance,
-    /// Begins to round at a stated distance before a corner.
+    /// Starts to round at a stated distance before a corner.
     Distance,
-    /// Rounds within tolerances of the axes.
+    /// Rounds within the tolerances of the axes.
     AxisTolerances,
-    /// Rounds within tolerances, inside of the blocks.
+    /// Rounds within tolerances, inside the blocks.
     WithinBlocks,
-    /// Rounds so that the axes go as fast as they can.
+    /// Rounds so that the axes move as fast as they can.
     Dynamics,
-    /// As [`PathMode::AxisTolerances`], and where two moves meet without a corner too.
+    /// As [`PathMode::AxisTolerances`], also between tangential moves.
     Tangential,
-    /// As [`PathMode::Continuous`], and slower than the feed says at inner corners of a compensated contour.
+    /// As [`PathMode::Continuous`], with a lower feed at inner corners of a compensated contour.
     SlowCorners,
-    /// As [`PathMode::Continuous`], and the operator can neither hold the feed nor change it.
+    /// As [`PathMode::Continuous`], without feed hold and feed override.
     Tapping,
 }
 
@@ -156,73 +156,73 @@ impl PathMode {
         PathMode::ALL.iter().find(|(_, n)| *n == name).map(|(mode, _)| *mode)
     }
 
-    /// Whether it rounds in a way of its own, beyond [`PathMode::Continuous`].
+    /// Whether it rounds in a way of its own, unlike [`PathMode::Continuous`].
     pub const fn is_rounding(self) -> bool {
         !matches!(self, PathMode::ExactStop | PathMode::ExactPath | PathMode::Continuous)
     }
 
-    /// The mode that is left of it where the way of rounding cannot be said.
+    /// The mode that remains if the target lacks this way of rounding.
     pub const fn plain(self) -> PathMode {
         if self.is_rounding() { PathMode::Continuous } else { self }
     }
 }
 
-/// What a speed of the spindle counts.
+/// The unit of a spindle speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SpindleMode {
-    /// Turns a minute.
+    /// Revolutions per minute (G97).
     #[default]
     Turns,
-    /// Metres a minute (feet a minute in inches) at the distance of X from program zero: constant surface
-    /// speed.
+    /// Constant surface speed (G96): metres a minute (feet a minute in inches) at the distance of X from
+    /// program zero.
     Surface,
 }
 
-/// What a word may advise a control of that changes neither where the tool goes nor how fast it is
-/// told to: each kind has the values of [`AdviceKind::values`].
+/// Advice to the control. It changes neither the path nor the programmed feed.
+/// The values of each kind are in [`AdviceKind::values`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AdviceKind {
-    /// Blocks are looked at ahead of time.
+    /// Look-ahead.
     LookAhead,
-    /// Contours of many short lines are watched for their accelerations.
+    /// High-speed machining of many short lines.
     ContourControl,
     /// The same with a processor of its own.
     HighPrecision,
-    /// The drives are told the speed ahead, so that they do not lag.
+    /// Feed-forward: the drives get the speed in advance.
     FeedForward,
-    /// How the axes accelerate.
+    /// Acceleration of the axes.
     Acceleration,
-    /// Many short lines are made one curve, within the control's tolerances.
+    /// Compressor: many short lines become a curve within tolerances.
     Compressor,
-    /// Which set of limits of speed and acceleration is used.
+    /// The active set of limits for speed and acceleration.
     Dynamics,
-    /// When an exact stop counts as reached.
+    /// The window of an exact stop.
     ExactStopWindow,
-    /// Whether orientations of the tool are those of the workpiece or of the machine.
+    /// Whether tool orientations refer to the workpiece or to the machine.
     Orientation,
-    /// The programmed limits of the working area are watched.
+    /// Monitoring of the programmed working area limits.
     WorkingArea,
-    /// The stored limits of the strokes are watched.
+    /// Monitoring of the stored stroke limits.
     StrokeCheck,
-    /// Which stage of machining follows, and within which tolerance.
+    /// The machining stage and its tolerance.
     PathTolerance,
-    /// What of a compensated contour the feed counts for.
+    /// Where the feed of a compensated contour counts.
     CompensatedFeed,
-    /// Whether the operator's switch changes the feed (NIST `ENABLE_FEED_OVERRIDE`).
+    /// Feed override on or off (NIST `ENABLE_FEED_OVERRIDE`).
     FeedOverride,
-    /// Whether the operator's switch changes the spindle's speed (NIST `ENABLE_SPEED_OVERRIDE`).
+    /// Spindle override on or off (NIST `ENABLE_SPEED_OVERRIDE`).
     SpeedOverride,
-    /// Whether a switch of the machine holds the feed.
+    /// Feed hold by a switch of the machine.
     FeedStop,
-    /// How smoothly corners are taken, and within which length: a level of the control's own.
+    /// Smoothness of corners, and its length: a level of the control.
     Smoothness,
-    /// How many blocks are read ahead of the one that is executed.
+    /// How many blocks the control reads ahead.
     ReadAhead,
-    /// What takes the chips away.
+    /// Chip conveyor and the like.
     ChipConveyor,
     /// The door of the working area.
     Door,
-    /// Whether the screen is drawn anew while the program runs.
+    /// Whether the screen is updated while the program runs.
     Screen,
 }
 
@@ -262,7 +262,7 @@ impl AdviceKind {
         AdviceKind::ALL.iter().find(|(_, n)| *n == name).map(|(kind, _)| *kind)
     }
 
-    /// What it can be, by names in text; at most seven.
+    /// Its values by name; at most seven.
     pub const fn values(self) -> &'static [&'static str] {
         match self {
             AdviceKind::LookAhead
@@ -296,13 +296,13 @@ impl AdviceKind {
         self.values().iter().position(|n| *n == name).map(|at| at as u8)
     }
 
-    /// Whether a length belongs to it.
+    /// Whether it has a length.
     pub const fn has_amount(self) -> bool {
         matches!(self, AdviceKind::PathTolerance | AdviceKind::Smoothness)
     }
 
-    /// Its value where its code stands without a word: a switch is on, what else would it be said for; and what a
-    /// number limits has no limit.
+    /// Its value for a code without a word: a switch is on, and a number that
+    /// limits something means no limit.
     pub const fn alone(self) -> Option<u8> {
         match self {
             AdviceKind::FeedOverride | AdviceKind::SpeedOverride | AdviceKind::FeedStop => Some(1),
@@ -311,22 +311,22 @@ impl AdviceKind {
         }
     }
 
-    /// Its place among the values of all kinds: where they begin, in bits; each has three.
+    /// Its index among the values of all kinds, in bits; three for each kind.
     pub const fn bits(self) -> u32 {
         self as u32 * 3
     }
 }
 
-/// Where a canned cycle leaves the tool.
+/// The return level of a canned cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ReturnLevel {
-    /// The drilling axis' position when the cycle was called up.
+    /// The initial level: position along the drilling axis before the cycle (G98).
     Initial,
-    /// The retract plane R.
+    /// The R plane (G99).
     Retract,
 }
 
-/// Sense of an arc, seen from the positive end of the plane's normal.
+/// Direction of an arc, seen from the positive end of the plane's normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The names are the meaning.
 pub enum Turn {
@@ -334,14 +334,14 @@ pub enum Turn {
     Counterclockwise,
 }
 
-/// Which way round a rotary axis goes to where it is told.
+/// Direction of a rotary move to its angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RotaryWay {
-    /// No more than half a turn.
+    /// The shortest path: at most half a turn.
     Shortest,
-    /// Towards greater angles, less than a turn.
+    /// Towards greater angles, below a turn.
     Positive,
-    /// Towards smaller ones.
+    /// Towards smaller angles, below a turn.
     Negative,
 }
 
@@ -363,7 +363,7 @@ impl RotaryWay {
         RotaryWay::ALL.iter().find(|(_, n)| *n == name).map(|(way, _)| *way)
     }
 
-    /// How far it turns from one angle to another, in nanos of a degree; `None` where both senses are as
+    /// The turn from one angle to another, in nanos of a degree; `None` where both directions are equally
     /// short.
     pub fn turn(self, from: i64, to: i64) -> Option<i64> {
         const WHOLE: i64 = 360_000_000_000;
@@ -377,20 +377,20 @@ impl RotaryWay {
         }
     }
 
-    /// Whether that is the way along the numbers: what a plain word says.
+    /// Whether the direction is that of a plain word.
     pub fn is_direct(self, from: i64, to: i64) -> bool {
         self.turn(from, to) == Some(to.wrapping_sub(from))
     }
 }
 
-/// What is put into a corner between two moves, and by which length.
+/// The shape of a corner between two moves, and the meaning of its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CornerShape {
     /// An arc tangent to both moves, of this radius.
     Round,
-    /// A line that begins so far before the corner, and ends so far behind it.
+    /// A line from this distance before the corner to this distance after it.
     Leg,
-    /// A line of this length, as far from the corner where it begins as where it ends.
+    /// A line of this length, symmetric about the corner.
     Length,
 }
 
@@ -399,7 +399,7 @@ impl CornerShape {
     pub const ALL: [CornerShape; 3] = [CornerShape::Round, CornerShape::Leg, CornerShape::Length];
 }
 
-/// On which side of the programmed contour, seen along the way, the tool goes.
+/// The side of the programmed contour on which the tool moves, seen in the direction of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The names are the meaning.
 pub enum Side {
@@ -416,7 +416,7 @@ impl Side {
         }
     }
 
-    /// The other side.
+    /// The opposite side.
     pub const fn other(self) -> Side {
         match self {
             Side::Left => Side::Right,
@@ -435,30 +435,30 @@ pub enum Spindle {
     Counterclockwise,
 }
 
-/// What axis words without a motion code do.
+/// The motion mode: what axis words without a motion code do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Motion {
-    /// Rapid.
+    /// A rapid move (G00).
     Traverse,
-    /// Straight line at feed.
+    /// A feed move (G01).
     Feed,
     /// Arc.
     Arc(Turn),
-    /// A hole of the cycle in force.
+    /// A hole of the active cycle.
     Cycle,
 }
 
-/// A modal fact that a statement depends on.
+/// A modal value on which a statement depends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fact<T> {
-    /// The program has said it before, whichever way it came here.
+    /// The program has set it, on every path to this statement.
     Known(T),
-    /// Whatever is in force when the statement runs: the caller's, or the control's at power-on.
+    /// The value that is active at run time: the caller's, or the power-on value.
     Entry,
 }
 
 impl<T> Fact<T> {
-    /// The value, or `in_force` where the program has not said it.
+    /// The value, or `in_force` if the program has not set it.
     pub fn or(self, in_force: T) -> T {
         match self {
             Fact::Known(value) => value,

@@ -1,4 +1,4 @@
-//! One canonical function with its place, before it has a time.
+//! A canonical function with its position and place, before it has a time.
 
 use ncc_exec::{Event, Exec, Kind};
 use ncc_ir::canon::{AXES, FeedMode};
@@ -7,35 +7,35 @@ use ncc_ir::source::Span;
 
 use crate::path::path;
 
-/// Where in the source a function comes from.
+/// The place of a function in the source.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// Line, the first is 1; 0 if not known.
+    /// Line number from 1; 0 if unknown.
     pub line: u32,
-    /// Bytes of the block.
+    /// Span of the block.
     pub span: Span,
 }
 
 /// A canonical function that the machine carries out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Act {
-    /// What it is; its end is in machine coordinates.
+    /// The event; its end point is in machine coordinates.
     pub event: Event,
-    /// Where the axes stand before it, machine coordinates in nanos of a millimetre or degree.
+    /// Position before it, in machine coordinates: nanos of a millimetre or degree.
     pub from: [Nanos; AXES],
-    /// Where they stand before it, in the coordinates that the program speaks in when it is over.
+    /// Position before it, in the program coordinates that are active after it.
     pub program_from: [Nanos; AXES],
-    /// Where they stand after it, in the program's coordinates.
+    /// Position after it, in program coordinates.
     pub program_to: [Nanos; AXES],
-    /// Entry of the tool-length table in force; `None` where it is an edge of a tool.
+    /// Active entry of the tool-length table; `None` for a tool edge.
     pub cut_offset: Option<u32>,
-    /// Where it comes from.
+    /// Its place in the source.
     pub place: Place,
 }
 
 impl Act {
-    /// Of an event that a control has just made; `from` is where the axes stood before it.
-    /// Its feed is one per minute, whatever the program's counts.
+    /// An act from an event of `exec`; `from` is the position before it. Its feed becomes a feed per minute,
+    /// whatever the program's feed mode.
     pub fn of(mut event: Event, from: [Nanos; AXES], exec: &Exec, place: Place) -> Act {
         event.rate = per_minute(&event, &from);
         Act {
@@ -49,9 +49,9 @@ impl Act {
     }
 }
 
-/// The feed of a move in mm/min: a feed per turn goes with the speed of the spindle, of a surface speed with
-/// that in the middle of the way, a time with the length of the way. A spindle that stands leaves a feed per
-/// turn as it is.
+/// The feed of a move in mm/min. Feed per revolution is multiplied by the spindle speed; under constant
+/// surface speed, by the speed at the middle of the move. Inverse-time feed is multiplied by the length of
+/// the move. With the spindle stopped, a feed per revolution stays as it is.
 fn per_minute(event: &Event, from: &[Nanos; AXES]) -> Nanos {
     let state = &event.state;
     let by = match state.feed_mode {
@@ -63,6 +63,6 @@ fn per_minute(event: &Event, from: &[Nanos; AXES]) -> Nanos {
         },
         FeedMode::InverseTime => path(event, from).length,
     };
-    // A rate beyond the range of the type is none.
+    // A rate beyond the range of `Nanos` saturates.
     (event.rate as f64 * by) as Nanos
 }

@@ -1,7 +1,7 @@
-//! What a model needs to know of a machine.
+//! The facts of a machine that a time model needs.
 //!
-//! Every fact may be unknown. A model that needs it takes a value for granted, which
-//! [`Machine::assumed`] lists; it is never filled in silently.
+//! Every fact may be unknown. A model that needs an unknown fact uses a typical value;
+//! [`Machine::assumed`] lists these values, so that each is reported.
 
 use ncc_ir::canon::AXES;
 
@@ -11,36 +11,36 @@ use ncc_ir::canon::AXES;
 pub struct Machine {
     /// Facts of each axis.
     pub axes: [AxisFacts; AXES],
-    /// Rate of a rapid along its straight line, mm/min; where not known, the axes' rates decide.
+    /// Rapid rate along a straight line, mm/min; if unknown, the rates of the axes decide.
     pub rapid_rate: Option<f64>,
     /// Highest feed along the path, mm/min.
     pub max_feed: Option<f64>,
     /// Seconds of a tool change.
     pub tool_change: Option<f64>,
-    /// Which function takes them.
+    /// The function that takes this time.
     pub tool_change_on: ToolChangeOn,
-    /// Seconds until the spindle turns at its speed.
+    /// Seconds until the spindle reaches its speed.
     pub spindle_start: Option<f64>,
-    /// Seconds until it stands.
+    /// Seconds until the spindle is stopped.
     pub spindle_stop: Option<f64>,
-    /// Change of the spindle's speed, rev/min per second, where the time depends on the speed.
+    /// Spindle acceleration, rev/min per second, where the time depends on the speed.
     pub spindle_acceleration: Option<f64>,
     /// Highest speed, rev/min.
     pub spindle_max: Option<f64>,
-    /// How far the path may leave a corner, mm; 0 is an exact stop in every corner. A length that the program
-    /// states wins over it.
+    /// Path tolerance at a corner, mm; 0 is an exact stop at every corner. A tolerance in the program
+    /// takes precedence.
     pub path_tolerance: Option<f64>,
-    /// Whether every move ends in a stop, in a straight line too: a control in exact-stop mode. A path mode that the
-    /// program states wins over it.
+    /// Whether every move ends with an exact stop, also between collinear moves. A path mode in the
+    /// program takes precedence.
     pub exact_stop: Option<bool>,
-    /// Blocks with a move that the control knows beyond the one that it carries out; `None` and
-    /// [`WHOLE_PATH`](crate::WHOLE_PATH) are the whole path.
+    /// Look-ahead in blocks with a move; `None` and
+    /// [`WHOLE_PATH`](crate::WHOLE_PATH) mean the whole path.
     pub look_ahead: Option<u32>,
-    /// Seconds that an M function takes besides what it does.
+    /// Seconds of an M function, in addition to its effect.
     pub m_function: Option<f64>,
-    /// Functions of the machine's own by name, with the seconds that each takes.
+    /// Machine functions by name, with the seconds of each.
     pub functions: Vec<(String, f64)>,
-    /// Least seconds of a block with a move: what the control needs to prepare the next one.
+    /// Least seconds of a block with a move: the block processing time.
     pub block: Option<f64>,
 }
 
@@ -59,7 +59,7 @@ pub struct AxisFacts {
     pub jerk: Option<f64>,
 }
 
-/// Which function takes the time of a tool change.
+/// The function that takes the time of a tool change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToolChangeOn {
     /// `CHANGE_TOOL`.
@@ -70,7 +70,7 @@ pub enum ToolChangeOn {
 }
 
 impl Machine {
-    /// Seconds of a function of the machine's own, if they are stated.
+    /// Seconds of a machine function, if stated.
     pub(crate) fn function(&self, name: &str) -> Option<f64> {
         self.functions.iter().find(|(function, _)| function == name).map(|(_, seconds)| *seconds)
     }

@@ -1,8 +1,8 @@
 //! Numbers as a control writes them: digits, the point, the range.
 //!
-//! A number keeps its digits where the control resolves them, and is rounded half away from zero
-//! where it does not. Digits come from a table; nothing here goes through a binary float.
-//! Not here: what a number belongs to, and the errors that rounding leaves on incremental words.
+//! A number keeps its digits if the control resolves them; else it is rounded half away from zero.
+//! All digits come from a table. No binary float is used.
+//! Not here: the meaning of a number, and the rounding errors of incremental words.
 
 use ncc_dialects::{NumberRules, PointRule, Quantity};
 use ncc_ir::expr::num::{Num, ONE, POW10, Unit};
@@ -11,13 +11,13 @@ use ncc_ir::expr::num::{Num, ONE, POW10, Unit};
 /// X ±99999.999 mm, P and T 8 digits).
 const DIGITS: u8 = 8;
 
-/// More than these are not written in any dialect.
+/// Most digits in any dialect.
 const MOST_DIGITS: u8 = 9;
 
-/// Most bytes of a written number: sign, nine digits or a zero and nine places, the point.
+/// Longest number in bytes: sign, nine digits or a zero and nine places, the point.
 pub(crate) const LONGEST: usize = 12;
 
-/// Bytes that [`write`] may touch from where it starts; it writes in fours.
+/// Bytes that [`write`] may overwrite from its start; it writes four at a time.
 pub(crate) const ROOM: usize = 20;
 
 /// How numbers of one quantity are written.
@@ -28,12 +28,12 @@ pub(crate) struct Format {
     /// Most significant digits.
     pub digits: u8,
     pub point: PointRule,
-    /// Whether a negative value cannot be written.
+    /// Whether the control takes no negative value.
     pub unsigned: bool,
-    /// Whether it counts something, so that rounding would make something else of it.
+    /// Whether it counts something: rounding would change its meaning.
     pub counts: bool,
-    /// To how many digits the control rounds a computed value, in mm (or degrees, seconds, …) and in inches;
-    /// `None` if that is the machine's.
+    /// Digits to which the control rounds a computed value, in mm (or degrees, seconds, …) and in inches;
+    /// `None` if a machine parameter decides.
     pub rounds: Option<[u8; 2]>,
 }
 
@@ -49,7 +49,7 @@ impl Format {
         }
     }
 
-    /// The same, of words of a quantity whose computed values the control rounds.
+    /// The same format, for a quantity whose computed values the control rounds.
     pub(crate) fn rounding(self, rules: NumberRules, quantity: Quantity) -> Format {
         let rounds = match quantity {
             Quantity::Length => Some([rules.increment, rules.increment_inch.unwrap_or(rules.increment)]),
@@ -71,7 +71,7 @@ impl Format {
     }
 }
 
-/// A number ready to be written: `mantissa × 10^-scale`, less than 10^9 without its point.
+/// A number ready to be written: `mantissa × 10^-scale`, below 10^9 without its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shaped {
     pub mantissa: i32,
@@ -82,18 +82,18 @@ pub(crate) struct Shaped {
 }
 
 impl Shaped {
-    /// The value as written, in the unit of `n`.
+    /// The value as written, in `unit`.
     pub(crate) fn num(self, unit: Unit) -> Num {
         Num { mantissa: i64::from(self.mantissa), scale: self.scale, point: self.point, unit }
     }
 }
 
-/// What stands behind a letter.
+/// The value after a letter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum WordValue {
     /// A number.
     Number(Shaped),
-    /// What is computed: its place among the formulas of the block.
+    /// A run-time value: its index among the formulas of the block.
     Formula(u16),
 }
 
@@ -106,11 +106,11 @@ impl From<Shaped> for WordValue {
 /// Why a number cannot be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unwritable {
-    /// Too large, or negative where there is no sign.
+    /// Too large, or negative without a sign.
     Range,
-    /// A count that is not whole.
+    /// A count with a fraction.
     NotWhole,
-    /// Finer than the control resolves, and its unit is not known, so that it cannot be rounded.
+    /// Finer than the control resolves, in an unknown unit: it cannot be rounded.
     Fineness,
 }
 

@@ -1,9 +1,9 @@
-//! Packed moves on their way to the text: whole blocks of them at a time.
+//! Packed moves, written as whole blocks, some at a time.
 
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::{Op, Stmt};
 
-/// So many are unpacked at once.
+/// Moves that are unpacked at once.
 const AT_ONCE: usize = 512;
 
 /// The packed moves of a statement.
@@ -12,7 +12,7 @@ pub(crate) fn packed(stmt: &Stmt) -> Option<&PackedLines> {
     Some(lines)
 }
 
-/// Gives the blocks of packed moves to a writer, some at a time.
+/// Passes the blocks of packed moves to a writer, some at a time.
 pub(crate) fn each_blocks(lines: &PackedLines, mut write: impl FnMut(&[Stmt])) {
     let mut rest = lines.unpack().peekable();
     let mut some = Vec::with_capacity(AT_ONCE);

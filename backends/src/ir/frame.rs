@@ -7,7 +7,7 @@ use ncc_ir::program::{Frame, FrameSlot, FrameStep, Slot};
 use super::expr::expr;
 use super::words::{coord, plane, put};
 
-/// Values along axes, with commas between; `before` goes before the first.
+/// Values along axes, separated by commas; `before` is written before the first.
 pub(super) fn axis_words(words: &[Option<Expr>], before: &str, out: &mut Vec<u8>) {
     let mut before = before;
     for (axis, word) in Axis::ALL.into_iter().zip(words) {
@@ -21,7 +21,7 @@ pub(super) fn axis_words(words: &[Option<Expr>], before: &str, out: &mut Vec<u8>
     }
 }
 
-/// What a slot of the coordinate chain is given.
+/// The values of a slot of the coordinate chain.
 pub(super) fn filled(s: &Slot, out: &mut Vec<u8>) {
     match s {
         Slot::Shift { origin, axes } => {

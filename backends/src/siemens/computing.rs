@@ -1,9 +1,9 @@
-//! Statements of programs that compute, in the language's own words: assignments, decisions with their blocks, loops,
+//! Statements of programs that compute, in Sinumerik's language: assignments, branches with their blocks, loops,
 //! and jumps to labels.
 //!
-//! A jump says whether its label stands before it or behind. Expressions are spelt by the dictionary (`common::formula`).
+//! A jump states whether its label is before it or after it. Expressions are written by the dictionary (`common::formula`).
 //!
-//! Not here: which variables there are (`passes/variables`), their types, and calls with arguments (`variable`).
+//! Not here: the variables (`passes/variables`), their types, and calls with arguments (`variable`).
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -19,31 +19,31 @@ use ncc_passes::support::mode_analysis::has_bare_holes;
 use super::{Sink, Writer, edge_left};
 use crate::common::fault::{cannot, cannot_compute};
 
-/// The last of the arithmetic parameters that every control has: R0 to R99 (PGA, arithmetic parameters).
+/// The last arithmetic parameter of every control: R0 to R99 (PGA, arithmetic parameters).
 const LAST_EVERYWHERE: u32 = 99;
 
-/// What of a program that computes the writer must know before its statements.
+/// Facts of a program that computes, which the writer needs before its statements.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Computing {
     /// Whether the program computes at all.
     pub(super) program: bool,
-    /// Labels that are jumped to.
+    /// Jump targets.
     targets: BTreeSet<Text>,
-    /// Those of the unit at hand that stand in the text already.
+    /// Jump targets of the current unit that are already written.
     written: BTreeSet<Text>,
-    /// Whether there are cycles in it, each of which is called up in the stretch of blocks that makes its holes.
+    /// Whether the program has cycles, each called in the basic block of its holes.
     cycles: bool,
-    /// Statements whose words say their own distance mode, where others rely on the one in force, by their places.
+    /// Statements with words in a distance mode of their own, where other words depend on the active mode; by place.
     pub(super) word_distance: BTreeSet<u32>,
     told_number: bool,
     told_comparison: bool,
-    /// How many structures are open.
+    /// Open structures.
     deep: usize,
 }
 
 impl Writer {
-    /// Takes what jumps and loops need to know of the procedures of a program that computes, and at which places words
-    /// say their own distance mode.
+    /// Collects, from the procedures of a program that computes, the facts for jumps and loops, and the places of words
+    /// with a distance mode of their own.
     pub(crate) fn know(
         &mut self,
         procedures: &[Procedure],
@@ -54,35 +54,35 @@ impl Writer {
         self.computing.word_distance.clone_from(word_distance);
         self.words.is_kept(entries);
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
-        // Holes that rely on a cycle called up elsewhere: it stays in force over jumps and labels, as in the source.
+        // Holes of a cycle that another block calls: the cycle stays active over jumps and labels, as in the source.
         self.computing.cycles &= !procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
         self.know_parameters(procedures);
         self.leave_edge = edge_left::leave_edge(procedures);
         self.main = procedures.first().cloned();
     }
 
-    /// Takes which modes are in force where stretches of blocks begin, and what its subprograms leave active.
+    /// Collects the modes that are active at each basic block, and those that subprograms leave active.
     pub(crate) fn know_modes(&mut self, procedures: &[Procedure], entries: HashMap<u32, Modes>) {
         self.leave_edge = edge_left::leave_edge(procedures);
         self.words.know_modes(entries);
     }
 
-    /// A unit begins.
+    /// Starts a unit.
     pub(super) fn no_labels_yet(&mut self) {
         self.computing.written.clear();
     }
 
-    /// Whether a label stands for nothing: a block that nothing jumps to.
+    /// Whether no jump names this label.
     pub(super) fn is_idle_label(&self, name: &str) -> bool {
         self.computing.program && !self.computing.targets.contains(name)
     }
 
-    /// Whether a block may be come to from another one than that before it.
+    /// Whether a jump may reach this block.
     pub(super) fn is_come_to(&self) -> bool {
         self.computing.deep > 0 || !self.computing.written.is_empty()
     }
 
-    /// A label is about to be written, at which no cycle is in force.
+    /// Before a label, the writer cancels the active cycle.
     pub(super) fn before_label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
         if self.computing.program {
             self.computing.written.insert(name.into());
@@ -91,12 +91,12 @@ impl Writer {
         Ok(())
     }
 
-    /// Where control goes, or comes from, no cycle is left in force that blocks there call up or end.
+    /// At a jump or a jump target, the writer cancels a cycle that the blocks there call or cancel.
     fn without_cycle(&mut self, changes: bool, sink: &mut Sink) -> Result<(), Fault> {
         if changes { self.end_modal(sink) } else { Ok(()) }
     }
 
-    /// A subprogram of a program that computes ends with no cycle in force: its callers call theirs up again.
+    /// A subprogram of a program that computes ends without an active cycle: its callers call theirs again.
     pub(super) fn before_return(&mut self, sink: &mut Sink) -> Result<(), Fault> {
         let left = match self.standing.modal {
             super::Modal::Off => self.owed.is_some(),
@@ -104,14 +104,14 @@ impl Writer {
             super::Modal::Doubtful => self.cycled,
         };
         if self.alone && left {
-            // There, whether a caller goes on with it is not said in any manual that could be read.
+            // No manual at hand states whether the cycle goes on in the caller.
             return Err(cannot(HolesLack::LeftForUnknownCaller));
         }
         let left = self.computing.program && self.standing.modal == super::Modal::On;
         self.without_cycle(left, sink)
     }
 
-    /// Variables beyond those that every control has are the machine's.
+    /// Variables above R99 depend on the machine.
     pub(super) fn tell_number(&mut self, variable: &str, span: Span, sink: &mut Sink) {
         let number = variable.strip_prefix(&self.dialect.formula.prefix).and_then(|n| n.parse::<u32>().ok());
         if number.is_some_and(|n| n > LAST_EVERYWHERE)
@@ -123,7 +123,7 @@ impl Writer {
         }
     }
 
-    /// Two numbers that are nearly equal are so for `<` and `>` too, unless the machine has it otherwise.
+    /// Two nearly equal numbers are equal for `<` and `>` too, unless machine data decide otherwise.
     pub(super) fn tell_comparison(&mut self, condition: &str, span: Span, sink: &mut Sink) {
         let exact = condition.contains(['<', '>']);
         if exact && !std::mem::replace(&mut self.computing.told_comparison, true) {
@@ -147,14 +147,14 @@ impl Writer {
         format!("{way} {}", self.label_name(label, span, sink))
     }
 
-    /// What comes next goes another way: what waits is written.
+    /// Before a change of control flow, pending text is written.
     fn flow(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.settle_edge(span, sink)?;
         self.pay_call(sink)?;
         self.restate_feed(span, sink)
     }
 
-    /// A decision or a loop.
+    /// A branch or a loop.
     pub(super) fn structure(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let span = stmt.span;
         self.words.spelling(None)?;
@@ -233,8 +233,8 @@ impl Writer {
         Ok(())
     }
 
-    /// A label has a block of its own before a word of a structure: nothing found says that it may stand in the same
-    /// one.
+    /// A label before a keyword has a block of its own: no manual found allows both in one
+    /// block.
     fn behind_label(&mut self, sink: &mut Sink) {
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
@@ -264,7 +264,7 @@ impl Writer {
     }
 }
 
-/// Whether any of the blocks, or of those in their bodies, is one of these.
+/// Whether the blocks, or their bodies, contain such a statement.
 fn any(body: &[Stmt], is: fn(&Op) -> bool) -> bool {
     body.iter().any(|stmt| {
         if let Op::Control(control) = &stmt.op
@@ -276,7 +276,7 @@ fn any(body: &[Stmt], is: fn(&Op) -> bool) -> bool {
     })
 }
 
-/// Calls cycles up or ends them.
+/// Calls or cancels cycles.
 fn changes_cycle(op: &Op) -> bool {
     matches!(op, Op::StartCycle(_) | Op::EndCycle | Op::Pattern(_) | Op::Call(_))
 }

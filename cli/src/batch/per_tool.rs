@@ -1,10 +1,10 @@
-//! A file per tool: where such outputs may go, and which files of a folder are of an earlier run.
+//! A file per tool: where the files may be written, and which files are left from an earlier run.
 //!
 //! ```text
 //! ncc haas to grbl part.nc --to-option tool_change=file-per-tool -o out/     out/part-1-T3.nc, out/part-2-T5.nc
 //! ```
 //!
-//! Not here: what is in the files (`ncc_driver::translate`), and how they are written (`work`).
+//! Not here: the text of the files (`ncc_driver::translate`), and how they are written (`work`).
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ use ncc_driver::problem::Problem;
 
 use crate::args::Translate;
 
-/// Refuses places that cannot take several files, and options that are about one.
+/// Refuses places that cannot hold several files, and options that concern one file.
 ///
 /// # Errors
-/// One of these is asked for.
+/// A place or option that is refused.
 pub(crate) fn check(
     args: &Translate,
     folder: Option<&Path>,
@@ -50,8 +50,8 @@ pub(crate) fn check(
     usage(&format!("{text} is no folder"), "name one for them, with a slash if it is new: `-o FOLDER/`")
 }
 
-/// Files of an earlier run: their names are of the same program and name a tool, and no file of this run has them. (A name
-/// without a tool may be another program's.)
+/// Files of an earlier run: named after the same program and a tool, and not written by this run. (A name
+/// without a tool may belong to another program.)
 pub(crate) fn left_over(written: &[PathBuf]) -> Vec<PathBuf> {
     let Some(Named { folder, program, extension, .. }) = written.first().and_then(|path| named(path)) else {
         return Vec::new();
@@ -73,7 +73,7 @@ struct Named {
     folder: PathBuf,
     program: String,
     extension: String,
-    /// Whether it names a tool.
+    /// Whether the name contains a tool.
     tool: bool,
 }
 

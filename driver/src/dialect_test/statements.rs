@@ -1,4 +1,4 @@
-//! Statements that need a row: each is written, and read back, to see whether the row does what it says.
+//! Sample statements for dictionary rows: each is written and read back, and must keep its meaning.
 
 use ncc_dialects::{Dialect, Meaning, Thread};
 use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
@@ -11,7 +11,7 @@ use super::proof::Said;
 /// A polar point about program zero.
 const POLAR: &str = "SET_POLE(XY, zero) & POLAR(XY, radius 12.5mm, angle 30.25deg) said STRAIGHT_FEED()";
 
-/// Statements of a meaning.
+/// Statements with this meaning.
 pub fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
     let one = |text: &str| vec![Said::new(text)];
     match meaning {
@@ -232,12 +232,12 @@ pub fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             ];
             calls.map(|(number, say)| with_procedure(number, Said::new(say))).into()
         }
-        // Its arguments are variables, which no text that is written has.
+        // Its arguments are variables, which text never contains.
         Meaning::CallMacro
         | Meaning::CallMacroAtMoves
         | Meaning::CallMacroAtBlocks
         | Meaning::EndCallsAtMoves => Vec::new(),
-        // The subprogram's own end is compared with it.
+        // The end of the subprogram is compared too.
         Meaning::Return => vec![with_procedure(7, Said::new("CALL(7)"))],
         Meaning::RigidTapping => {
             let hole = "START_CYCLE(tap-rigid(clockwise, pitch feed, after stopped), XY, retract 3mm, depth -12mm, return initial, plane-first, feed 120mm)\nHOLE(X 10mm)";
@@ -250,7 +250,7 @@ pub fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             let own = words.is_none_or(|words| words.wait.is_none()).then(|| Said::new("ORIENT_SPINDLE()"));
             own.into_iter().chain(words.map(|_| Said::new("ORIENT_SPINDLE(45deg)"))).collect()
         }
-        // Spindle, coolant, stops: what is said by its name alone.
+        // Spindle, coolant, stops: statements without data.
         function => {
             let text = function.to_string();
             vec![Said::new(match text.split_once(' ') {
@@ -261,7 +261,7 @@ pub fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
     }
 }
 
-/// A quarter of a circle with both words of its centre, in a plane.
+/// A quarter circle with both centre words, in a plane.
 pub fn arc(d: &Dialect, plane: &str, turn: &str) -> Said {
     // From (3, 4) about (9, 12) to (19, 12), radius 10.
     let (first, second, words) = match plane {
@@ -282,12 +282,12 @@ pub fn arc(d: &Dialect, plane: &str, turn: &str) -> Said {
         ends[0].0, ends[0].1, ends[1].0, ends[1].1, centres[0].0, centres[0].1, centres[1].0, centres[1].1
     );
     let place = format!("said STRAIGHT_TRAVERSE({first} 3mm, {second} 4mm)");
-    // A length offset may have to be taken up again along the axis that moves.
+    // A length offset may need a move along the drilling axis.
     let place = if plane == "XY" { place } else { format!("SELECT_PLANE({plane})\n{place}") };
     Said::new(say).after(place)
 }
 
-/// A move with a corner behind it, and the next one.
+/// A move with a corner after it, and the next move.
 pub fn corner(function: &str) -> Said {
     Said {
         after: "said STRAIGHT_FEED(Y 40mm)".to_owned(),
@@ -295,7 +295,7 @@ pub fn corner(function: &str) -> Said {
     }
 }
 
-/// With the subprogram that it calls.
+/// With the called subprogram.
 pub fn with_procedure(number: u32, said: Said) -> Said {
     let procedures = format!("procedure {number} {{\nsaid STRAIGHT_TRAVERSE(X entry 1u)\nRETURN()\n}}\n");
     Said { procedures, ..said }

@@ -1,4 +1,4 @@
-//! The source in pieces of whole lines, of bounded size whatever the file is.
+//! Reads the source in pieces of whole lines. Their size is bounded, also for a large file.
 
 use std::io::{self, Read, SeekFrom};
 use std::ops::Range;
@@ -7,34 +7,34 @@ use sha2::{Digest, Sha256};
 
 use crate::source::{Readable, halted};
 
-/// Bytes of a piece. Small enough that its statements stay in the second-level cache.
+/// Bytes of a piece. Its statements must fit into the second-level cache.
 pub const PIECE: usize = 16 * 1024;
 
-/// Longest source: spans are 32 bits.
+/// Longest source: a span has 32 bits.
 const LONGEST: u64 = u32::MAX as u64;
 
-/// Reads a source piece by piece, and hashes it where that is asked for.
+/// Reads a source piece by piece, and computes its hash on request.
 pub struct Chunks<'r> {
     from: &'r mut dyn Read,
     buffer: Vec<u8>,
     /// Bytes of the buffer that hold text.
     filled: usize,
-    /// Bytes of the buffer that were handed out.
+    /// Bytes of the buffer that were returned.
     used: usize,
-    /// Place of the buffer's first byte in the source.
+    /// Offset of the buffer's first byte in the source.
     base: u64,
     over: bool,
-    /// Absent where nobody asks for it.
+    /// `None` if no hash was requested.
     hash: Option<Sha256>,
-    /// Line ends in all that was handed out.
+    /// Line ends in the returned pieces.
     lines: u64,
 }
 
 /// A piece of the source.
 pub enum Chunk {
-    /// Whole lines, or the last line without its end; where they begin in the source.
+    /// Whole lines, or the last line without its end; with their offset in the source.
     Lines(u32, Range<usize>),
-    /// The stretch of a line that is too long for any control.
+    /// The span of a line that is longer than any control takes.
     TooLong(u32, u32),
     /// The end.
     End,
@@ -62,7 +62,7 @@ impl<'r> Chunks<'r> {
         Chunks::of_bytes(from, PIECE)
     }
 
-    /// One with pieces of so many bytes.
+    /// A reader with pieces of this size.
     pub(crate) fn of_bytes(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
         Chunks {
             from,
@@ -76,7 +76,7 @@ impl<'r> Chunks<'r> {
         }
     }
 
-    /// The same, which hashes what it reads.
+    /// A reader that computes the hash.
     pub(crate) fn hashed(from: &'r mut dyn Read, piece: usize) -> Chunks<'r> {
         Chunks { hash: Some(Sha256::new()), ..Chunks::of_bytes(from, piece) }
     }
@@ -115,7 +115,7 @@ impl<'r> Chunks<'r> {
 
     fn too_long(&mut self, start: u32) -> io::Result<Chunk> {
         loop {
-            // What was seen of the line is let go, up to its end.
+            // Drop the rest of this line, up to its end.
             if let Some(end) = self.buffer[..self.filled].iter().position(|&b| b == b'\n') {
                 self.used = end;
                 return Ok(Chunk::TooLong(start, (self.base + end as u64) as u32));
@@ -148,7 +148,7 @@ impl<'r> Chunks<'r> {
         Ok(())
     }
 
-    /// Hash and length of all that was read.
+    /// Hash and length of the source so far.
     pub fn finish(self) -> ([u8; 32], u64) {
         let hash = self.hash.unwrap_or_default();
         (hash.finalize().into(), self.base + self.filled as u64)

@@ -1,6 +1,6 @@
-//! Work that was asked to stop: the reading of a source looks at the request between its pieces.
+//! Stops work on request: the reader of a source checks for the request between two pieces.
 //!
-//! Who asks, and how long it may take, is the host's matter; runs of a program look at it by themselves
+//! The host decides who makes the request, and how long the work may take. Runs of a program check for it too
 //! ([`ncc_exec::halt`]).
 
 use std::io::{self, Read, Seek, SeekFrom};
@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::source::Source;
 use crate::source::interrupted::Interrupted;
 
-/// The problem that names the line of its source at which a run was interrupted.
+/// The diagnostic for the block at which a run was interrupted.
 ///
 /// # Errors
 /// Reading the source.
@@ -28,7 +28,7 @@ pub fn problem(found: &[Diagnostic], source: &mut Source) -> io::Result<Option<P
     Ok(Some(Problem::file("read", &source.shown, &error)))
 }
 
-/// Fails if the process is to stop.
+/// Fails if the host asked the work to stop.
 ///
 /// # Errors
 /// [`Interrupted`], in a line of a source.

@@ -5,13 +5,13 @@
 //!                                                        G21 G17 … / G54 / M5 M9 G53 G0 Z0 / S3000 M3 …
 //! ```
 //!
-//! The whole program is written with the change by hand and verified as any other. What is cut is that text. Each file
-//! begins on a machine at rest: it states the modes that are active at its change, goes to machine zero along Z, and goes
-//! to the axes' places where its first move does not state them. What no file can state is refused. The text of the whole
-//! and that of the files are kept in memory; statements and events are not.
+//! The whole program is written with the tool change by hand, and verified. Then its text is cut. Each file
+//! starts on a machine at rest: it states the modes that are active at its tool change, moves Z to machine zero, and moves
+//! each axis whose position its first move does not state. If a file cannot state a fact, ncc refuses it. The text of the
+//! whole program and of the files is kept in memory; statements and events are not.
 //!
-//! Not here: whether each file does by itself what its part of the whole does (`verify_run::per_tool`), and the files'
-//! names (`job::ToolFile`).
+//! Not here: whether each file does the same as its part of the whole (`verify_run::per_tool`), and the names of the
+//! files (`job::ToolFile`).
 
 pub(super) mod origins;
 mod scan;
@@ -38,11 +38,11 @@ use crate::source::Readable;
 use crate::verify_run::Verifier;
 use crate::verify_run::per_tool::{self, Part};
 
-/// Digits after the point by which a place is stated exactly; the writer rounds it as any other.
+/// Digits after the point of an exact position; the writer rounds it.
 const EXACT: u8 = 9;
 
 impl Translation<'_> {
-    /// Cuts the text that was verified at its tool changes, and verifies each file by itself.
+    /// Cuts the verified text at its tool changes, and verifies each file alone.
     ///
     /// # Errors
     /// Reading the source or the anonymous file of the output.
@@ -74,7 +74,7 @@ impl Translation<'_> {
         Ok(())
     }
 
-    /// The files without their heads; none if the program changes no tool.
+    /// The files without their heads; empty if the program has no tool change.
     fn cut(&self, text: &[u8], inherited: &Modes) -> Result<Vec<Cut>, Uncut> {
         let refused = |at, needs| Uncut::Refused { at, needs };
         let scanned = scan(self.job, text).map_err(|(at, needs)| refused(at, needs))?;
@@ -139,7 +139,7 @@ impl Translation<'_> {
         Ok(parts.into_iter().zip(begins).zip(offsets).map(cut).collect())
     }
 
-    /// What a file states before the moves of its tool.
+    /// The blocks before the moves of a tool.
     fn beginning(&self, change: &Change) -> Result<Vec<Stmt>, Uncut> {
         let refused = |needs| refused(change, needs);
         let Modes { units, plane, feed_mode, work_offset, return_level, distance, no_origin_shift, .. } =
@@ -151,7 +151,7 @@ impl Translation<'_> {
         ops.extend(feed_mode.map(Op::SetFeedMode));
         ops.extend(return_level.map(Op::SetReturnLevel));
         ops.extend(work_offset.map(Op::SetOriginOffsets));
-        // Only where the program states it: else it is what a reset leaves.
+        // Only if the program states it: else the reset decides.
         ops.extend(no_origin_shift.filter(|none| *none).map(|_| Op::ClearFrame(FrameSlot::Shift)));
         let mut stmts: Vec<Stmt> = ops.into_iter().map(|op| Stmt::new(Span::default(), op)).collect();
         stmts.append(&mut up(units));
@@ -179,7 +179,7 @@ impl Translation<'_> {
         Ok(stmts)
     }
 
-    /// What a file ends with that another one follows: at rest, as at the tool change of the whole.
+    /// The end of a file that is not the last: at rest, as at the tool change of the whole program.
     fn end_of_file(&self, modes: &Modes) -> Result<Vec<u8>, Uncut> {
         let mut stmts = up(modes.units);
         let footer = self.job.machines.layout().footer;
@@ -188,7 +188,7 @@ impl Translation<'_> {
         self.written(&stmts, Some(modes))
     }
 
-    /// Statements in the target's words: at the beginning of a program, or within one where these modes are active.
+    /// Statements as text of the target: at the start of a program, or inside one with these active modes.
     fn written(&self, stmts: &[Stmt], within: Option<&Modes>) -> Result<Vec<u8>, Uncut> {
         let layout = Layout { numbering: Numbering::Off, ..self.job.layout.clone() };
         let mut writer = Writer::new(self.job.to.clone(), layout);
@@ -219,7 +219,7 @@ impl Translation<'_> {
         }
     }
 
-    /// The files with their heads. `hash` is that of the source.
+    /// The files with their heads. `hash` is the hash of the source.
     ///
     /// # Errors
     /// The anonymous files cannot be written.
@@ -244,7 +244,7 @@ impl Translation<'_> {
                 head.lines.push(format!("begin at rest, after a reset, {put_in}"));
             }
             let mut own = Vec::new();
-            // What becomes of the program's name is told once.
+            // The program name is reported once.
             self.writer.head(&head, &mut own, &mut Vec::new());
             let job = self.job;
             self.check(|_| Verifier::new(job).head(&own));
@@ -257,13 +257,13 @@ impl Translation<'_> {
     }
 }
 
-/// Why there are no files.
+/// Why ncc writes no files.
 enum Uncut {
-    /// A file could not state something that it relies on.
+    /// The file cannot state a fact that it depends on.
     Refused { at: usize, needs: FileNeeds },
-    /// The writer has no words for its beginning or its end.
+    /// The writer refuses its start or its end.
     Found(Vec<Diagnostic>),
-    /// A file does not do by itself what its part of the whole does: a fault of the compiler.
+    /// A file does not do the same as its part of the whole: an internal error.
     Differs { at: usize, difference: String },
 }
 
@@ -278,7 +278,7 @@ fn about(tool: Option<i64>, number: usize, count: usize, lines: Option<(u64, u64
     format!("{tool}: file {number} of {count}{lines}")
 }
 
-/// Spindle and coolant off, and Z to machine zero: as the block of a change by hand does it.
+/// Spindle and coolant off, and Z to machine zero, as in the tool change by hand.
 fn up(units: Option<Units>) -> Vec<Stmt> {
     let mut to = Point::default();
     if let Some(zero) = place(0, Axis::Z, units) {
@@ -290,17 +290,17 @@ fn up(units: Option<Units>) -> Vec<Stmt> {
         Op::UseMachineCoordinates { length: false },
         Op::StraightTraverse(Move { to, said: true }),
     ];
-    // Two blocks: what is off before Z goes up depends on no order within one.
+    // Two blocks, so that spindle and coolant are off before Z moves, whatever the order within a block.
     let joined = |(at, op)| Stmt { joined: at % 2 > 0, ..Stmt::new(Span::default(), op) };
     ops.into_iter().enumerate().map(joined).collect()
 }
 
-/// A file is refused for what the first move after its tool change needs.
+/// Refuses a file because of a fact that the first move after its tool change needs.
 fn refused(change: &Change, needs: FileNeeds) -> Uncut {
     Uncut::Refused { at: change.next_move.unwrap_or(change.block.start), needs }
 }
 
-/// The places on which the first move after a tool change relies. One that is not known is refused.
+/// The positions on which the first move after a tool change depends. Refuses an unknown one.
 fn places(change: &Change) -> Result<Vec<(Axis, Nanos)>, Uncut> {
     let relied_on = Axis::ALL.into_iter().filter(|axis| change.unstated[*axis as usize]);
     let known = |axis: Axis| {
@@ -310,12 +310,12 @@ fn places(change: &Change) -> Result<Vec<(Axis, Nanos)>, Uncut> {
     relied_on.map(known).collect()
 }
 
-/// The comment of a change's block.
+/// The comment in the block of a tool change.
 fn remark(change: &Change) -> impl Iterator<Item = Stmt> + '_ {
     change.remark.iter().map(|text| Stmt::new(Span::default(), Op::Comment(text.clone())))
 }
 
-/// A place in program coordinates as a word in the active unit; `None` if inches cannot state it exactly.
+/// A position as a word in the active unit; `None` if it is not exact in inches.
 fn place(at: Nanos, axis: Axis, units: Option<Units>) -> Option<Coord> {
     let value = match (axis.is_rotary(), units) {
         (true, _) => Num::from_nanos(at, EXACT, Unit::Degree),
@@ -328,7 +328,7 @@ fn place(at: Nanos, axis: Axis, units: Option<Units>) -> Option<Coord> {
     Some(Coord { value: Expr::Num(value.trimmed()), distance: Fact::Known(Distance::Absolute) })
 }
 
-/// The text of a file while it is put together.
+/// The text of a file while it is built.
 #[derive(Default)]
 struct Text {
     text: Vec<u8>,
@@ -343,7 +343,7 @@ impl Text {
         self.bodies.push(begins..self.text.len() as u32);
     }
 
-    /// What stands in no other text.
+    /// Text that the whole program does not contain.
     fn joint(&mut self, text: &[u8]) {
         if !self.text.is_empty() && self.text.last() != Some(&b'\n') {
             self.text.push(b'\n');
@@ -353,13 +353,13 @@ impl Text {
 }
 
 impl PerTool {
-    /// Puts the lines of the source to the files, where the tool changes follow one another in its own text.
+    /// Assigns the source lines to the files, if the tool changes follow one another in the source.
     ///
     /// # Errors
     /// Reading the source.
     fn number_lines(&mut self, source: &mut dyn Readable, text: &[u8], job: &Job) -> io::Result<()> {
         let last_line = text.len().saturating_sub(1);
-        // Of the first file its tool change: one that comes again, in a loop or a subprogram, has no lines of its own.
+        // The first file starts at its tool change. A tool change in a loop or a subprogram has no lines.
         let first = self.cut.first().map(|cut| cut.begins[1]);
         let begins = first.into_iter().chain(self.cut.iter().skip(1).map(|cut| cut.begins[0]));
         let places = self.sources_of(text, begins.chain([last_line]));

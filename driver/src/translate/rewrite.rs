@@ -1,8 +1,8 @@
-//! Rewriting that the user asks for: passes by name, and folding long-hand text back into cycles and
+//! Passes that the user asks for by name, and folding of long-hand blocks into cycles and
 //! patterns.
 //!
-//! Folding works on a program that streams: what could be the beginning of a hole or of a pattern is
-//! held back until a statement comes that can be part of neither.
+//! Folding works on a streamed program: statements that may start a hole or a pattern are held
+//! until a statement follows that belongs to neither.
 
 use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::caps::Caps;
@@ -12,16 +12,16 @@ use ncc_ir::track::Tracker;
 use ncc_passes::watch::ran_whole;
 use ncc_passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 
-/// Statements that are held back at most; a program of holes alone is folded in stretches.
+/// Most held statements; a program of holes only is folded in parts of this size.
 const MOST_HELD: usize = 1 << 16;
 
-/// The pass of a name, of those that can be asked for.
+/// The pass of this name, if the user may ask for it.
 pub fn pass(name: &str) -> Option<&'static Pass> {
     PASSES.iter().find(|pass| pass.name == name && pass.alone.is_some())
 }
 
-/// Runs passes on a program, one after the other. An expansion that is asked for expands everything,
-/// whatever the target could say; a fold writes what the target can say.
+/// Runs passes on a program, one after the other. A requested expansion expands everything,
+/// whatever the target takes; a fold writes only forms that the target takes.
 pub fn run(
     passes: &[&'static Pass],
     program: &mut Program,
@@ -38,19 +38,19 @@ pub fn run(
     }
 }
 
-/// The passes that fold a program, or a list of events.
+/// The passes that fold a program, or an event list.
 pub fn folds(events: bool) -> Vec<&'static Pass> {
     let names = if events { FOLDS_OF_EVENTS } else { FOLDS };
     names.iter().filter_map(|name| pass(name)).collect()
 }
 
-/// Folding of a program that streams.
+/// Folds a streamed program.
 pub struct Folder {
     passes: Vec<&'static Pass>,
     target: Target,
-    /// Statements that more may have to be known about.
+    /// Statements that wait for the next ones.
     held: Vec<Stmt>,
-    /// What holds before the held ones.
+    /// The state before the held statements.
     pub entry: Tracker,
     assumed: Modes,
 }
@@ -60,7 +60,7 @@ impl Folder {
         Folder { passes: folds(events), target, held: Vec::new(), entry, assumed: Modes::default() }
     }
 
-    /// Further statements. What need not be held back is given as it was, and folded.
+    /// Adds statements. Returns those that need not wait, as they were; `stmts` gets them folded.
     pub fn piece(
         &mut self,
         stmts: &mut Vec<Stmt>,
@@ -73,7 +73,7 @@ impl Folder {
         let ready = if over || self.held.len() > MOST_HELD {
             self.held.len()
         } else {
-            // A block stays whole.
+            // Keep blocks whole.
             let end = self.held.iter().rposition(|s| separates(&s.op)).map_or(0, |at| at + 1);
             end + self.held[end..].iter().take_while(|s| s.joined).count()
         };
@@ -90,12 +90,12 @@ impl Folder {
         original
     }
 
-    /// The statements that are held back, for a program of which the rest is kept whole.
+    /// The held statements, for a program whose rest is kept whole.
     pub fn held(&mut self) -> Vec<Stmt> {
         std::mem::take(&mut self.held)
     }
 
-    /// Takes over facts that were taken for granted since the last time.
+    /// Takes over modes that were assumed since the last call.
     fn assume(&mut self, assumed: &Modes) {
         if self.assumed == *assumed {
             return;
@@ -105,8 +105,8 @@ impl Folder {
     }
 }
 
-/// Whether a statement can be part neither of a hole nor of a pattern: a cut in the plane, an arc, a
-/// change of the tool, the end.
+/// Whether a statement can belong neither to a hole nor to a pattern: a cut in the plane, an arc, a
+/// tool change, the end.
 fn separates(op: &Op) -> bool {
     match op {
         Op::StraightFeed(m) => {

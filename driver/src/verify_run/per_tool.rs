@@ -1,14 +1,14 @@
-//! Whether a file per tool does what its part of the whole program does, run by itself on a machine at rest.
+//! Verifies that a file per tool does the same as its part of the whole program, run alone on a machine at rest.
 //!
-//! The whole text and the files are executed in the same worlds, statement by statement. Between two tool changes of the
-//! whole, the events of its file must be the same, to the last digit. A file begins with a control after a reset, in the
-//! modes of the world's power-on, with its tool put in and with the axes where the operator has left them:
+//! The whole text and the files are executed in the same test set-ups, statement by statement. Between two tool changes of
+//! the whole, the events of its file must be equal to the last digit. A file starts with a control after a reset, in the
+//! power-on modes of the test set-up, with its tool in the spindle and with the axes where the operator left them:
 //!
 //! ```text
 //! whole: … T5 M0 │ S3000 M3 / X10 Y5 / …     file: G21 … / G53 G0 Z0 │ S3000 M3 / X10 Y5 / … │ G53 G0 Z0 / M2
 //! ```
 //!
-//! What a file states besides its part of the whole may do no more than to rest: spindle and coolant off, rapid moves at
+//! The further blocks of a file may only bring the machine to rest: spindle and coolant off, rapid moves at
 //! machine zero of Z, the end.
 //!
 //! Not here: how the text is cut (`translate::per_tool`).
@@ -31,22 +31,22 @@ use super::{WORLDS, worlds_of};
 use crate::job::Job;
 use crate::translate::difference::describe;
 
-/// Most text that is read at once, but for the rest of its last line.
+/// Most bytes that are read at once, without the rest of the last line.
 const PIECE: usize = 1 << 16;
 
-/// What makes another world of a seed: there the operator has left the axes.
+/// Added to the seed of a test set-up: there the operator left the axes elsewhere.
 const ELSEWHERE: u32 = 1000;
 
 /// A file without its head.
 #[derive(Debug)]
 pub struct Part {
-    /// The tool that is put in; `None` is the one in the spindle.
+    /// The tool in the spindle at its start; `None`: the tool that is there.
     pub tool: Option<i64>,
-    /// How many tool changes of the whole it begins behind: none or one.
+    /// How many tool changes of the whole are before it: 0 or 1.
     pub changes: usize,
-    /// How much of its text is the program's own beginning, before the first tool change of the whole.
+    /// Bytes of the program's start, before the first tool change of the whole.
     pub own_beginning: u32,
-    /// The stretches of it that stand in the whole as well.
+    /// The parts of its text that the whole contains too.
     pub bodies: Vec<Range<u32>>,
     /// Its text.
     pub text: Vec<u8>,
@@ -55,9 +55,9 @@ pub struct Part {
 /// How a file differs from its part of the whole.
 #[derive(Debug)]
 pub struct Differs {
-    /// Where, in the text of the whole.
+    /// Its place in the text of the whole.
     pub at: usize,
-    /// In what; `None` if the program does more than to rest before its first tool change.
+    /// The difference; `None` if the program does more than rest before its first tool change.
     pub difference: Option<String>,
 }
 
@@ -73,8 +73,8 @@ pub fn pieces(text: &[u8]) -> impl Iterator<Item = Range<usize>> + '_ {
     })
 }
 
-/// Executes the whole and each file, and compares. `used` are the axes that have words, and `inherited` facts that the
-/// whole takes for granted of a control after a reset.
+/// Executes the whole and each file, and compares them. `used` are the axes with words; `inherited` are the modes that
+/// the whole assumes of a control after a reset.
 ///
 /// # Errors
 /// The first difference.
@@ -88,7 +88,7 @@ pub fn verify(
     for seed in 1..=WORLDS {
         let [_, world] = worlds_of(job, seed);
         let elsewhere = World::generate(seed + ELSEWHERE, &Modes::default()).start;
-        // The whole is run with the tool of its first file put in, too: nothing is cut before its change.
+        // The whole starts with the tool of its first file too: nothing is cut before its tool change.
         let first = parts.first().and_then(|part| part.tool);
         let mut program = Running::new(job, whole, control(job, &world, first, inherited));
         for part in parts {
@@ -109,7 +109,7 @@ pub fn verify(
     Ok(())
 }
 
-/// The target's control after a reset, with a tool put in.
+/// The target's control after a reset, with a tool in the spindle.
 fn control(job: &Job, world: &World, tool: Option<i64>, inherited: &Modes) -> Exec {
     let mut exec = Exec::new(world, 0);
     if job.between_controls() {
@@ -125,26 +125,26 @@ fn control(job: &Job, world: &World, tool: Option<i64>, inherited: &Modes) -> Ex
     exec
 }
 
-/// A text while it is executed.
+/// A text during its execution.
 struct Running<'t> {
     text: &'t [u8],
     reader: Reader,
     rest: Box<dyn Iterator<Item = Range<usize>> + 't>,
     batch: Batch,
-    /// Statements of the batch that are executed.
+    /// Executed statements of the batch.
     done: usize,
     over: bool,
     exec: Exec,
     events: VecDeque<Event>,
 }
 
-/// What comes next of a text.
+/// The next result of a text.
 enum Next {
     /// An event.
     Event(Event),
     /// A tool change, which is not executed yet.
     Change(Stmt),
-    /// Nothing.
+    /// The end.
     End,
 }
 
@@ -162,7 +162,7 @@ impl<'t> Running<'t> {
         }
     }
 
-    /// The next event, or what else comes before it.
+    /// The next event, or the tool change or end before it.
     fn next(&mut self) -> Result<Next, Diagnostic> {
         loop {
             if let Some(event) = self.events.pop_front() {
@@ -184,19 +184,19 @@ impl<'t> Running<'t> {
         }
     }
 
-    /// Executes what comes before the next tool change.
+    /// Executes up to the next tool change.
     fn go_to_change(&mut self) -> Result<(), Diagnostic> {
         while let Next::Event(_) = self.next()? {}
         Ok(())
     }
 
-    /// Executes the tool change at hand. What it does besides is no matter of a file.
+    /// Executes this tool change. Its other effects do not concern a file.
     fn change(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
         self.done += 1;
         self.exec.step(stmt, &mut Vec::new())
     }
 
-    /// Reads on; `false` at the end.
+    /// Reads the next piece; `false` at the end.
     fn read(&mut self) -> Result<bool, Diagnostic> {
         self.batch.stmts.clear();
         self.done = 0;
@@ -213,8 +213,8 @@ impl<'t> Running<'t> {
     }
 }
 
-/// Executes a file and its part of the whole. What happens before the first move of its tool happens where the operator has
-/// left the axes.
+/// Executes a file and its part of the whole. Events before the first move of its tool happen where the operator left
+/// the axes.
 fn compare(whole: &mut Running, mut file: Running, part: &Part) -> Result<(), Differs> {
     let mut last = 0;
     let mut elsewhere = part.changes > 0;
@@ -252,14 +252,14 @@ fn compare(whole: &mut Running, mut file: Running, part: &Part) -> Result<(), Di
             (None, Some(_)) => return Err(differs(last, "the file of a tool does more".into())),
         }
     }
-    // The last one ends as the whole does.
+    // The last file ends as the whole does.
     match file.exec.ended() || !whole.exec.ended() && whole.over {
         true => Ok(()),
         false => Err(differs(last, "the file of a tool has no end".into())),
     }
 }
 
-/// The next event of the part of the whole; `None` at the tool change that ends it.
+/// The next event of this part of the whole; `None` at the tool change that ends it.
 fn next_of_part(whole: &mut Running, changes: &mut usize) -> Result<Option<Event>, Diagnostic> {
     loop {
         match whole.next()? {
@@ -279,14 +279,14 @@ fn unread(at: u32, found: &Diagnostic) -> Differs {
     Differs { at: at as usize, difference: Some(difference) }
 }
 
-/// What stands in no other text does no more than to rest.
+/// Blocks that the whole does not contain may only bring the machine to rest.
 fn rests(event: &Event, from: [Nanos; AXES]) -> Result<(), String> {
     let z = Axis::Z as usize;
     let up =
         Axis::ALL.iter().all(|axis| *axis == Axis::Z || event.end[*axis as usize] == from[*axis as usize]);
     let still = event.state.spindle == Spindle::Stopped && !event.state.flood && !event.state.mist;
     let rests = match event.kind {
-        // Up first, and then about at machine zero.
+        // First Z up, then the other axes at machine zero of Z.
         Kind::Traverse => event.end[z] == 0 && (up || from[z] == 0),
         Kind::Coolant | Kind::ProgramEnd => true,
         _ => false,
@@ -297,7 +297,7 @@ fn rests(event: &Event, from: [Nanos; AXES]) -> Result<(), String> {
     }
 }
 
-/// How two events differ, if they do; `elsewhere` they may happen at two places.
+/// The difference of two events; with `elsewhere`, their positions may differ.
 fn difference(whole: &Event, file: &Event, elsewhere: bool) -> Option<String> {
     let same = whole.kind == file.kind
         && (whole.end == file.end || elsewhere)
@@ -307,7 +307,7 @@ fn difference(whole: &Event, file: &Event, elsewhere: bool) -> Option<String> {
     (!same).then(|| describe(&Difference { aspect: Aspect::State, source, target }))
 }
 
-/// What of a state counts: nothing of a spindle that stands, nor who switched what.
+/// The part of a state that matters: no speed of a stopped spindle, and not who switched it.
 fn seen(state: &State) -> State {
     let mut seen = State { by_control: 0, ..*state };
     if seen.spindle == Spindle::Stopped {

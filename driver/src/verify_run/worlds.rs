@@ -1,4 +1,4 @@
-//! The worlds in which source and output are executed: the same machine, as each of the two controls has it.
+//! The test set-ups in which source and output are executed: the same machine, as each of the two controls has it.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use ncc_ir::canon::Modes;
 use super::controls::fixed;
 use crate::job::Job;
 
-/// The world of a seed, as the source's control and as the target's has it.
+/// The test set-up of a seed, for the source's control and for the target's.
 pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
     let renaming = job.renaming();
@@ -31,13 +31,13 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     target.increments = job.to.fine_increments();
     target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
-    // Between two controls it is refused; what else is written is read as the source has it.
+    // Between two controls ncc refuses it. Other output is read by the source's rule.
     target.compensation_again = source.compensation_again;
     target.arcs = job.to.arc_rule();
     target.refused_compensated = job.to.dialect.caps.compensation.refused;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
-    // Where tools are put in by hand on one side, the operator sets the zero of Z by each.
+    // If one side changes tools by hand, the operator sets the zero of Z for each tool.
     source.zeroed_by_tool = job.from.dialect.can.change_by_hand || job.to.dialect.can.change_by_hand;
     target.zeroed_by_tool = source.zeroed_by_tool;
     let named = &target.renaming.tool_names;
@@ -47,7 +47,7 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let tables = &mut source.tables;
     tables.named_lengths = entries.iter().map(|(edge, entry)| (*edge, target.tool_length(*entry))).collect();
     tables.named_entries = entries.iter().map(|(edge, entry)| (*edge, target.entry_number(*entry))).collect();
-    // A control without a word for it takes corners in its one way.
+    // A control without a path mode code has one path mode.
     let caps = &job.to.dialect.caps;
     let path = caps.modes.only_path.filter(|mode| !caps.says_path(*mode));
     (source.path, target.path) = (path, path);
@@ -55,8 +55,8 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     [source, target]
 }
 
-/// What neither program says stays what it was before it, by whatever number: where numbers differ, the
-/// target's work offset and length entry at power-on get numbers that no program has, for the source's.
+/// Modes that neither program sets keep their power-on value. Where numbers differ, the target's work offset and
+/// length entry at power-on get numbers that no program uses.
 fn same_at_power_on(source: &World, target: &mut World, from: &Modes, to: &Modes) {
     if let (Some(map), Some(own), None, None) =
         (&mut target.renaming.offsets, source.power_on.work_offset, from.work_offset, to.work_offset)

@@ -1,17 +1,17 @@
-//! What a word of the `ir` text carries: a number with its unit, which of several functions it names, why it is none.
+//! A word of the `ir` text: its number with the unit, the function it names, or why it is no word.
 
 use ncc_ir::canon::CornerShape;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Op, Text, ToolLength};
 
-/// Why a stretch of text is no word.
+/// Why a text is no word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum LexFault {
-    /// No word begins like this.
+    /// No word starts like this.
     #[default]
     Character,
-    /// More digits than a number holds.
+    /// More digits than a number can hold.
     Number,
     /// A text with an escape that there is not.
     Escape,

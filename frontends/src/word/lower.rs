@@ -1,11 +1,11 @@
-//! Lowering of a block: from words to statements.
+//! Lowers a block: from words to statements.
 //!
-//! What a code or letter means comes from the dictionary alone. A block with a fault gives
-//! diagnostics and no statements; what it says of modes still counts, so that one slip is not
-//! reported again at every block after it.
+//! The dictionary alone decides the meaning of a code or letter. A faulty block gives
+//! diagnostics and no statements. Its modes still count, so that one slip is not
+//! reported again at every later block.
 //!
-//! Not here: which word is what (`sort`), and what the functions, moves, cycles, patterns and calls
-//! of a block mean; they have files of their own beside this one.
+//! Not here: the role of each word (`sort`), and the functions, moves, cycles, patterns and calls
+//! of a block; they have files of their own in this folder.
 
 mod fast_block;
 mod message;
@@ -40,24 +40,24 @@ use crate::word::o_code::o_state::OWordState;
 #[derive(Debug)]
 pub(super) struct Lower {
     pub(super) settings: Settings,
-    /// Whether what the program never says is taken for granted and reported.
+    /// Whether modes that the program never sets are assumed and reported.
     pub(super) assume: bool,
-    /// What subprograms find in force.
+    /// Modes that are active where subprograms start.
     pub(super) inherited: Inherited,
     /// Whether refused blocks and numbers without a point are noted.
     pub(super) watch: bool,
     /// Number rules by quantity.
     pub(super) rules: [NumberRules; 8],
-    /// Whether a number without a point counts whole units where the dictionary says increments.
+    /// Whether a number without a point counts whole units, where the dictionary says increments.
     pub(super) calculator: bool,
-    /// Whether that holds for seconds too: not where the dictionary has no such value of its option, because there the
+    /// Whether that holds for seconds too: not if the dictionary's option has no such value, because then the
     /// point of a dwell is a rule of the control.
     pub(super) calculator_seconds: bool,
     /// Rows of the address letters.
     pub(super) letters: [Option<&'static Address>; 26],
     pub(super) roles: Roles,
     pub(super) state: WordState,
-    /// The units that the text says, for numbers whose unit is open.
+    /// The units that the text sets, for numbers whose unit is open.
     pub(super) only_units: OnlyValue<Units>,
     pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
@@ -66,19 +66,19 @@ pub(super) struct Lower {
     pub(super) limits: Option<bool>,
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
-    /// Whether the program that is being read has ended.
+    /// Whether this program has ended.
     pub(super) ended: bool,
     pub(super) computes: Computes,
     pub(super) main_ending: MainEnding,
     pub(super) o: OWordState,
     pub(super) motion_without_move: MotionWithoutMove,
     pub(super) cycles: CyclesMet,
-    /// What plain moves need; `None` if a block must be looked at.
+    /// Tables for plain moves; `None` if a block needs the general path.
     pub(super) fast_lower: Option<FastLower>,
     pub(super) usual: UsualBlocks,
     pub(super) now: Now,
     codes: Vec<Code>,
-    /// What the text has said of control of the tool's tip, and of tilted planes.
+    /// Tool centre point control and tilted planes, as the text sets them.
     pub(super) tip: Met,
     pub(super) tilt: Met,
     pub(super) tools: ToolsNamed,
@@ -87,52 +87,52 @@ pub(super) struct Lower {
     pub(super) rotary_named: u32,
 }
 
-/// State of the block that is being lowered.
+/// State of the block that is lowered.
 #[derive(Debug, Default)]
 pub(super) struct Now {
     pub(super) number: Option<u32>,
-    /// Skip level of the statements that are pushed.
+    /// Skip level of the next statements.
     pub(super) skip: Option<u8>,
     /// Skip level of the last statement.
     last_skip: Option<u8>,
     pushed: bool,
     /// Whether something was refused.
     pub(super) failed: bool,
-    /// Whether a code was refused, so that it is not known what the words belong to.
+    /// Whether a code was refused, so that the meaning of the words is unknown.
     pub(super) refused: bool,
-    /// Whether a code of a cycle was refused, so that it is not known what the next blocks mean.
+    /// Whether a cycle code was refused, so that the meaning of the next blocks is unknown.
     pub(super) cycle_refused: bool,
-    /// Whether the code that ends a cycle has had its effect.
+    /// Whether the code that cancels the cycle was lowered.
     pub(super) cycle_ended: bool,
-    /// Length of the target before the block.
+    /// Length of the output before the block.
     pub(super) mark: usize,
-    /// Whether the block says a feed.
+    /// Whether the block has a feed word.
     pub(super) fed: bool,
     /// Feed of a cycle's own block.
     pub(super) feed: Option<Num>,
     /// The angle at which the block stops the spindle.
     pub(super) angle: Option<Num>,
-    /// Whether the cycle in force must be called up again with other data.
+    /// Whether the active cycle must be called again with other data.
     pub(super) recall: bool,
     /// Whether the last comment is a message.
     pub(super) message: bool,
-    /// Whether its comment has a statement of its own.
+    /// Whether its comment needs a statement of its own.
     pub(super) commented: bool,
     /// Whether a code has no statement of its own.
     pub(super) silent: bool,
-    /// The word of a corner that stands behind a comma, until a move takes it.
+    /// The corner word after a comma, until a move takes it.
     pub(super) corner: Option<crate::common::words::Word>,
-    /// Radius and angle of the block's end point by signs of their own, until a move takes them.
+    /// Polar radius and angle of the end point in signs of their own, until a move takes them.
     pub(super) polar: [Option<crate::common::words::Word>; 2],
-    /// A program's name, until a call takes it.
+    /// A program name, until a call takes it.
     pub(super) name: Option<(Text, Span)>,
-    /// The repetition that the block asks for.
+    /// The repeat count of the block.
     pub(super) repetition: Option<crate::word::calls::repetition::Repetition>,
-    /// From what the words of a return count, where that is not the distance in force after the block.
+    /// The reference of the words of a return, if it is not the distance mode after the block.
     pub(super) return_distance: Option<Distance>,
 }
 
-/// How many characters of a line count, where blanks and comments do not.
+/// Characters of a line that count, if blanks and comments do not.
 fn bare_length(line: &[u8]) -> usize {
     let mut remark = false;
     let counts = |byte: &&u8| {
@@ -145,7 +145,7 @@ fn bare_length(line: &[u8]) -> usize {
 }
 
 impl Now {
-    /// The state of a block in front of which so many statements stand.
+    /// The state of a block with this many statements before it.
     pub(super) fn at(mark: usize) -> Now {
         Now { mark, ..Now::default() }
     }
@@ -216,7 +216,7 @@ impl Lower {
         self.in_loop(out);
         self.o_body(out);
         if block.skip != 0 && block.tail.is_none() {
-            // What it says in its place is not in force where it is skipped.
+            // A word with block skip in its place is not active if it is skipped.
             self.leave_motion(None, out);
         }
         let before = (block.skip != 0).then(|| self.state.clone());
@@ -230,7 +230,7 @@ impl Lower {
             ..Now::default()
         };
         if self.state.modes.feed_mode.value() == Some(FeedMode::InverseTime) {
-            // A time counts for the move of its own block.
+            // An inverse-time feed belongs to the move of its own block.
             self.state.modes.feed = Know::Unsaid;
         }
         for (fault, span) in &block.faults {
@@ -246,7 +246,7 @@ impl Lower {
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
         let mut words = Words { all: &block.words, exprs: &block.exprs, at: [0; 26], left: 0 };
-        // A block that is none by its form is not asked for its meaning.
+        // A block with another form is not lowered here.
         let left_out = !self.now.refused && self.leaves_coded_call_out(block, out);
         let called = self.macro_code(block).filter(|_| !self.now.refused && !left_out);
         let by_words = if called.is_none() && !self.now.refused && !left_out {
@@ -266,7 +266,7 @@ impl Lower {
             self.refused_under_compensation(&codes, out);
         }
         if called.is_some() || by_words.is_some() || left_out {
-            // It is all that its block says.
+            // The block contains nothing else.
         } else if !self.now.refused {
             self.jumped_to(block, out);
             self.o_comment(block, src, out);
@@ -294,7 +294,7 @@ impl Lower {
             if let Some(statement) = &block.statement {
                 self.statement(statement, block, src, out);
             }
-            // The modes that it says still count.
+            // Its modes still count.
             for code in &codes {
                 self.set_mode(code.meaning, out);
             }
@@ -327,14 +327,14 @@ impl Lower {
         }
     }
 
-    /// Reports, once, that a row is not confirmed.
+    /// Reports once that a row is not confirmed by a manual.
     pub(super) fn assume_row(&mut self, row: &'static CodeRow, meaning: &str, at: Span, out: &mut Batch) {
         if self.assume && self.first_time(row) {
             out.report(Fault::AssumedRow { code: row.code.as_str().into(), meaning: meaning.into() }, at);
         }
     }
 
-    /// Whether this row is met for the first time by the reports.
+    /// Whether this row is reported for the first time.
     pub(super) fn first_time(&mut self, row: &'static CodeRow) -> bool {
         let rows = &self.settings.dialect.code;
         let place = rows.iter().position(|r| std::ptr::eq(r, row));
@@ -344,7 +344,7 @@ impl Lower {
         }
     }
 
-    /// The value of an option that decides here; reported once if nobody chose it.
+    /// The value of an option that decides here; reported once if the user did not choose it.
     pub(super) fn option(&mut self, name: &'static str, at: Span, out: &mut Batch) -> &str {
         let place = self.settings.dialect.option.iter().position(|o| o.name == name);
         if let Some(place) = place {
@@ -358,7 +358,7 @@ impl Lower {
         self.settings.get(name)
     }
 
-    /// Whether nothing more is told of an option that decides.
+    /// Whether nothing more is reported of this option.
     pub(super) fn option_is_told(&self, name: &str) -> bool {
         let place = self.settings.dialect.option.iter().position(|o| o.name == name);
         let reported = place.is_none_or(|place| self.reported.options >> (place & 31) & 1 == 1);
@@ -373,7 +373,7 @@ impl Lower {
             let place = left.trailing_zeros() as usize;
             left &= left - 1;
             let word = words.all[usize::from(words.at[place]) - 1];
-            // Some words have a function of their own, which is known and not translated.
+            // Some words have a function of their own, which ncc knows and does not translate.
             let refused = self.letters[place].and_then(|row| row.refuse.as_deref());
             let fault = match refused {
                 Some(name) => Fault::NotSupported { code: src.text(word.span), name: name.into() },
@@ -383,7 +383,7 @@ impl Lower {
         }
     }
 
-    /// Where statements go.
+    /// The list of the statements.
     #[inline]
     pub(super) fn target<'o>(&'o mut self, out: &'o mut Batch) -> &'o mut Vec<Stmt> {
         out.body(&mut self.sub)
@@ -413,21 +413,21 @@ impl Lower {
         self.target(out).push(Stmt { span, number, skip, joined, comment: None, op });
     }
 
-    /// What was pushed is a block of its own, as if what follows stood in another; a label says the number.
+    /// Ends a block before this point, as if the next words were in another block; a label holds the number.
     pub(super) fn end_block_here(&mut self) {
         self.now.pushed = false;
         self.now.silent = true;
         self.now.number = None;
     }
 
-    /// From here on, statements stand in a block of their own.
+    /// From here on, statements belong to a block of their own.
     pub(super) fn separate(&mut self, out: &mut Batch) {
         if let Some(stmt) = self.target(out).last_mut() {
             stmt.joined = false;
         }
     }
 
-    /// Reports something that refuses the block.
+    /// Reports a fault that refuses the block.
     pub(super) fn fault(&mut self, fault: Fault, span: Span, out: &mut Batch) {
         self.now.failed = true;
         out.report(fault, span);
@@ -454,7 +454,7 @@ impl Lower {
         bracketed && words.filter(|word| !word.is_empty()).any(|word| begins(src.bytes(last), word).is_some())
     }
 
-    /// Ends the block: its comment, or what stands for an empty one.
+    /// Ends the block: its comment, or the statement of an empty block.
     fn close(&mut self, block: &Block, src: Source, out: &mut Batch) {
         if self.now.failed {
             let mark = self.now.mark;
@@ -479,7 +479,7 @@ impl Lower {
         }
     }
 
-    /// After a refused block, what it may have said is not asked for again.
+    /// After a refused block, its modes are not reported as missing.
     pub(super) fn forgive(&mut self) {
         self.state.modes.forgive();
         if self.now.cycle_refused {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::siemens::text::tree::{Item, Statement, Value};
 
-/// What stands behind `R1=`.
+/// The text after `R1=`.
 fn value(text: &str) -> String {
     let said = read(format!("R1={text}"));
     said.strip_prefix("R1 = ").map_or(said.clone(), str::to_owned)

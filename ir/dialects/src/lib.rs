@@ -1,9 +1,9 @@
-//! ncc-dialects: how each control spells what a program means.
+//! ncc-dialects: the words of each control, and their meaning.
 //!
-//! A dialect is a dictionary: a data file with a row for every word that the control has, what it
-//! means in the neutral program, and who says so. Front-ends and back-ends read the same rows, one
-//! from word to meaning, the other from meaning to word, so that they cannot drift apart. A word
-//! that a dictionary does not have, or names only to refuse it, is never translated.
+//! A dialect is a dictionary: a data file with a row for each word of the control, its meaning in the
+//! neutral program, and its source. Front-ends and back-ends read the same rows, from word to meaning
+//! and from meaning to word, so that they cannot drift apart. ncc never translates a word that the
+//! dictionary lacks or refuses.
 //!
 //! ```text
 //! [[code]]
@@ -12,7 +12,7 @@
 //! source = "the manual and its page"
 //! ```
 //!
-//! Not here: lexing, lowering and layout. A dictionary says what, never how.
+//! Not here: lexing, lowering and layout.
 
 mod behaviours;
 mod caps;

@@ -1,6 +1,6 @@
-//! A dictionary laid over the one that it builds on, before any field of it is read.
+//! Merges a dictionary into its base, before any field is parsed.
 //!
-//! - A plain value, or a list of plain values, takes the place of the base's.
+//! - A plain value, or a list of plain values, replaces the base's.
 //! - A table is merged field by field, to any depth.
 //! - A list of rows is merged row by row. Rows are told apart by their key: `code` in `[[code]]`,
 //!   `[[cycle]]` and `[[pattern]]` (`G1` is `G01`), `letter` in `[[address]]`, `name` in `[[name]]`,
@@ -10,9 +10,9 @@
 //! - In `[[code]]` and `[[name]]`, `means`, `role` and `refuse` exclude each other: a row that says one
 //!   of them takes away the base's others.
 //! - `remove = true` in a row or table takes the base's away; `replace = true` puts the row or table in
-//!   its place whole, so that nothing of the base's is left in it.
+//!   its place as a whole: nothing of the base's remains.
 //!
-//! Not here: which fields there are, and whether rows fit together.
+//! Not here: the fields themselves, and whether rows fit together.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,27 +22,27 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::fault::DialectFault;
 
-/// A tree's fault with its place in the texts laid end to end.
+/// A fault of a tree, with its span in the concatenated texts.
 pub(crate) type Fault = (DialectFault, std::ops::Range<usize>);
 
-/// Takes the base's row or table away.
+/// Removes the base's row or table.
 const REMOVE: &str = "remove";
-/// Puts a row or table in the place of the base's.
+/// Replaces the base's row or table.
 const REPLACE: &str = "replace";
 
-/// The field that tells values of the control's own apart; those without it have a name.
+/// The key of system variables; a row without it has a name.
 const NUMBER: &str = "number";
 
-/// The field that tells variants apart: options and their values.
+/// The key of variants: options and their values.
 const WHEN: &str = "when";
 
-/// Words of a row of which only one can be said.
+/// Fields of a row that exclude each other.
 const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
 
-/// Fields that a dictionary does not take from its base.
+/// Fields that a dictionary does not inherit.
 pub(crate) const OWN: [&str; 3] = ["id", "title", "base"];
 
-/// The field that tells the rows of a table apart.
+/// The key field of a table's rows.
 pub(crate) fn row_key(table: &str) -> Option<&'static str> {
     match table {
         "code" | "cycle" | "pattern" => Some("code"),
@@ -54,7 +54,7 @@ pub(crate) fn row_key(table: &str) -> Option<&'static str> {
     }
 }
 
-/// Moves every place in a tree by an offset.
+/// Shifts all spans of a tree by an offset.
 pub(crate) fn shift(table: DeTable<'_>, by: usize) -> DeTable<'_> {
     table
         .into_iter()
@@ -75,10 +75,10 @@ fn shift_value(value: Spanned<DeValue<'_>>, by: usize) -> Spanned<DeValue<'_>> {
     Spanned::new(at.start + by..at.end + by, moved)
 }
 
-/// Lays a dictionary over its base.
+/// Merges a dictionary into its base.
 ///
 /// # Errors
-/// A row without its key, a key that stands twice, or a word about something that is not there.
+/// A row without its key, a duplicate key, or a `remove` or `replace` of a missing row.
 pub(crate) fn merge<'i>(base: &mut DeTable<'i>, over: DeTable<'i>) -> Result<(), Fault> {
     for (key, value) in over {
         let at = value.span();
@@ -98,7 +98,7 @@ pub(crate) fn merge<'i>(base: &mut DeTable<'i>, over: DeTable<'i>) -> Result<(),
     Ok(())
 }
 
-/// Lays the fields of a table over those of the base's.
+/// Merges the fields of a table.
 fn merge_fields<'i>(base: &mut DeTable<'i>, over: DeTable<'i>) -> Result<(), Fault> {
     for (key, value) in over {
         merge_field(base, key, value)?;
@@ -116,7 +116,7 @@ fn merge_field<'i>(
     let mut over = match value.into_inner() {
         DeValue::Table(over) => over,
         plain => {
-            // The key's own place goes with the value.
+            // The span of the key is replaced together with the value.
             base.remove(name.as_str());
             base.insert(key, Spanned::new(at, plain));
             return Ok(());
@@ -202,7 +202,7 @@ fn merge_rows<'i>(
                     }
                 }
                 if field == WHEN {
-                    // A variant has rows as a dictionary has. What is wrong with it is told where it was laid over.
+                    // A variant has rows as a dictionary has. Its faults are reported with its own span.
                     merged.remove(WHEN);
                     merge(&mut merged, over)?;
                 } else {
@@ -215,10 +215,10 @@ fn merge_rows<'i>(
     Ok(rows.into_iter().flatten().collect())
 }
 
-/// The key of a row, and its place.
+/// The key of a row, and its span.
 pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops::Range<usize>)> {
     let Some(value) = row.get(field) else {
-        // A value of the control's own has a number, or else a name.
+        // A system variable has a number, or else a name.
         return if field == NUMBER { key_of(row, "name") } else { None };
     };
     if field == WHEN {
@@ -231,14 +231,14 @@ pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops
         return Some((said.join(", "), value.span()));
     }
     if field == NUMBER {
-        // One number may be several values, each with a choice of an option.
+        // One number may stand for several values, each for a choice of an option.
         let when = row.get(WHEN).and_then(|when| when.get_ref().as_str()).unwrap_or_default();
         return Some((format!("{} {when}", value.get_ref().as_integer()?), value.span()));
     }
     Some((value.get_ref().as_str()?.to_owned(), value.span()))
 }
 
-/// The key as it is compared: `G1` is `G01`.
+/// The normalised key: `G1` becomes `G01`'s.
 pub(crate) fn same(key: &str) -> String {
     let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
     let (letters, number) = key.split_at(letters);

@@ -1,9 +1,9 @@
-//! What codes do besides their names: stops, tool changes, the end of the program.
+//! Side effects of codes: stops, tool changes, the end of the program.
 //!
-//! Which control does what is in its world ([`Behaviours`](ncc_ir::behaviour::Behaviours)). The program has not said
-//! it, which the events tell ([`by_control`]).
+//! The test set-up holds the side effects of each control ([`Behaviours`](ncc_ir::behaviour::Behaviours)). Events record
+//! that the control caused them, and not the program ([`by_control`]).
 //!
-//! Not here: what the codes do by their names.
+//! Not here: the effects that a code is named for.
 
 use super::{Event, Exec, Kind, Length, Z, by_control};
 use ncc_ir::behaviour::{Behaviour, Behaviours};
@@ -16,29 +16,29 @@ use ncc_ir::source::Span;
 use ncc_ir::unexecuted::{CompensationUnexecuted, CycleUnexecuted};
 
 impl Exec {
-    /// Whether the control does something besides the name of a code; notes that it was asked.
+    /// Whether the control has this side effect; records that it was asked for.
     pub(super) fn does(&mut self, behaviour: Behaviour) -> bool {
         self.asked |= behaviour.bit();
         self.world.behaviours.does(behaviour)
     }
 
-    /// Behaviours that the program has come to so far, a bit each.
+    /// Behaviours that the program has met so far, a bit each.
     pub fn asked(&self) -> u64 {
         self.asked
     }
 
-    /// From here on it counts what the program comes to.
+    /// Resets this record.
     pub fn ask_anew(&mut self) {
         self.asked = 0;
     }
 
-    /// What codes of this control do besides their names.
+    /// The side effects of this control.
     pub fn behaviours(&self) -> &Behaviours {
         &self.world.behaviours
     }
 
-    /// Behaviours that these statements come to from the state that the control is in, a bit each; those that any
-    /// state comes to are [`touched`]'s.
+    /// Behaviours that these statements meet from the current state, a bit each; those that they meet in any
+    /// state are in [`touched`].
     pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
         let bit = |comes: bool, behaviour: Behaviour| if comes { behaviour.bit() } else { 0 };
         let in_mode = |mode: FeedMode, counted: fn(&Op) -> bool| {
@@ -58,7 +58,7 @@ impl Exec {
             | self.by_blocks(stmts)
     }
 
-    /// Another value of a behaviour counts from now on.
+    /// Changes a behaviour from now on.
     pub fn behave(&mut self, behaviour: Behaviour, value: u8) {
         self.world.behaviours = self.world.behaviours.with(behaviour, value);
     }
@@ -68,7 +68,7 @@ impl Exec {
         self.world.optional_stop = on;
     }
 
-    /// The control stops the spindle, or switches coolant off, where it does so.
+    /// The control stops the spindle or switches coolant off, if it has this side effect.
     fn switch_off(&mut self, spindle: Behaviour, coolant: Behaviour) {
         if self.state.spindle != Spindle::Stopped && self.does(spindle) {
             self.state.spindle = Spindle::Stopped;
@@ -80,7 +80,7 @@ impl Exec {
         }
     }
 
-    /// A change of units: the active F counts as the control has it. A time of one block has no unit of length.
+    /// A change of units: the control may convert the active F. An inverse-time feed has no unit of length.
     #[cold]
     pub(super) fn feed_at_units(&mut self, inch: bool) {
         if self.state.feed_mode == FeedMode::InverseTime || !self.does(Behaviour::FeedAtUnits) {
@@ -89,15 +89,15 @@ impl Exec {
         let scaled = |feed: i128| if inch { feed * 127 / 5 } else { feed * 5 / 127 };
         match Nanos::try_from(scaled(i128::from(self.feed))) {
             Ok(feed) => (self.feed, self.feed_inch) = (feed, self.feed_inch.map(|_| inch)),
-            // Beyond every feed: the next cut needs another.
+            // Above every feed: the next cut needs another.
             Err(_) => self.feed = 0,
         }
     }
 
-    /// A dwell: seconds, or turns of the spindle where the control counts these under a feed per revolution.
+    /// A dwell in seconds, or in revolutions of the spindle if the control counts them under feed per revolution.
     ///
     /// # Errors
-    /// Turns of a spindle without a speed.
+    /// Revolutions of a spindle without a speed.
     #[cold]
     pub(super) fn dwell_code(
         &mut self,
@@ -120,7 +120,7 @@ impl Exec {
     /// A stop, or the end of the program.
     ///
     /// # Errors
-    /// What cannot be executed here.
+    /// A block that ncc cannot execute.
     #[cold]
     pub(super) fn stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
@@ -149,10 +149,10 @@ impl Exec {
         }
     }
 
-    /// The program begins anew: nothing is switched off, and all that is in force stays.
+    /// The program starts again: nothing is switched off, and all modes stay active.
     ///
     /// # Errors
-    /// A cycle or a compensation that would go on into the first blocks.
+    /// A cycle or a compensation that would stay active in the first blocks.
     fn begin_again(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         if self.cycle.is_some() {
             return self.not_executed(CycleUnexecuted::BeginsAgainInCycle, span);
@@ -166,7 +166,7 @@ impl Exec {
         Ok(())
     }
 
-    /// The control has gone to a place of the machine along Z: the length in force may count no more.
+    /// The control has moved to a position in machine coordinates along Z: it may cancel the active length.
     #[cold]
     pub(super) fn cancel_length(&mut self, behaviour: Behaviour) {
         let standing = self.waiting.unwrap_or(self.modes.length);
@@ -178,7 +178,7 @@ impl Exec {
     /// The end of the text; an event only if the program has not ended before.
     pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
         if !self.ended {
-            // A move that cannot be executed there is none that a comparison could hold against another.
+            // A comparison cannot use a last move that ncc cannot execute.
             let _ = self.end_block(out);
             self.ended = true;
             if self.centre_path.is_some() {
@@ -198,7 +198,7 @@ impl Exec {
     /// A tool change.
     ///
     /// # Errors
-    /// No tool is selected; a move of the control that cannot be executed here.
+    /// No tool is selected, or the control's own move cannot be executed.
     #[cold]
     pub(super) fn change_tool(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         if self.selected == -1 {
@@ -209,20 +209,20 @@ impl Exec {
         self.changed_to = self.state.tool;
         let emitted = self.emit(Kind::ToolChange, span, out);
         if self.world.zeroed_by_tool {
-            // Z is called something else now, so that a program that says it moves.
+            // The zero of Z has changed, so that a move with Z moves.
             self.reframe(self.machine());
         }
         if self.state.by_control & by_control::Z == 0 {
             if self.state.by_control & by_control::SPINDLE != 0 {
                 self.state.by_control |= by_control::SPINDLE_AT_CHANGE;
             }
-            // With Z where the program has put it, every move may need the spindle.
+            // With Z where the program moved it, every move may need the spindle.
             self.said_by_program(by_control::SPINDLE);
         }
         emitted
     }
 
-    /// How far the operator has moved the zero of Z for the tool that was put in; nothing where nobody does.
+    /// How far the operator moved the zero of Z for this tool; 0 if nobody does.
     pub(super) fn put_in(&self) -> Nanos {
         match self.world.zeroed_by_tool && self.changed_to != -1 {
             true => self.world.edge_length(self.changed_to, 1),
@@ -230,18 +230,18 @@ impl Exec {
         }
     }
 
-    /// What counts in every work offset besides its own zero: the machine's external offset, and how far the operator has
-    /// moved the zero of Z.
+    /// The part of every work offset besides its own zero: the machine's external offset, and the operator's shift of
+    /// the zero of Z.
     pub(super) fn external(&self) -> [Nanos; AXES] {
         let mut external = self.world.external;
         external[Z] = external[Z].wrapping_add(self.put_in());
         external
     }
 
-    /// A tool change, before its event: the control may take Z to machine zero, where it stays.
+    /// The moves before a tool change: the control may move Z to machine zero, where it stays.
     ///
     /// # Errors
-    /// A move that cannot be executed here.
+    /// A move that cannot be executed.
     #[cold]
     fn before_change(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         self.switch_off(Behaviour::SpindleAtChange, Behaviour::CoolantAtChange);
@@ -263,7 +263,7 @@ impl Exec {
         moved
     }
 
-    /// A move that takes Z from where the control, or the operator, has left it. A cut from there is told as that.
+    /// A move that takes Z from where the control or the operator left it. A cut from there is reported.
     #[cold]
     pub(super) fn emit_first_of_z(
         &mut self,
@@ -286,7 +286,7 @@ impl Exec {
         self.emit(Kind::Traverse, span, out)
     }
 
-    /// The words of a move, where the control has taken Z to machine zero.
+    /// The words of a move after the control moved Z to machine zero.
     #[cold]
     pub(super) fn counts_z_of(&mut self, to: &Point) {
         if let Some(word) = &to.axes[Z] {
@@ -294,7 +294,7 @@ impl Exec {
         }
     }
 
-    /// A word of Z, where the control has taken Z to machine zero: it counts from there, or says where Z is.
+    /// A Z word after the control moved Z to machine zero: it counts from there, or states the position of Z.
     #[cold]
     pub(super) fn counts_z(&mut self, relative: bool) {
         match relative {
@@ -306,14 +306,14 @@ impl Exec {
         }
     }
 
-    /// The program has said where Z is, or what spindle and coolant do.
+    /// The program has stated Z, spindle or coolant itself.
     #[inline]
     pub(super) fn said_by_program(&mut self, what: u8) {
         self.state.by_control &= !what;
     }
 }
 
-/// Behaviours of a control that an operation may come to, a bit each.
+/// Behaviours of a control that an operation may meet, a bit each.
 pub fn touched(op: &Op) -> u64 {
     let bits = |all: &[Behaviour]| all.iter().fold(0, |bits, behaviour| bits | behaviour.bit());
     match op {
@@ -330,7 +330,7 @@ pub fn touched(op: &Op) -> u64 {
     }
 }
 
-/// Whether an event happens in a cut, where all of the machine's state counts.
+/// Whether an event is part of a cut, where the whole state matters.
 pub fn cuts(kind: &Kind) -> bool {
     matches!(kind, Kind::Feed | Kind::Synchronised { .. } | Kind::Probe { .. } | Kind::Arc { .. })
 }
@@ -343,7 +343,7 @@ mod tests {
     use ncc_ir::expr::num::{Num, Unit};
     use ncc_ir::program::{Arc, Centre, Point, Turns};
 
-    /// What F counts on an arc is a question under a feed by time alone, stated before or with the arc.
+    /// The meaning of F on an arc is open under inverse-time feed only, set before or with the arc.
     #[test]
     fn an_arc_comes_to_its_fact_under_inverse_time() {
         let stmt = |op| Stmt::new(Span::default(), op);

@@ -1,10 +1,10 @@
-//! What passes know of the target.
+//! The target, as far as passes need it.
 //!
 //! ```text
 //! caps: no cycles | decimals: 3 | peck_clearance: 1 mm
 //! ```
 //!
-//! Not here: what a control can say (`ncc_ir::caps`).
+//! Not here: capabilities (`ncc_ir::caps`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,45 +16,45 @@ use ncc_ir::geometry::arc_feed::ArcFeed;
 use ncc_ir::geometry::offset_path::Rules;
 use ncc_ir::program::Text;
 
-/// Most statements that a program may grow to by being written out.
+/// Most statements of a program after expansion.
 pub(crate) const MOST_STATEMENTS: usize = 4_000_000;
 
-/// What passes know of the target.
+/// The target, as far as passes need it.
 #[derive(Clone, Debug, Default)]
 pub struct Target {
-    /// What it can say.
+    /// Its capabilities.
     pub caps: Caps,
     /// Digits after the point, in mm or degrees, to which computed positions are rounded (0 to 8);
-    /// in inches it is one more.
+    /// one more in inches.
     pub decimals: u8,
-    /// Clearance of a peck cycle whose own control has it as a parameter: taken for granted where
-    /// the cycle is written out.
+    /// Peck clearance of a control that has it as a parameter: assumed where
+    /// the cycle is expanded.
     pub peck_clearance: Option<Num>,
-    /// Lift of a chip-breaking cycle whose own control has it as a parameter, likewise.
+    /// Chip-breaking lift of a control that has it as a parameter, likewise.
     pub break_lift: Option<Num>,
-    /// The source control's direction in which a tool is shifted off the wall of a bore.
+    /// Direction in which the source's control shifts the tool off the wall of a bore.
     pub bore_shift: Option<Sideways>,
-    /// The angle at which the source control stops the spindle where nothing else is said, degrees.
+    /// The angle at which the source's control stops the spindle by default, degrees.
     pub orientation: Option<Num>,
-    /// The entry of its length table that has the length of edge 1 of a tool, where that is not the
+    /// The length entry of edge 1 of a tool, if it is not the
     /// entry with the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
-    /// The entry that another edge of a tool has, by tool and edge.
+    /// The length entry of another edge, by tool and edge.
     pub further_edges: BTreeMap<(u32, u32), u32>,
-    /// Numbers of programs that the machine has already: no subprogram is given one of them.
+    /// Program numbers in use on the machine: no subprogram gets one of them.
     pub program_numbers: BTreeSet<u32>,
-    /// Whether the source is the program of another kind of control.
+    /// Whether source and target are different controls.
     pub other_control: bool,
-    /// Whether plain rounding of corners is bounded on the source's control.
+    /// Whether the source's control limits the rounding of corners.
     pub corners_bounded: bool,
     /// Side effects of codes on the source's control.
     pub source: Behaviours,
-    /// Variables, by their names in lower case, that have a value before the program begins.
+    /// Variables with a value before the program starts, by their names in lower case.
     pub given: BTreeMap<Text, f64>,
-    /// How compensation is worked out, where that is asked for.
+    /// How to compute tool centre paths, if the user asks for them.
     pub compensating: Compensating,
-    /// Most steps and blocks of a program that `flatten` executes, where it is only tried; `None` is as many as a
-    /// program may grow to.
+    /// Most steps and blocks that `flatten` executes in a trial; `None` is the limit of
+    /// a program.
     pub tried_upto: Option<u32>,
 }
 
@@ -68,19 +68,19 @@ impl Target {
     }
 }
 
-/// How compensation is worked out.
+/// How to compute tool centre paths.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compensating {
-    /// What controls do each in a way of their own.
+    /// The source's rule for what controls do differently.
     pub rules: Rules,
-    /// Whether the source's control is known to follow them.
+    /// Whether the source's control is known to follow this rule.
     pub known: bool,
-    /// Radii of tools by their entries, as far as a profile states them, in nanos of a millimetre.
+    /// Tool radii by entry, as far as a profile states them, in nanos of a millimetre.
     pub radii: BTreeMap<u32, Nanos>,
-    /// Whether the statements that switch it on and off stay, and every block is one: for a list of calls.
+    /// Whether the start and end of compensation stay, and every block is one statement: for a list of calls.
     pub listing: bool,
-    /// What F counts on arcs where the program states nothing, as the source's control has it.
+    /// What F counts on arcs by default on the source's control.
     pub arc_feed: ArcFeed,
-    /// Digits of F behind the point in the target.
+    /// Digits of F after the point on the target.
     pub feed_decimals: u8,
 }

@@ -1,5 +1,5 @@
-//! NC0801: an axis goes beyond its travel, in machine coordinates. The first move beyond each limit is
-//! told, with the farthest and the number of the others.
+//! NC0801: an axis leaves its travel, in machine coordinates. ncc reports the first move beyond each limit,
+//! with the farthest coordinate and the count of the others.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -11,7 +11,7 @@ use crate::finding::{Outside, What};
 use crate::limits::Unchecked;
 use crate::watched::Watched;
 
-/// A limit is exceeded by more than this: a millionth of a millimetre.
+/// Tolerance of a limit: a millionth of a millimetre, in nanos.
 const TOLERANCE: Nanos = 1000;
 
 /// A move from `last` to the event's end.
@@ -63,7 +63,7 @@ fn beyond(checker: &mut Watched, event: &Event, axis: usize, side: Outside, to: 
     checker.travel.at[axis][side as usize] = checker.find(what, event.span);
 }
 
-/// The least and greatest coordinates that a move touches after its start.
+/// The least and greatest coordinates of a move, without its start point.
 fn extent(event: &Event, from: &[Nanos; AXES]) -> ([Nanos; AXES], [Nanos; AXES]) {
     let (mut least, mut most) = (event.end, event.end);
     let Kind::Arc { plane, turn, full, centre } = &event.kind else {
@@ -113,7 +113,7 @@ mod tests {
         let from = [1000, 0, 0, 0, 0, 0];
         let (least, most) = extent(&arc(Turn::Counterclockwise, false, [0, -1000]), &from);
         assert_eq!((least[..2].to_vec(), most[..2].to_vec()), (vec![-1000, -1000], vec![1000, 1000]));
-        // The start belongs to the move before.
+        // The start point belongs to the move before.
         let (least, most) = extent(&arc(Turn::Clockwise, false, [0, -1000]), &from);
         assert_eq!((least[..2].to_vec(), most[..2].to_vec()), (vec![0, -1000], vec![1000, -1000]));
         let (least, most) = extent(&arc(Turn::Clockwise, true, [1000, 0]), &from);

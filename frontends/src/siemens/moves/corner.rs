@@ -1,7 +1,7 @@
-//! Lowering of corners: rounded or chamfered behind a block's move, or rounded behind every one.
+//! Lowers corners: rounded or chamfered after one move, or rounded after every move.
 //!
-//! The modal word is the word of one corner in every block whose move may have one. What calls something,
-//! is jumped to or may be skipped while it is in force, is refused: what holds there is not in the text.
+//! The modal word is lowered as the word of one corner in each block whose move may have one. While it is active, a call,
+//! a jump target or a block skip is refused: the corner there is not in the text.
 
 use ncc_dialects::{NameRole, Quantity};
 use ncc_ir::canon::{Axis, CornerShape};
@@ -37,7 +37,7 @@ impl Lower {
         self.now.heading = true;
     }
 
-    /// The word of a corner behind the block's move, which follows.
+    /// The word of the corner after this block's move.
     pub(in crate::siemens) fn corner(
         &mut self,
         words: &mut Words,
@@ -74,7 +74,7 @@ impl Lower {
         }
     }
 
-    /// Refuses what leads elsewhere while every corner is rounded.
+    /// Refuses changes of control flow while every corner is rounded.
     pub(in crate::siemens) fn check_rounding(&mut self, op: &Op, span: Span, out: &mut Batch) {
         let leads = matches!(
             op,

@@ -1,8 +1,8 @@
-//! Calls of a subprogram whose number, or how often, is computed (16i-PB, custom macro: a variable stands for the value of
-//! any address but `O` and `N`): a decision about each program of the text, and an alarm where none has the number.
+//! Subprogram calls with a computed number or repeat count (16i-PB, custom macro: a variable may replace the value of
+//! any address but `O` and `N`). They become a branch for each program of the text, and an alarm for other numbers.
 //!
-//! They are made when the text is read, since the programs stand further down. A number that carries its count in
-//! front is none of theirs.
+//! They are lowered at the end of the text, because the programs follow. A number with the repeat count in
+//! front matches none of them.
 
 use ncc_dialects::Quantity;
 use ncc_ir::computed::computed_call::{of_number, so_often};
@@ -18,7 +18,7 @@ use crate::word::lower::Lower;
 use crate::word::macros::computes::{COMPUTED, Computes};
 
 impl Lower {
-    /// A call of which the number, or how often, is computed.
+    /// A call with a computed number or repeat count.
     pub(in crate::word) fn computed_call(
         &mut self,
         code: &Code,
@@ -53,7 +53,7 @@ impl Lower {
             },
         };
         if *name == *COMPUTED && times.is_some() {
-            // What is called may change what its number is computed from.
+            // The called program may change the variable of its number.
             let name = "call several times of a program whose number is computed".into();
             return self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, span, out);
         }
@@ -71,7 +71,7 @@ impl Lower {
 }
 
 impl Computes {
-    /// The text is over: such calls become decisions about its programs.
+    /// At the end of the text, computed calls become branches over its programs.
     pub(in crate::word) fn join_calls(&self, out: &mut Batch) {
         if !self.calls_of {
             return;
@@ -86,7 +86,7 @@ impl Computes {
     }
 }
 
-/// No program calls itself so: it would not end.
+/// A program never calls itself in this way: the call would not end.
 fn join(body: &mut [Stmt], names: &[(i64, Text)], own: &str) {
     for stmt in body {
         match &mut stmt.op {

@@ -76,7 +76,7 @@ fn a_tool_change_brings_its_first_edge() {
     let relied = "T1 M6\nG710 G17 G90 G54 G0 Z5\nT2 M6\nZ9\nM30\n";
     let option = "AssumedOption { option: 'edge_after_change', value: '1' } at 'M6'";
     assert_eq!(assumptions(relied), [option]);
-    // Named before any move relies on it.
+    // Named before a move depends on it.
     assert_eq!(assumptions("T1 M6\nG710 G17 G90 G54\nD1\nG0 Z5\nM30\n"), [] as [&str; 0]);
     assert_eq!(assumptions("T1 M6\nG710 G17 G90 G54 G0 X5\nM30\n"), [] as [&str; 0]);
     let mut none = settings();
@@ -124,7 +124,7 @@ fn feeds_count_in_the_basic_system_unless_they_are_scaled() {
     );
     let text = HEAD.to_owned() + "G70\nF5\nM30\n";
     assert_eq!(assumptions(&text), ["AssumedOption { option: 'feed_unit', value: 'mm' } at 'F5'"]);
-    // A feed that was said in another unit is none any more.
+    // A feed in another unit is no longer valid.
     assert_eq!(faults("G700\nG1 X1\n"), ["NoFeed at 'G1 X1'"]);
     assert_eq!(faults("G70\nG1 X1\n"), [] as [&str; 0]);
     let mut inch = settings();
@@ -139,7 +139,7 @@ fn skip_levels() {
         after_head("/ X1\n/0 X2\n/1 X3\n/9N5 X4\n/2\n"),
         ["/1 TRAVERSE X1", "/1 TRAVERSE X2", "/10 TRAVERSE X3", "/9 N5 TRAVERSE X4", "/2 Blank"]
     );
-    // What blocks of one switch say counts among them, and is lost behind them.
+    // Modes set in blocks of one switch hold among them, and are unknown after them.
     assert_eq!(
         after_head("/ G91\n/ X1\nX2\n"),
         ["/1 SetDistanceMode(Incremental)", "/1 TRAVERSE X+=1", "TRAVERSE X?2"]

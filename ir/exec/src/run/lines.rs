@@ -1,7 +1,7 @@
-//! Packed moves that a run has come to, unpacked some at a time, with what their words are worth that are computed: no move
-//! gives a variable a value, so that all of them are what the first one finds.
+//! Packed moves of a run, unpacked some at a time, with the values of their computed words. No move
+//! assigns a variable, so that all of them read the same values.
 //!
-//! Not here: where they are executed once for two runs (the verification).
+//! Not here: execution once for two runs (the verification).
 
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
@@ -14,20 +14,20 @@ use ncc_ir::source::Span;
 
 use crate::run::term::{Names, Term, Variables, Why, literal, real};
 
-/// So many are unpacked at once: few enough that they stay in the second-level cache.
+/// Moves that are unpacked at once: few enough for the second-level cache.
 const AT_ONCE: usize = 512;
 
-/// Those that are unpacked, and how many of them are executed.
+/// The unpacked moves, and how many of them are executed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LinesAhead<'p> {
     rest: Option<Unpack<'p>>,
     now: Vec<Stmt>,
     done: usize,
-    /// Why the one behind those that are unpacked has no value.
+    /// Why the next move has no value.
     fault: Option<Box<Diagnostic>>,
 }
 
-/// What the words of a run's packed moves are worth.
+/// The values of the words of a run's packed moves.
 #[derive(Clone, Copy)]
 pub(crate) struct Worth<'a> {
     pub(crate) shapes: &'a [Term],
@@ -36,14 +36,14 @@ pub(crate) struct Worth<'a> {
 }
 
 impl Worth<'_> {
-    /// A word of a shape with these numbers; nothing leaves it out.
+    /// A word of a shape with these numbers.
     fn word(self, shape: usize, numbers: &[Num]) -> Result<Option<Expr>, Fault> {
         let Some(term) = self.shapes.get(shape) else { return Ok(None) };
         let value = self.value(term, &mut numbers.iter()).map_err(|why| self.names.fault(why))?;
         Ok(literal(value, Unit::Entry)?.map(Expr::Num))
     }
 
-    /// As [`Variables::value`], with the numbers in the places of its own.
+    /// As [`Variables::value`], with these numbers.
     fn value(self, term: &Term, numbers: &mut std::slice::Iter<Num>) -> Result<Value, Why> {
         Ok(match term {
             Term::Number(own) => Value::Number(numbers.next().map_or(*own, |num| real(*num))),
@@ -78,7 +78,7 @@ impl Worth<'_> {
 }
 
 impl<'p> LinesAhead<'p> {
-    /// Some of those that come next; none is the end, or one that has no value.
+    /// Some of the next moves; empty at the end, or before a move without a value.
     #[inline]
     pub(crate) fn of(&mut self, lines: &'p PackedLines, worth: Worth) -> &[Stmt] {
         if self.done == self.now.len() && self.fault.is_none() {
@@ -103,7 +103,7 @@ impl<'p> LinesAhead<'p> {
         }
     }
 
-    /// Why the next one has no value, where that is so.
+    /// Why the next move has no value, if it has none.
     pub(crate) fn fault(&self) -> Option<&Diagnostic> {
         self.fault.as_deref().filter(|_| self.done == self.now.len())
     }
@@ -113,12 +113,12 @@ impl<'p> LinesAhead<'p> {
         &self.now[self.done..]
     }
 
-    /// So many more are executed.
+    /// Counts moves as executed.
     pub(crate) fn pass(&mut self, many: usize) {
         self.done += many;
     }
 
-    /// The next one, which is executed then.
+    /// The next move, counted as executed.
     #[inline]
     pub(crate) fn take(&mut self) -> Option<&Stmt> {
         let next = self.now.get(self.done);
@@ -126,13 +126,13 @@ impl<'p> LinesAhead<'p> {
         next
     }
 
-    /// All of them are executed.
+    /// Counts all of them as executed.
     pub(crate) fn leave(&mut self) {
         *self = LinesAhead { now: std::mem::take(&mut self.now), ..LinesAhead::default() };
         self.now.clear();
     }
 
-    /// The place of the one that was executed last.
+    /// The place of the last executed move.
     pub(crate) fn last(&self) -> Option<Span> {
         let last = self.done.checked_sub(1).and_then(|at| self.now.get(at));
         last.map(|stmt| stmt.span)

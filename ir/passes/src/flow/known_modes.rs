@@ -5,7 +5,7 @@
 //! IF [#1 EQ 2] GOTO 10 / G91 / N10 X5.    G90 or G91 is stated at N10, where both paths join
 //! ```
 //!
-//! Not here: which modes are known there (`support::mode_analysis`).
+//! Not here: the analysis itself (`support::mode_analysis`).
 
 use ncc_ir::computed::computed_code;
 use ncc_ir::computed::computes::ComputeFeature;
@@ -15,7 +15,7 @@ use crate::modes::word_distance;
 use crate::pass::Pass;
 use crate::support::mode_analysis;
 
-/// Modes that are saved and put back are words, where the target cannot save them.
+/// Saved and restored modes become codes, if the target cannot save modes.
 pub(crate) const CODES_PUT_BACK: Pass = Pass::parametric(
     "codes-put-back",
     "puts modes that a program saves and puts back into words, where the target cannot save them",
@@ -23,7 +23,7 @@ pub(crate) const CODES_PUT_BACK: Pass = Pass::parametric(
     |program, own, _| mode_analysis::put_back(program, &own.entry, own.target),
 );
 
-/// Computed codes are those that the target takes.
+/// Keeps computed codes to those that the target has.
 pub(crate) const CODES: Pass = Pass::parametric(
     "codes-without-alarms",
     "takes computed codes without the alarm for those that are none",
@@ -36,7 +36,7 @@ pub(crate) const CODES: Pass = Pass::parametric(
     },
 );
 
-/// Calls go no deeper than the target takes.
+/// Limits the depth of calls to the target's.
 pub(crate) const DEPTH: Pass = Pass::parametric(
     "deep-calls",
     "refuses calls that go deeper within one another than the target takes",
@@ -44,7 +44,7 @@ pub(crate) const DEPTH: Pass = Pass::parametric(
     |program, own, found| found.extend(own.target.too_deep(program)),
 );
 
-/// Modes are said anew where ways join.
+/// Writes the modes again where paths merge.
 pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
     "known-facts",
     "states modes anew where ways of a program that computes join",
@@ -57,9 +57,9 @@ pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
             own.known = mode_analysis::run(program, &own.entry, own.others);
             return;
         }
-        // Words of another language lead to stretches of its blocks; what they say stays as it is.
+        // Loops and branches of another dialect have bodies; their statements stay as they are.
         own.known = mode_analysis::run(&mut program.clone(), &own.entry, true);
-        // Where a target's words have no mode of their own, the mode behind one that has is said anew.
+        // If the target's words have no distance mode of their own, the mode after such a word is written again.
         let measures = own.word_distance && !own.caps.modes.word_distance;
         if measures && !word_distance::places(program, &own.known).is_empty() {
             own.known = mode_analysis::run(program, &own.entry, true);

@@ -1,4 +1,4 @@
-//! `expand-patterns`: patterns of holes take the form in which the target says them, or become their
+//! `expand-patterns`: hole patterns become the target's form, or their
 //! positions, one block a hole.
 
 use crate::holes::absolute_holes;
@@ -16,7 +16,7 @@ use ncc_ir::program::cycle::{Along, First, Pattern, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
 use ncc_ir::track::Tracker;
 
-/// A pass.
+/// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "expand-patterns",
     about: "says patterns of holes in the target's form, or as positions",
@@ -30,7 +30,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// A pass.
+/// This pass.
 pub(crate) const REFORM: Pass = Pass {
     name: "reform-patterns",
     about: "says what is left of patterns in the target's form",
@@ -44,7 +44,7 @@ pub(crate) const REFORM: Pass = Pass {
     parametric: None,
 };
 
-/// Expands the patterns that the target cannot say.
+/// Expands the patterns that the target lacks.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         expand_patterns(body, &mut walk.clone(), target, diags);
@@ -52,8 +52,8 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
     });
 }
 
-/// Patterns that have no form in one body become positions. The others stay as they are, for a cycle
-/// that is written out needs them as exact as they are.
+/// Expands the patterns of one body that have no form on the target. The others stay, because a cycle
+/// that is expanded needs their exact positions.
 pub(crate) fn expand_patterns(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
@@ -80,7 +80,7 @@ pub(crate) fn expand_patterns(
     });
 }
 
-/// Patterns of one body take the target's form; afterwards no cycle is written out any more.
+/// The patterns of one body become the target's form, after all cycles are expanded.
 pub(crate) fn reform(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     let mut reformed = false;
     rebuild(body, |mut stmt, made| {
@@ -89,8 +89,8 @@ pub(crate) fn reform(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, dia
         let forms = match &mut stmt.op {
             Op::Pattern(pattern) => {
                 if let (Some(plane), true) = (plane, reformed) {
-                    // An increment would count from where the form before has left the tool, which
-                    // may be half a unit off. What is not known here nothing counts from.
+                    // An increment would count from the end of the form before, which
+                    // may be half an increment off. A position that is unknown here is no reference.
                     let _ = absolute_holes::pattern_absolute(pattern, plane, walk);
                 }
                 let forms = forms(walk, pattern, target);
@@ -126,12 +126,12 @@ fn put(stmt: Stmt, holes: Vec<Point>, made: &mut Rebuild, diags: &mut Vec<Diagno
     made.replace(stmt, holes.into_iter().map(|to| (false, Op::Hole(Move { to, said: false }))));
 }
 
-/// Whether the target has words for a pattern as it stands here, in any form.
+/// Whether the target has a form for this pattern here.
 pub(crate) fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
     forms(walk, pattern, target).is_some()
 }
 
-/// The forms in which the target says a pattern as it stands here, if it has any.
+/// The target's forms for this pattern here.
 fn forms(walk: &Walk, pattern: &Pattern, target: &Target) -> Option<Vec<Pattern>> {
     let as_it_is = || vec![pattern.clone()];
     if target.caps.flat {
@@ -141,7 +141,7 @@ fn forms(walk: &Walk, pattern: &Pattern, target: &Target) -> Option<Vec<Pattern>
     pattern_forms::fit(walk, pattern, plane, target)
 }
 
-/// The plane of the cycle in force.
+/// The plane of the active cycle.
 fn plane(walk: &Walk) -> Option<Plane> {
     if walk.at.cycle_in_doubt {
         return None;
@@ -149,11 +149,11 @@ fn plane(walk: &Walk) -> Option<Plane> {
     walk.at.cycle.as_ref().and_then(|c| c.cycle.plane.known()).or(walk.at.modes.plane)
 }
 
-/// The positions of a pattern: as they are written in the program or exact, the others of a circle
-/// rounded to `decimals` digits. An axis that stays where the hole before was has no word.
+/// The positions of a pattern. Programmed ones stay exact; the others of a bolt circle are
+/// rounded to `decimals` digits. An axis without motion from the hole before has no word.
 ///
 /// # Errors
-/// What must be known and is not.
+/// A fact that is needed and unknown.
 pub(crate) fn holes(walk: &Walk, pattern: &Pattern, decimals: u8) -> Result<Vec<Point>, Fault> {
     let count = match pattern {
         Pattern::Circle { count, .. } | Pattern::Line { count, .. } => Some(*count),
@@ -183,7 +183,7 @@ pub(crate) fn holes(walk: &Walk, pattern: &Pattern, decimals: u8) -> Result<Vec<
             }
         }
         if to.is_empty() {
-            // A hole made twice in one place still needs a word.
+            // A second hole in the same place still needs a word.
             to.set(first, last[0].clone().unwrap_or_else(|| absolute(exact(position[0], walk.unit()))));
         }
         points.push(to);
@@ -232,13 +232,13 @@ fn word(
     }
 }
 
-/// A coordinate that is exact where the angle it comes from is one of an axis, else rounded.
+/// A coordinate that is exact if its angle is that of an axis; else rounded.
 fn placed(nanos: Nanos, angle: Option<i128>, decimals: u8, unit: Unit) -> Coord {
     let exactly = angle.is_some_and(|a| a % (90 * i128::from(ONE)) == 0);
     absolute(if exactly { exact(nanos, unit) } else { rounded(nanos, decimals, unit) })
 }
 
-/// The axis of a plane that is not known.
+/// The axis of an unknown plane.
 fn unknown(at: &Tracker, axes: [Axis; 2]) -> Fault {
     let axis = axes.into_iter().find(|a| at.position[*a as usize].is_none()).unwrap_or(axes[0]);
     Fault::PositionUnknown { axis: axis.letter() as char }

@@ -1,4 +1,4 @@
-//! A contour beside which the tool goes: what its statements may say, and the way of the tool's centre along it.
+//! A compensated contour: which statements it may contain, and its tool centre path.
 
 use super::written::{Written, cannot, straight};
 use crate::support::walk::Walk;
@@ -11,14 +11,14 @@ use ncc_ir::lack::ExpandedContour;
 use ncc_ir::program::{Op, Point, Stmt};
 use ncc_ir::source::Span;
 
-/// A contour beside which the tool goes.
+/// A compensated contour.
 pub(super) struct Contour {
     pub(super) plane: Plane,
-    /// mm; 0 is along the contour itself.
+    /// The tool radius, nanos; 0 is the contour itself.
     pub(super) radius: f64,
     pub(super) left: bool,
     pub(super) path: Option<OffsetPath>,
-    /// Index of the held move among the statements made.
+    /// Index of the held move in the output.
     pub(super) held: usize,
     pub(super) start: Span,
 }
@@ -29,7 +29,7 @@ pub(super) fn contour(plane: Plane, side: Side, radius: f64, start: Span) -> Con
 }
 
 impl Contour {
-    /// The words of a move, which must be in the plane and along no rotary axis.
+    /// The words of a move, which must lie in the plane and move no rotary axis.
     pub(super) fn words<'s>(&self, stmt: &'s Stmt, walk: &Walk) -> Result<&'s Point, Diagnostic> {
         let words = match &stmt.op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => &m.to,
@@ -47,7 +47,7 @@ impl Contour {
         Ok(words)
     }
 
-    /// Which part of F the tool's centre has along an arc, where F counts along the contour.
+    /// The feed of the tool centre on an arc, as a part of F, where F counts on the contour.
     pub(super) fn part_of_feed(
         &self,
         feed: ArcFeed,
@@ -70,8 +70,8 @@ impl Contour {
         }
     }
 
-    /// Goes on along the contour, or enters it: the end of the move before is put where it is now known to be. The
-    /// move round the corner comes back, where there is one.
+    /// Continues the contour, or enters it: sets the end point of the move before, which is known now. Returns the
+    /// move around an outer corner, if there is one.
     pub(super) fn go_on(
         &mut self,
         leg: Leg,

@@ -1,20 +1,20 @@
-//! `fold-cycles`: holes written long-hand become cycles again. The inverse of `expand-cycles`.
+//! `fold-cycles`: folds holes in long-hand blocks into cycles. The inverse of `expand-cycles`.
 //!
-//! A hole is read off its moves: aside by rapid at the level where the tool stands, down by rapid to
-//! the retract plane, a cut along the drilling axis, and out again: by rapid, with a dwell before it,
-//! in strokes with a way out of the hole or a little way up between them, or by a cut. Holes that
-//! one cycle makes are a run, whichever way their blocks are laid out: words that stay as they were,
-//! moves that go nowhere, a feed at each hole, once, or at rapids that do not count it.
+//! A hole has this order of moves: a rapid to its position at the initial level, a rapid down to
+//! the R plane, a cut along the drilling axis, and the retract: a rapid, with a dwell before it,
+//! in pecks with a retract or a short lift between them, or a cut. Holes of
+//! one cycle are a run, whatever the layout of their blocks: unchanged words,
+//! moves without motion, a feed at each hole, once, or at rapid moves.
 //!
-//! A run of plain holes is folded from two on: a single plunge is as well said in three blocks. A hole
-//! with strokes, with a dwell, or with a cut out is folded alone as well; nothing else looks like that.
+//! A run of plain holes is folded from two holes on: one plunge needs three blocks anyway. A hole
+//! with pecks, a dwell, or a cut out is folded alone too, because no other move looks like it.
 //!
-//! Folded is only what the target has words for, and only if the machine does the same: the moves
-//! and the cycle are executed side by side. Left as they are: moves aside and down at once, two moves
-//! where the cycle makes one, strokes that do not follow one rule (so that no part of such a hole is
-//! taken for a cycle), blocks that may be skipped, places that are not known, and anything between
-//! that is no remark, feed, or setting already in force: it ends the run. Remarks and the numbers of
-//! the holes' first blocks are kept.
+//! ncc folds only what the target has, and only if the machine does the same: it executes the moves
+//! and the cycle side by side. Not folded: moves to the position and down in one block, two moves
+//! where the cycle makes one, pecks without one rule (so that no part of such a hole
+//! becomes a cycle), blocks with block skip, unknown positions, and any statement between
+//! the holes that is no comment, feed, or active mode: it ends the run. Comments and the block numbers
+//! of the holes are kept.
 
 mod acts;
 pub(crate) mod feed;
@@ -44,10 +44,10 @@ use ncc_ir::track::Tracker;
 pub(crate) const PASS: Pass =
     Pass::named("fold-cycles", "turns holes written long-hand into canned cycles", Some(run));
 
-/// Fewest plain holes that are worth a cycle.
+/// Fewest plain holes of a cycle.
 const FEWEST_HOLES: usize = 2;
 
-/// Folds what the target can say.
+/// Folds holes into cycles of the target.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| fold_holes(body, walk, target, diags));
 }
@@ -66,7 +66,7 @@ pub(crate) fn fold_holes(
     let mut made = Rebuild::new(input.len());
     let mut rest = &input[..];
     let mut feed = None;
-    // Statements that are passed on as they are, because they are part of a hole that no cycle makes.
+    // Statements that pass unchanged: they belong to a hole of no cycle.
     let mut passed_by = 0;
     while let Some(stmt) = rest.first() {
         walk.enter(stmt.skip);
@@ -94,20 +94,20 @@ pub(crate) fn fold_holes(
     *body = made.out;
 }
 
-/// Holes one after another that one cycle makes.
+/// Consecutive holes of one cycle.
 struct Run {
     plane: Plane,
     /// Each with the number of statements up to its end.
     holes: Vec<(Hole, usize)>,
-    /// Feed after each.
+    /// The feed after each.
     feeds: Vec<Option<Num>>,
 }
 
 impl Run {
-    /// Reads the run that begins here.
+    /// Reads the run that starts here.
     ///
     /// # Errors
-    /// How many statements are part of a hole that no cycle makes.
+    /// The number of statements of a hole that no cycle makes.
     fn read(rest: &[Stmt], walk: &Walk, feed: Option<Num>) -> Result<Run, usize> {
         let begins = match &rest[0].op {
             Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => rest[0].skip.is_none(),
@@ -122,7 +122,7 @@ impl Run {
         }
         let acts = Acts::new(rest, walk.at.clone(), feed, plane);
         let long = Run::first_run(acts.clone(), plane, Reading::LONG);
-        // A rapid after a hole that is bored may be the way to what comes next.
+        // A rapid after a bored hole may belong to the next hole.
         let bored = |run: &Run| matches!(run.holes[0].0.kind, CycleKind::Bore { .. });
         if long.as_ref().is_ok_and(|run| !bored(run)) {
             return long;
@@ -135,7 +135,7 @@ impl Run {
         }
     }
 
-    /// The run whose first hole is read in that way.
+    /// The run whose first hole is read like this.
     fn first_run(mut acts: Acts<'_>, plane: Plane, reading: Reading) -> Result<Run, usize> {
         let mut run = Run { plane, holes: Vec::new(), feeds: Vec::new() };
         loop {
@@ -157,7 +157,7 @@ impl Run {
         if run.holes.is_empty() { Err(0) } else { Ok(run) }
     }
 
-    /// Puts the cycle in the place of the moves; gives the number of statements that it stands for.
+    /// Replaces the moves by the cycle; returns the number of replaced statements.
     fn fold(
         self,
         rest: &[Stmt],
@@ -192,7 +192,7 @@ impl Run {
         end
     }
 
-    /// The cycle, in the form that the target has.
+    /// The cycle, in the target's form.
     fn cycle(&self, target: &Target) -> Option<Cycle> {
         let (first, _) = &self.holes[0];
         let (out, retract) = (first.out.1, first.retract.1);
@@ -219,7 +219,7 @@ impl Run {
         })
     }
 
-    /// The statements of the cycle and its holes, with what is kept of theirs.
+    /// The statements of the cycle and its holes, with the kept comments.
     fn stmts(&self, moves: &[Stmt], cycle: Cycle) -> Rebuild {
         let mut made = Rebuild::new(2 * self.holes.len() + 2);
         let mut cycle = Some(cycle);
@@ -237,8 +237,8 @@ impl Run {
         made
     }
 
-    /// What the moves leave in force and the cycle does not: a feed, and the motion where something
-    /// may depend on it.
+    /// Modes that the moves leave active and the cycle does not: the feed, and the motion mode where a later
+    /// statement may depend on it.
     fn afterwards(&self, cycle: &Cycle, rest: &[Stmt], span: Span, made: &mut Rebuild) {
         let (last, _) = &self.holes[self.holes.len() - 1];
         let feed = self.feeds[self.feeds.len() - 1];
@@ -256,14 +256,14 @@ impl Run {
     }
 }
 
-/// A further hole like the first one of a run.
+/// A further hole of a run.
 fn further(acts: &mut Acts<'_>, plane: Plane, first: &Hole, reading: Reading) -> Result<Hole, Unread> {
     let start = acts.clone();
     let whole = hole::read(acts, plane, reading);
     if whole.as_ref().is_ok_and(|hole| first.is_like(hole)) {
         return whole;
     }
-    // What comes next in the same place may be another cycle's first hole, unless this one is.
+    // The next moves in the same place may be the first hole of another cycle, unless this one is it.
     if let Ok(whole) = &whole
         && hole::read(&mut acts.clone(), plane, reading).is_ok_and(|next| whole.is_like(&next))
     {
@@ -274,8 +274,8 @@ fn further(acts: &mut Acts<'_>, plane: Plane, first: &Hole, reading: Reading) ->
     if first.is_like(&short) { Ok(short) } else { Err(Unread::NotHere) }
 }
 
-/// Puts a hole in the place of its moves. It has the number and the remark of the block with its first
-/// move; other remarks come before it or after it, as they stand before its cut or after.
+/// Replaces a hole's moves. It keeps the number and comment of the block with its first
+/// move; other comments come before or after it, as they are before or after the cut.
 fn one(moves: &[Stmt], ops: Vec<(bool, Op)>, made: &mut Rebuild) {
     let is_move = |stmt: &Stmt| matches!(stmt.op, Op::StraightTraverse(_) | Op::StraightFeed(_));
     let cut = moves.iter().position(|stmt| matches!(stmt.op, Op::StraightFeed(_))).unwrap_or(0);
@@ -311,7 +311,7 @@ fn one(moves: &[Stmt], ops: Vec<(bool, Op)>, made: &mut Rebuild) {
     }
 }
 
-/// Whether what comes next may do whatever motion is in force.
+/// Whether the next statement may depend on the active motion mode.
 fn inherits_motion(rest: &[Stmt]) -> bool {
     for stmt in rest {
         match stmt.op.unwrapped() {
@@ -322,11 +322,11 @@ fn inherits_motion(rest: &[Stmt]) -> bool {
             _ => {}
         }
     }
-    // A subprogram's end, or the end of a text that goes on no further.
+    // The end of a subprogram, or of a text that continues.
     false
 }
 
-/// Whether the machine does the same: both are executed from where the tool stands.
+/// Whether the machine does the same: executes both from the current position.
 fn is_same(walk: &Walk, feed: Option<Num>, moves: &[Stmt], cycle: &[Stmt]) -> bool {
     let mut world = World::generate(1, &Modes::default());
     world.power_on.work_offset = Some(1);
@@ -334,7 +334,7 @@ fn is_same(walk: &Walk, feed: Option<Num>, moves: &[Stmt], cycle: &[Stmt]) -> bo
     start.assume(&walk.at.modes);
     let known: [Option<i64>; AXES] = walk.at.position;
     start.stand_at(&known.map(|at| Some(at.unwrap_or(0))));
-    // A feed that is not known is one that no program says.
+    // The program never sets an unknown feed.
     let odd = Num { mantissa: 7_654_321, scale: 4, point: true, unit: Unit::Mm };
     let feed = Stmt::new(Span::default(), Op::SetFeedRate(feed.unwrap_or(odd).into()));
     let events = |stmts: &[Stmt]| -> Option<Vec<Event>> {

@@ -1,18 +1,18 @@
-//! Whether a variable or an expression may have a value at a place, and calls.
+//! Whether a variable or an expression may be empty at a place, and calls.
 
 use crate::support::shared_map::SharedMap;
 use ncc_ir::expr::value;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
 use ncc_ir::program::{Call, Op, Stmt, Text};
 
-/// What a variable may have, or an expression.
+/// The possible values of a variable or an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::values::variables) enum May {
-    /// Nothing at all.
+    /// Empty.
     Nothing,
     /// A number.
     Number,
-    /// One or the other.
+    /// Either.
     Either,
 }
 
@@ -22,11 +22,11 @@ impl May {
     }
 }
 
-/// What the local variables may have at a place; one that is not among them has nothing.
+/// The possible values of the local variables at a place; a variable that is not listed is empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::values::variables) struct Known {
     pub(in crate::values::variables) vars: SharedMap<Text, May>,
-    /// Anything may be: calls within so many others.
+    /// Any value: too many nested calls.
     pub(in crate::values::variables) lost: bool,
 }
 
@@ -44,7 +44,7 @@ impl Known {
     }
 }
 
-/// The same, or that no way leads there.
+/// Merges two paths.
 pub(in crate::values::variables) type Way = Option<Known>;
 
 pub(in crate::values::variables) fn either(a: Way, b: Way) -> Way {
@@ -63,7 +63,7 @@ pub(in crate::values::variables) fn nothing() -> Expr {
     Expr::Node(Box::new(Node::Vacant))
 }
 
-/// Shows every call of a body.
+/// Visits every call of a body.
 pub(in crate::values::variables) fn calls(body: &mut [Stmt], seen: &mut dyn FnMut(&mut Call)) {
     for stmt in body {
         match &mut stmt.op {
@@ -74,7 +74,7 @@ pub(in crate::values::variables) fn calls(body: &mut [Stmt], seen: &mut dyn FnMu
     }
 }
 
-/// What an expression may be: nothing, where it is a variable without a value, the same with a sign, or rounded.
+/// The possible values of an expression: an empty variable, also with a sign or rounded, is empty.
 pub(in crate::values::variables) fn may(e: &Expr, known: &Known) -> May {
     let Expr::Node(node) = e else { return May::Number };
     match &**node {
@@ -88,7 +88,7 @@ pub(in crate::values::variables) fn may(e: &Expr, known: &Known) -> May {
     }
 }
 
-/// Whether a condition holds, where that follows from which variables have a value.
+/// Whether a condition holds, if the empty variables decide it.
 pub(in crate::values::variables) fn holds(e: &Expr, known: &Known) -> Option<bool> {
     let Expr::Node(node) = e else { return None };
     match &**node {
@@ -105,7 +105,7 @@ pub(in crate::values::variables) fn holds(e: &Expr, known: &Known) -> Option<boo
             a,
             b,
         ) => {
-            // What has no value counts as zero.
+            // An empty variable counts as zero.
             let zero = |e: &Expr| match e.literal() {
                 Some(n) => Some((n.mantissa as f64 / 10_f64.powi(i32::from(n.scale)), false)),
                 None => (may(e, known) == May::Nothing).then_some((0.0, true)),
