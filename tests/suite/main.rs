@@ -20,6 +20,7 @@ mod essay;
 mod everyday;
 mod expected;
 mod faults;
+mod file_schemas;
 mod fmt;
 mod fold;
 mod generated;
