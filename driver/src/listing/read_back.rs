@@ -96,6 +96,7 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     world.compensation_again = job.from.dialect.caps.compensation.again;
     world.arcs = job.from.arc_rule();
+    world.behaviours = job.source_behaviours();
     world.refused_compensated = job.from.dialect.caps.compensation.refused;
     let nanos = |option| parameter(job, option).and_then(|n| n.nanos(false)).unwrap_or(0);
     (world.peck_clearance, world.break_lift) = (nanos(PECK_CLEARANCE), nanos(BREAK_LIFT));
@@ -136,8 +137,8 @@ struct Listed {
     tapping: bool,
     /// How far a move in step with the spindle goes in a turn, while there is one.
     pitch: Option<Nanos>,
-    /// The spindle before it was stopped by the line before.
-    turned: Option<Spindle>,
+    /// Whether the line before stopped the spindle for a tool change.
+    stopped: bool,
     /// Zero of the work offset in force, by how many degrees it is turned, and the shift within it.
     offset: [Nanos; AXES],
     turn: Nanos,
@@ -162,12 +163,25 @@ impl Listed {
         let tail = end.and_then(|end| lines[..end].iter().rposition(|l| l.starts_with("SET_G5X_OFFSET(1,")));
         for (at, line) in lines.iter().enumerate() {
             if Some(at) == tail {
+                self.switched_off_at_end(&lines[at..end.unwrap_or(at)]);
                 self.event(Kind::ProgramEnd, 0);
                 break;
             }
             self.line(line, &lines[at + 1..]).ok_or_else(|| (*line).to_owned())?;
         }
         Ok(self.events)
+    }
+
+    /// The interpreter's end stops the spindle and switches coolant off, each by a line of its own.
+    fn switched_off_at_end(&mut self, lines: &[&str]) {
+        for line in lines {
+            match line.split_once('(').map(|(name, _)| name) {
+                Some("STOP_SPINDLE_TURNING") => self.state.spindle = Spindle::Stopped,
+                Some("FLOOD_OFF") => self.state.flood = false,
+                Some("MIST_OFF") => self.state.mist = false,
+                _ => {}
+            }
+        }
     }
 
     fn event(&mut self, kind: Kind, rate: Nanos) {
@@ -182,7 +196,7 @@ impl Listed {
         let next = behind.first().copied();
         let (name, rest) = line.split_once('(')?;
         let inside = rest.strip_suffix(')')?;
-        let stopped = self.turned.take();
+        let stopped = std::mem::take(&mut self.stopped);
         match name {
             "COMMENT"
             | "ON_RESET"
@@ -231,17 +245,16 @@ impl Listed {
             "START_SPINDLE_CLOCKWISE" => self.state.spindle = Spindle::Clockwise,
             "START_SPINDLE_COUNTERCLOCKWISE" => self.state.spindle = Spindle::Counterclockwise,
             "STOP_SPINDLE_TURNING" => {
-                let before = std::mem::replace(&mut self.state.spindle, Spindle::Stopped);
-                self.turned = next.is_some_and(|next| next.starts_with("CHANGE_TOOL(")).then_some(before);
+                self.state.spindle = Spindle::Stopped;
+                self.stopped = next.is_some_and(|next| next.starts_with("CHANGE_TOOL("));
             }
             // The exchange of pallets belongs to the stop, or the end, behind it.
             "SELECT_TOOL" | "PALLET_SHUTTLE" => {}
             "CHANGE_TOOL" => {
-                // The stop belongs to the change, which comes first.
+                // The interpreter stops the spindle for the change, which is a line of its own.
+                stopped.then_some(())?;
                 self.state.tool = inside.parse().ok()?;
-                let now = std::mem::replace(&mut self.state.spindle, stopped?);
                 self.event(Kind::ToolChange, 0);
-                self.state.spindle = now;
             }
             "FLOOD_ON" => self.coolant(Coolant { flood: true, ..self.state.coolant() }, false),
             "MIST_ON" => self.coolant(Coolant { mist: true, ..self.state.coolant() }, false),

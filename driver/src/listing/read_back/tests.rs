@@ -7,8 +7,9 @@ use ncc_ir::program::Procedure;
 
 use super::*;
 
-/// One with all that a listing can have: arcs of several turns, holes, a tap, dwells, coolant, a tool, offsets.
-const PART: &str = "G21 G17 G90 G94 G40 G49 G80 G54\nT2 M6\nS1500 M3\nM7\nM8\nG0 X10 Y-5 Z20\nZ2\nG1 Z-1.5 F120\nX30 F300\nG2 X40 Y5 I0 J10 F250\nG3 X40 Y5 Z-3 I-5 J0 P3\nG18 G3 X50 Z-3 I5 K0\nG17 G1 X12.3456\nG4 P0.5\nM9\nG0 Z20\nG98 G82 X5 Y5 Z-4 R2 P0.25 F90\nX15\nG83 X25 Z-9 Q3 R2\nG80\nG84 X1 Y2 Z-8 R3 F1500\nG80\nG10 L2 P2 X5 Y-3 Z1 R30\nG55\nG0 X1 Y1\nG1 X2 F100\nG2 X4 Y1 Z0 I1 J0\nG92 X0 Y2\nG1 X3\nG53 G0 Z5\nX7\nG92.2\nG1 Y4\nG92.1\nG54\nG0 X2 Y2\nG95 F0.2\nG1 X4\nG93 G1 X12 F4\nG2 X20 Y2 I4 J0 F5\nG94\nF140\nG33 Z-3 K1.5\nG0 Z4\nG33.1 Z-6 K1\nG38.2 Z-1.5 F30\nG91 G0 Z1.5\nG90 G0 @9 ^30\nG28.1\nG0 X1\nG28 Z5\nM19 R90 Q2\nM49\nS700 M3\nG1 X2.5 F60\nG96 D900 S80\nG1 X3 F60\nG97 S600\nM0\n(MSG,LOOK)\nG20\nG0 X1 Y1 Z1\nG1 X2.5 F10\nM5\nM2\n";
+/// One with all that a listing can have: arcs of several turns, holes, a tap, dwells, coolant, offsets, a tool change with the
+/// spindle turning, and an end that stops it.
+const PART: &str = "G21 G17 G90 G94 G40 G49 G80 G54\nT2 M6\nS1500 M3\nM7\nM8\nG0 X10 Y-5 Z20\nZ2\nG1 Z-1.5 F120\nX30 F300\nG2 X40 Y5 I0 J10 F250\nG3 X40 Y5 Z-3 I-5 J0 P3\nG18 G3 X50 Z-3 I5 K0\nG17 G1 X12.3456\nG4 P0.5\nM9\nG0 Z20\nG98 G82 X5 Y5 Z-4 R2 P0.25 F90\nX15\nG83 X25 Z-9 Q3 R2\nG80\nG84 X1 Y2 Z-8 R3 F1500\nG80\nG10 L2 P2 X5 Y-3 Z1 R30\nG55\nG0 X1 Y1\nG1 X2 F100\nG2 X4 Y1 Z0 I1 J0\nG92 X0 Y2\nG1 X3\nG53 G0 Z5\nX7\nG92.2\nG1 Y4\nG92.1\nG54\nG0 X2 Y2\nG95 F0.2\nG1 X4\nG93 G1 X12 F4\nG2 X20 Y2 I4 J0 F5\nG94\nF140\nG33 Z-3 K1.5\nG0 Z4\nG33.1 Z-6 K1\nG38.2 Z-1.5 F30\nG91 G0 Z1.5\nG90 G0 @9 ^30\nG28.1\nG0 X1\nG28 Z5\nM19 R90 Q2\nM49\nS700 M3\nG1 X2.5 F60\nG96 D900 S80\nG1 X3 F60\nG97 S600\nT3 M6\nG0 X3.5\nM3\nG1 X4 F60\nM0\n(MSG,LOOK)\nG20\nG0 X1 Y1 Z1\nG1 X2.5 F10\nM8\nG1 X3 F10\nM2\n";
 
 fn listed(job: &Job) -> (Program, String) {
     let mut batch = Batch::default();
