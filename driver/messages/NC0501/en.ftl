@@ -229,7 +229,7 @@ NC0501-Threads-LeftDifferently = the return of a rigid thread differs from its w
     .label = start, lead or axis differ
 NC0501-Threads-SpindleStopped = a thread with the spindle stopped
     .label = M3 or M4 is not active
-    .help = write `M3` before this block
+    .help = write `M3` or `M4` before this block
 NC0501-Threads-OutAndBack = { $target } has no single move for a thread and its return
     .help = write two moves
 NC0501-Threads-Synchronised = { $target } has no spindle-synchronised move
@@ -282,7 +282,6 @@ NC0501-Arcs-CentreUnitUnknown = an arc centre in mm or in inches? ncc does not k
     .help = write `{ $mm }` or `{ $inch }` before the arc
 NC0501-Arcs-CentreTooFar = the centre of this arc is too far away for { $target }
     .label = the arc is nearly a line
-    .help = write a line
 NC0501-Arcs-Centre = { $target } has no arc by its centre
 NC0501-Arcs-CentreWordMissing = { $target } needs both centre words of an arc
     .label = one of I, J and K is missing
@@ -791,7 +790,7 @@ NC0501-Spindle-OrientedStopInCycle = an oriented spindle stop while a cycle is a
 NC0501-Spindle-OwnAngle = { $target } has no oriented stop at the control's own angle
     .label = the angle is a parameter of { $source }
     .help = write the angle
-NC0501-Spindle-OptionalStopTurning = the optional stop stops a turning spindle
+NC0501-Spindle-OptionalStopTurning = the optional stop may stop a turning spindle
     .label = M01 of { $target } may stop the spindle
 
 ## Program flow and calls

@@ -203,7 +203,7 @@ fn headline(question: &Question, text: &str) -> String {
             _ => asked("question"),
         },
         (Fact::Centres, ..) => asked("question"),
-        // Which control it is was answered: the unit is the question.
+        // The user has named the control. The unit is still open.
         (Fact::Units | Fact::Control, ..) => Message::new(Fact::Units.code()).form("question"),
     };
     message.headline()

@@ -34,7 +34,7 @@ pub(super) fn is_open(translation: &Translation) -> bool {
         && errors.all(|d| matches!(d.fault, Fault::TargetLacks { .. } | Fault::EntryFactNeeded { .. }))
 }
 
-/// What a user types so that ncc can write the program as straight blocks, if it can.
+/// The options with which ncc can write the program as straight blocks, if there are any.
 ///
 /// # Errors
 /// Reading the source failed.

@@ -231,7 +231,7 @@ pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops
         return Some((said.join(", "), value.span()));
     }
     if field == NUMBER {
-        // One number may stand for several values, each for a choice of an option.
+        // A number may have several rows: one for each choice of an option.
         let when = row.get(WHEN).and_then(|when| when.get_ref().as_str()).unwrap_or_default();
         return Some((format!("{} {when}", value.get_ref().as_integer()?), value.span()));
     }

@@ -271,7 +271,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
     }
 }
 
-/// What the source's control refuses under cutter compensation.
+/// The message for a code or statement that the source's control refuses under cutter compensation.
 fn refused(what: &CompensationRefusal, m: Message) -> Message {
     match what {
         CompensationRefusal::Code { code } => m.text("code", plain(code)),

@@ -36,15 +36,15 @@ enum Home {
 /// A part of the output with words of its own: the name of its folder and of its entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
-    /// What goes with messages of any code.
+    /// Words that accompany a message of any code.
     Common,
     /// Questions, and what their answers make of a program.
     Question,
     /// The account of a translation.
     Summary,
-    /// What `ncc time` took for granted.
+    /// Assumptions of `ncc time`.
     Time,
-    /// What `ncc check` did not check.
+    /// Checks that `ncc check` left out, with the reason.
     Unchecked,
 }
 
@@ -263,7 +263,7 @@ impl Opened<'_> {
             None => entry?.value()?,
             Some(attribute) => match entry?.get_attribute(attribute) {
                 Some(attribute) => attribute.value(),
-                // What no reason needs of its own is in the first entry of the code.
+                // The first entry of the code has the label and help of reasons without their own.
                 None => {
                     let (Home::Code(code), Some(_)) = (self.message.home, &self.message.reason) else {
                         return None;

@@ -1,5 +1,7 @@
 //! Each message once, with values: every entry of `messages/` is found, has its values, and keeps its length.
 
+use std::collections::BTreeSet;
+
 use ncc_dialects::Dialect;
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::canon::Axis;
@@ -349,6 +351,8 @@ fn every_reason_has_its_words() {
     }));
     let mut long = Vec::new();
     for reason in &all {
+        // Each reason within a reason has words of its own, not those of the default.
+        let mut headlines = BTreeSet::new();
         for what in reason.values_of_nested() {
             let at = dialect("fanuc");
             let mut message = Message::new(reason.code)
@@ -359,6 +363,7 @@ fn every_reason_has_its_words() {
             if what.is_some_and(|what| what.contains("Function") || what == "BeforeLeadOut") {
                 message = message.text("function", "G4");
             }
+            assert!(headlines.insert(message.headline()), "{reason:?}: {what:?} has the words of another");
             for (words, most) in [(message.headline(), HEADLINE), (message.label(), LABEL)] {
                 assert!(
                     !words.is_empty() && !words.contains('\n') && !words.contains("  "),

@@ -1,4 +1,4 @@
-//! What to type where the target cannot do something: the help of its reason, and an option that answers it.
+//! Helps of NC0501: the help of the reason, and an option that answers it.
 
 use ncc_dialects::{
     BLOCK_SKIP, BLOCK_WITHOUT_WAY, Dialect, FURTHER_POINT, LEFT_OUT, LOOKED_OVER, MACHINE_LENGTH,

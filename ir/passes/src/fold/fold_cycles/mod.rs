@@ -11,7 +11,7 @@
 //!
 //! ncc folds only what the target has, and only if the machine does the same: it executes the moves
 //! and the cycle side by side. Not folded: moves to the position and down in one block, two moves
-//! where the cycle makes one, pecks without one rule (so that no part of such a hole
+//! where the cycle makes one, pecks that follow no single rule (so that no part of such a hole
 //! becomes a cycle), blocks with block skip, unknown positions, and any statement between
 //! the holes that is no comment, feed, or active mode: it ends the run. Comments and the block numbers
 //! of the holes are kept.
