@@ -4,7 +4,7 @@
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
 use crate::behaviour::{Behaviour, Kept};
-use crate::canon::Axis;
+use crate::canon::{Axis, Turn};
 use crate::compensated::kind::{CompensationRefusal, Kind};
 use crate::expr::num::Num;
 use crate::expr::value::Wrong;
@@ -323,6 +323,8 @@ faults! {
     NoArc = 229, Error;
     /// A move in step with a spindle that has no speed.
     NoSpeed = 230, Error;
+    /// A cycle whose control refuses it unless the spindle turns, for a tap to one side.
+    SpindleForCycle { turn: Option<Turn>, by_target: bool } = 242, Error;
     /// An expression that is worth nothing.
     NoValue { why: NoValue } = 231, Error;
     /// A variable is read that the program has not set.

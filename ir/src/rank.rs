@@ -185,6 +185,7 @@ impl Fault {
             | Fault::NoToolSelected
             | Fault::NoFeed
             | Fault::NoSpeed
+            | Fault::SpindleForCycle { .. }
             | Fault::NoValue { .. }
             | Fault::VariableUnset { .. }
             | Fault::BeginsOtherwise { .. }

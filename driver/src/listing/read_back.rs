@@ -94,6 +94,7 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     world.backs_off = BACKS_OFF;
     world.length_by_change = true;
     world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    world.cycles_need_spindle = job.from.dialect.can.cycles_need_spindle;
     world.compensation_again = job.from.dialect.caps.compensation.again;
     world.arcs = job.from.arc_rule();
     world.behaviours = job.source_behaviours();

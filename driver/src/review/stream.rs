@@ -160,6 +160,7 @@ pub fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
         world.behaviours = job.from.behaviours();
         world.increments = job.from.fine_increments();
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+        world.cycles_need_spindle = job.from.dialect.can.cycles_need_spindle;
         world.compensation_again = job.from.dialect.caps.compensation.again;
         world.arcs = job.from.arc_rule();
         world.refused_compensated = job.from.dialect.caps.compensation.refused;

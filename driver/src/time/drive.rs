@@ -569,6 +569,7 @@ fn world(plan: &Plan) -> World {
         increments: job.from.fine_increments(),
         optional_stop: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
+        cycles_need_spindle: job.from.dialect.can.cycles_need_spindle,
         compensation_again: job.from.dialect.caps.compensation.again,
         looks_over_blocks: job.looks_over_blocks(),
         arcs: job.from.arc_rule(),

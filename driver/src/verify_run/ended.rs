@@ -46,5 +46,10 @@ pub(super) fn tells(ended: &Result<(), Ended>, run: &Run) -> bool {
 
 /// Whether a difference is told of the source: it leaves open what the target's control does.
 pub(super) fn by_target(fault: &Fault) -> bool {
-    matches!(fault, Fault::DoneByTarget { .. } | Fault::ModeNotSet { .. })
+    matches!(
+        fault,
+        Fault::DoneByTarget { .. }
+            | Fault::ModeNotSet { .. }
+            | Fault::SpindleForCycle { by_target: true, .. }
+    )
 }

@@ -125,14 +125,15 @@ fn reader_of_text(to: Settings) -> Reader {
     reader
 }
 
-/// The output cannot be executed further. Blocks of a compensated contour that move nowhere in the digits of the target
-/// are refused at the block of the source of which the next event is; anything else is a fault of the translation.
+/// The output cannot be executed further. Blocks of a compensated contour that move nowhere in the digits of the target,
+/// and cycles that its control refuses, are refused at the block of the source of which the next event is; anything else is a fault of the translation.
 pub fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
     let at = next.map_or(last, |event| event.span);
     match &fault.fault {
         Fault::TargetLacks {
             lack: Lack::Compensation(CompensationLack::WithoutMotion | CompensationLack::TwoWithoutMotion),
         } => Stop::Source(Diagnostic::new(fault.fault.clone(), at)),
+        Fault::SpindleForCycle { .. } => unreadable(fault, at),
         _ => unreadable(fault, last),
     }
 }

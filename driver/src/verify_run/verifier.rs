@@ -189,8 +189,12 @@ pub struct Verifier {
     pub(super) notes: Vec<Diagnostic>,
 }
 
-/// The output cannot be read back.
+/// The output cannot be read back. What the target's control alone refuses depends on what the program computes, and no
+/// other words would do.
 pub(super) fn unreadable(d: &Diagnostic, at: Span) -> Stop {
+    if let Fault::SpindleForCycle { turn, .. } = d.fault {
+        return Stop::Source(Diagnostic::new(Fault::SpindleForCycle { turn, by_target: true }, at));
+    }
     Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
 }
 

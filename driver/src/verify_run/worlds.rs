@@ -20,6 +20,7 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let mut source = World::generate(seed, &from).with_external();
     source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    source.cycles_need_spindle = job.from.dialect.can.cycles_need_spindle;
     source.compensation_again = job.from.dialect.caps.compensation.again;
     source.looks_over_blocks = job.looks_over_blocks();
     source.arcs = job.from.arc_rule();
@@ -31,6 +32,7 @@ pub fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     target.increments = job.to.fine_increments();
     target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
+    target.cycles_need_spindle = job.to.dialect.can.cycles_need_spindle;
     // Between two controls ncc refuses it. Other output is read by the source's rule.
     target.compensation_again = source.compensation_again;
     target.arcs = job.to.arc_rule();

@@ -369,6 +369,9 @@ pub struct Can {
     pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already: the next cut needs a new one.
     pub feed_ends_with_mode: bool,
+    /// A boring cycle that stops the spindle is an error of the control unless the spindle turns, and a tapping cycle unless
+    /// it turns as the tap goes in.
+    pub cycles_need_spindle: bool,
     /// G41 or G42 of the active side may be programmed again without G40: the contour before it ends at a right angle to
     /// its last move, and the block goes on from there in the control's own way. Of other controls it is an error.
     pub compensation_again: bool,

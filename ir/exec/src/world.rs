@@ -43,6 +43,9 @@ pub struct World {
     pub zeroed_by_tool: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Whether a boring cycle that stops the spindle is an error of the control unless the spindle turns, and a tapping
+    /// cycle unless it turns as the tap goes in.
+    pub cycles_need_spindle: bool,
     /// Cutter radius compensation of the active side may be switched on again: the next move in the plane goes onto the
     /// contour anew.
     pub compensation_again: bool,
@@ -195,6 +198,7 @@ impl World {
             length_by_change: false,
             zeroed_by_tool: false,
             feed_ends_with_mode: false,
+            cycles_need_spindle: false,
             compensation_again: false,
             looks_over_blocks: false,
             arcs: ArcRule::default(),

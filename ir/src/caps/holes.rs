@@ -50,6 +50,8 @@ pub struct HoleCaps {
     pub end_motion: bool,
     /// Whether a subprogram cannot leave a cycle in force to its caller.
     pub end_with_call: bool,
+    /// Whether a boring cycle that stops the spindle is an error of the control unless the spindle turns.
+    pub bore_needs_spindle: bool,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<Approach>,
 }

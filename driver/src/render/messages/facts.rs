@@ -6,7 +6,7 @@
 
 use ncc_dialects::Meaning;
 use ncc_ir::behaviour::{Behaviour, Concern};
-use ncc_ir::canon::{PathMode, Units};
+use ncc_ir::canon::{PathMode, Turn, Units};
 use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName, NoValue};
 use ncc_ir::expr::value::Wrong;
@@ -72,6 +72,15 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         | Fault::MessageAsComment
         | Fault::ArcVanishes
         | Fault::NotTheSame { .. } => m,
+
+        Fault::SpindleForCycle { turn, by_target } => {
+            let m = m.text("control", control(!by_target));
+            m.form(match turn {
+                None => "bore",
+                Some(Turn::Clockwise) => "right",
+                Some(Turn::Counterclockwise) => "left",
+            })
+        }
 
         Fault::UnexpectedCharacter { found } => m.text("found", character(*found)),
         Fault::BadNumber { text } => m.text("text", shown(text)),

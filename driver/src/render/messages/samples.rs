@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use ncc_dialects::Dialect;
 use ncc_ir::behaviour::{Behaviour, Kept};
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
 use ncc_ir::diag::{ArgumentCheck, Fault, FileNeeds, ModeName};
 use ncc_ir::expr::num::{Num, Unit};
@@ -108,6 +108,9 @@ fn text_and_meaning() -> Vec<Fault> {
         LabelUnknown { name: "N10".into() },
         NoArc,
         NoSpeed,
+        SpindleForCycle { turn: None, by_target: true },
+        SpindleForCycle { turn: Some(Turn::Clockwise), by_target: false },
+        SpindleForCycle { turn: Some(Turn::Counterclockwise), by_target: false },
         NoValue { why: ncc_ir::diag::NoValue::Index },
         VariableUnset { name: "101".into() },
         Computes { what: RunTimeFlow::Jump.into() },

@@ -99,6 +99,7 @@ pub(super) fn holes(dialect: &Dialect) -> HoleCaps {
             CircleStart::only(calls(CallKind::Circle).is_some())
         },
         centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
+        bore_needs_spindle: dialect.can.cycles_need_spindle,
         grid_upto: match calls(CallKind::Grid) {
             _ if everything => u32::MAX,
             Some(_) => u32::MAX,

@@ -332,6 +332,20 @@ impl Exec {
         self.make_hole(cycle, next, first == self.along || second == self.along, span, out)
     }
 
+    /// The spindle turns as the control asks it for this cycle.
+    fn spindle_turns_for(&self, cycle: &ActiveCycle, span: Span) -> Result<(), Diagnostic> {
+        if !self.world.cycles_need_spindle {
+            return Ok(());
+        }
+        let turned = self.state.spindle;
+        let (turn, turns) = match cycle.way {
+            Way::Stop { turn: None, .. } => (None, turned != Spindle::Stopped),
+            Way::Tap { turn, .. } => (Some(turn), turned == turn.spindle()),
+            _ => return Ok(()),
+        };
+        if turns { Ok(()) } else { self.fault(Fault::SpindleForCycle { turn, by_target: false }, span) }
+    }
+
     /// One hole; `next` says where, the drilling axis of it is not used. `z` says whether Z is
     /// commanded in the plane, which takes a waiting length up.
     fn make_hole(
@@ -345,6 +359,7 @@ impl Exec {
         let normal = cycle.plane.axes().2 as usize;
         self.heading = crate::Heading::None;
         let turned = self.state.spindle;
+        self.spindle_turns_for(cycle, span)?;
         if matches!(cycle.way, Way::Tap { chuck: false, .. }) {
             self.turn_spindle(Spindle::Stopped, span, out)?;
         }

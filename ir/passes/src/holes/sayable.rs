@@ -3,7 +3,7 @@
 use crate::support::walk::Walk;
 use crate::support::write::{as_absolute, at, is_absolute};
 use crate::target::Target;
-use ncc_ir::canon::{Axis, ReturnLevel};
+use ncc_ir::canon::{Axis, ReturnLevel, Spindle};
 use ncc_ir::caps::{Caps, CycleCap, CycleForm, Lift};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
@@ -56,7 +56,10 @@ pub(crate) fn sayable(
             )
         }
         CycleKind::FineBore(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
-        CycleKind::BoreStop(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
+        CycleKind::BoreStop(bore) => {
+            let refused = caps.holes.bore_needs_spindle && walk.at.spindle == Some(Spindle::Stopped);
+            (bore.dwell.is_some(), driven(caps, cycle) && !refused)
+        }
     };
     if !details || !caps.holes.returns.says(cycle.return_plane.is_some()) {
         return false;

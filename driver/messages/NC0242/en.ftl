@@ -1,0 +1,9 @@
+NC0242-bore = a boring cycle with the spindle stopped
+    .label = { $control } stops here with an error
+    .help = write `M3` with a speed before this block
+NC0242-right = a tapping cycle without `M3`
+    .label = { $control } stops here with an error
+    .help = write `M3` with a speed before this block
+NC0242-left = a left-hand tapping cycle without `M4`
+    .label = { $control } stops here with an error
+    .help = write `M4` with a speed before this block
