@@ -88,7 +88,9 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedWorkOffset { offset } => {
             format!("the only work offset = {}", spelled::work_offset(*offset, dialects))
         }
-        Fault::AssumedRow { code, meaning } => format!("{code} = {meaning}"),
+        Fault::AssumedRow { code, meaning } => {
+            format!("{code} = {}", spelled::row_meaning(code, meaning, dialects))
+        }
         Fault::AssumedOption { option, value } => format!("{option} = {value}"),
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
         // The head has a line of its own about them.

@@ -1,6 +1,6 @@
 //! Pieces of messages that are spelled from values: characters, what was found, radii, modes, the path of a return.
 
-use ncc_dialects::{Dialect, Meaning};
+use ncc_dialects::{CycleRow, Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::diag::ModeName;
 
@@ -49,6 +49,19 @@ pub fn return_path(words: &str, zero: bool, counted: Counted) -> String {
         Counted::FromHere if zero => path("path-from-here"),
         Counted::FromHere => path("path-by-words"),
     }
+}
+
+/// What an unconfirmed row means, in words of the trade; of a row in a user's dictionary that has none, its own text.
+pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) -> String {
+    let kind = dialects.into_iter().filter(|_| meaning == "START_CYCLE").find_map(|dialect| {
+        let unsure = |row: &&CycleRow| row.code == code && !row.sure;
+        let of_code = dialect.cycle.iter().find(unsure).map(|row| row.kind.as_str());
+        let of_name = || dialect.call.iter().find(|row| row.name == code)?.kind.cycles().first().copied();
+        of_code.or_else(of_name)
+    });
+    let row = kind.map_or_else(|| meaning.replace(' ', "-"), |kind| format!("{meaning}-{kind}"));
+    let words = Message::meaning(row).headline();
+    if words.is_empty() { plain(meaning) } else { words }
 }
 
 /// What begins otherwise in the next run, where an open fact of the program's end decides it.
@@ -100,4 +113,35 @@ pub fn mode(fact: ModeName) -> &'static str {
 pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
     let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
     row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use ncc_dialects::builtins;
+
+    use super::row_meaning;
+
+    #[test]
+    fn every_unconfirmed_row_has_words_of_the_trade() {
+        let mut used = BTreeSet::new();
+        for dialect in builtins() {
+            let codes = dialect.code.iter().filter(|row| !row.sure);
+            let rows = codes.filter_map(|row| Some((row.code.as_str(), row.means?.to_string())));
+            let cycles = dialect.cycle.iter().filter(|row| !row.sure);
+            let rows = rows.chain(cycles.map(|row| (row.code.as_str(), "START_CYCLE".to_owned())));
+            let calls = dialect.call.iter().filter(|row| !row.sure);
+            let rows = rows.chain(calls.map(|row| {
+                let cycle = !row.kind.cycles().is_empty();
+                (row.name.as_str(), if cycle { "START_CYCLE" } else { "PATTERN" }.to_owned())
+            }));
+            for (code, meaning) in rows {
+                let words = row_meaning(code, &meaning, [dialect, dialect]);
+                assert!(!words.contains(char::is_uppercase) || words == "G92 shift", "{code}: {words}");
+                used.insert(words);
+            }
+        }
+        assert!(used.contains("boring with a spindle stop"), "{used:?}");
+    }
 }

@@ -17,7 +17,7 @@ use super::context::Context;
 use super::file_needs;
 use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
-use crate::render::spelled::{character, found_words, kept, mode, work_offset};
+use crate::render::spelled::{character, found_words, kept, mode, row_meaning, work_offset};
 use crate::render::text::{plain, plain_upto, shown};
 
 /// So much is shown of the words of a block in a headline, in characters.
@@ -153,7 +153,9 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::AssumedNoEffect { code } | Fault::CodeLeftOut { code } => m.text("code", shown(code)),
         Fault::AssumedBareNumber { word, value } => m.text("word", shown(word)).text("value", plain(value)),
         Fault::AssumedWorkOffset { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
-        Fault::AssumedRow { code, meaning } => m.text("code", shown(code)).text("meaning", plain(meaning)),
+        Fault::AssumedRow { code, meaning } => {
+            m.text("code", shown(code)).text("meaning", row_meaning(code, meaning, [at.from, at.to]))
+        }
         Fault::AssumedOption { option, value } => m.text("option", shown(option)).text("value", shown(value)),
         Fault::AssumedParameter { parameter, value } => {
             m.text("parameter", plain(parameter)).text("value", plain(value))

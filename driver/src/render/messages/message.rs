@@ -38,6 +38,8 @@ enum Home {
 pub(crate) enum Part {
     /// Words that accompany a message of any code.
     Common,
+    /// What rows of a dictionary mean, where no manual confirms them.
+    Meaning,
     /// Questions, and what their answers make of a program.
     Question,
     /// The account of a translation.
@@ -52,6 +54,7 @@ impl Part {
     fn name(self) -> &'static str {
         match self {
             Part::Common => "common",
+            Part::Meaning => "meaning",
             Part::Question => "question",
             Part::Summary => "summary",
             Part::Time => "time",
@@ -62,6 +65,7 @@ impl Part {
     fn words(self) -> &'static str {
         match self {
             Part::Common => include_str!("../../../messages/common/en.ftl"),
+            Part::Meaning => include_str!("../../../messages/meaning/en.ftl"),
             Part::Question => include_str!("../../../messages/question/en.ftl"),
             Part::Summary => include_str!("../../../messages/summary/en.ftl"),
             Part::Time => include_str!("../../../messages/time/en.ftl"),
@@ -128,6 +132,11 @@ impl Message {
         Message { home: Home::Part(part), form, reason: None, values: Vec::new(), typed: Vec::new() }
     }
 
+    /// What a row of a dictionary means, by its meaning with hyphens for blanks: `START_CYCLE-drill`.
+    pub(crate) fn meaning(row: String) -> Message {
+        Message { reason: Some(row), ..Message::part(Part::Meaning, "") }
+    }
+
     /// Words that go with messages of any code.
     pub(crate) fn common(form: &'static str) -> Message {
         Message::part(Part::Common, form)
@@ -173,7 +182,8 @@ impl Message {
     /// The name of its entry: `NC0225-units`.
     pub(crate) fn entry(&self) -> String {
         match (self.home, &self.reason, self.form) {
-            (Home::Part(part), _, form) => format!("{}-{form}", part.name()),
+            (Home::Part(part), Some(reason), _) => format!("{}-{reason}", part.name()),
+            (Home::Part(part), None, form) => format!("{}-{form}", part.name()),
             (Home::Code(code), Some(reason), _) => format!("NC{code:04}-{reason}"),
             (Home::Code(code), None, "") => format!("NC{code:04}"),
             (Home::Code(code), None, form) => format!("NC{code:04}-{form}"),
@@ -258,7 +268,9 @@ impl Opened<'_> {
     fn words(&self, attribute: Option<&str>, own: &[(&'static str, Value)]) -> Option<String> {
         let id = self.message.entry();
         let entry = self.bundle.get_message(&id);
-        debug_assert!(entry.is_some(), "messages/ has no {id}");
+        // A user's dictionary may have rows of which no words are known.
+        let optional = matches!(self.message.home, Home::Part(Part::Meaning));
+        debug_assert!(optional || entry.is_some(), "messages/ has no {id}");
         let pattern = match attribute {
             None => entry?.value()?,
             Some(attribute) => match entry?.get_attribute(attribute) {
