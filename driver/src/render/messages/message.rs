@@ -38,6 +38,8 @@ enum Home {
 pub(crate) enum Part {
     /// Words that accompany a message of any code.
     Common,
+    /// Faults of dictionaries, and what their test says.
+    Dictionary,
     /// Questions, and what their answers make of a program.
     Question,
     /// The account of a translation.
@@ -52,6 +54,7 @@ impl Part {
     fn name(self) -> &'static str {
         match self {
             Part::Common => "common",
+            Part::Dictionary => "dictionary",
             Part::Question => "question",
             Part::Summary => "summary",
             Part::Time => "time",
@@ -62,6 +65,7 @@ impl Part {
     fn words(self) -> &'static str {
         match self {
             Part::Common => include_str!("../../../messages/common/en.ftl"),
+            Part::Dictionary => include_str!("../../../messages/dictionary/en.ftl"),
             Part::Question => include_str!("../../../messages/question/en.ftl"),
             Part::Summary => include_str!("../../../messages/summary/en.ftl"),
             Part::Time => include_str!("../../../messages/time/en.ftl"),
