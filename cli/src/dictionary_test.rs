@@ -9,16 +9,11 @@ use ncc_driver::problem::{Exit, Problem};
 use crate::files;
 use crate::known::Known;
 
-/// Tests dictionaries, those of files and those that are known by name, and prints the tables.
+/// Tests dictionaries, those of files and those that are known by name, and prints the failures and counts, with `all` every row.
 ///
 /// # Errors
 /// A file cannot be read or is no dictionary, there is no dialect of a name, or printing.
-pub fn run(
-    mut known: Known,
-    what: &[PathBuf],
-    quiet: bool,
-    err: &mut dyn WriteColor,
-) -> Result<Exit, Problem> {
+pub fn run(mut known: Known, what: &[PathBuf], all: bool, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let named = |path: &PathBuf| path.to_str().and_then(|id| known.get(id));
     let unknown: Vec<PathBuf> = what.iter().filter(|path| named(path).is_none()).cloned().collect();
     let ids: Vec<String> = what.iter().filter_map(|path| Some(named(path)?.id.clone())).collect();
@@ -45,7 +40,7 @@ pub fn run(
         if !text.is_empty() {
             text.push('\n');
         }
-        text.push_str(&table(dialect, &rows, !quiet));
+        text.push_str(&table(dialect, &rows, all));
     }
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
     Ok(if failed { Exit::Refused } else { Exit::Done })

@@ -17,6 +17,7 @@ use ncc_dialects::{
     builtins, load,
 };
 use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::render::dictionary::{BaseRow, Words, words};
 use ncc_driver::review::verify::hashes::Named;
 use ncc_ir::canon::Units;
 use ncc_ir::expr::num::Num;
@@ -337,9 +338,9 @@ fn close(a: &str, b: &str) -> bool {
 /// else in the problem's own words.
 fn told(error: &DialectError, names: &[String], texts: &[&str], out: Option<&mut dyn WriteColor>) -> Problem {
     let silent = Problem { exit: Exit::Usage, message: String::new(), help: Vec::new() };
-    let help = help(&error.fault);
+    let words = worded(error, names, texts);
     if let (Some(out), Some(place)) = (out, &error.place)
-        && boxed(error, place, &help, names, texts, out).is_ok()
+        && boxed(error, place, &words, names, texts, out).is_ok()
     {
         return silent;
     }
@@ -352,7 +353,8 @@ fn told(error: &DialectError, names: &[String], texts: &[&str], out: Option<&mut
     });
     let inherited = error.inherited_by.as_ref().map(|place| file(place.text, names, texts).0);
     let inherited = inherited.map(|name| format!(" (the base of {name})")).unwrap_or_default();
-    Problem { message: format!("{}{error}{inherited}", at.unwrap_or_default()), help, ..silent }
+    let message = format!("{}{}{inherited}", at.unwrap_or_default(), words.headline);
+    Problem { message, help: words.helps, ..silent }
 }
 
 fn file<'t>(which: Text, names: &[String], texts: &[&'t str]) -> (String, &'t str) {
@@ -367,7 +369,7 @@ fn file<'t>(which: Text, names: &[String], texts: &[&'t str]) -> (String, &'t st
 fn boxed(
     error: &DialectError,
     place: &Place,
-    help: &[String],
+    words: &Words,
     names: &[String],
     texts: &[&str],
     out: &mut dyn WriteColor,
@@ -385,33 +387,24 @@ fn boxed(
         .chain(error.inherited_by.iter().map(|place| label(place, false)))
         .collect();
     let diagnostic = Diagnostic::error()
-        .with_message(error.to_string())
+        .with_message(&words.headline)
         .with_labels(labels)
-        .with_notes(help.iter().map(|line| format!("help: {line}")).collect());
+        .with_notes(words.helps.iter().map(|line| format!("help: {line}")).collect());
     term::emit_to_write_style(out, &Config::default(), &files, &diagnostic).map_err(io::Error::other)
 }
 
-/// What to do.
-fn help(fault: &DialectFault) -> Vec<String> {
-    let line = match fault {
-        DialectFault::Form(_) => "`ncc dialects schema` lists the tables and their fields",
-        DialectFault::Missing { .. } | DialectFault::BadId { .. } => {
-            "give it a name of its own: `id = \"shop\"`; a command's name cannot be one"
-        }
-        DialectFault::BuiltInId { .. } => "give it a name of its own, and build on the other: `base = \"…\"`",
-        DialectFault::IdTwice { .. } => "leave one of the files out, or rename it",
-        DialectFault::NoBase { .. } => {
-            "`ncc dialects` lists the built-in ones; name a shop's file by a further --dialect"
-        }
-        DialectFault::BaseCycle { .. } => "the last base of all is one that builds on none",
-        DialectFault::OtherFamily => "leave `family` out",
-        DialectFault::NoKey { .. } | DialectFault::RowTwice { .. } => {
-            "rows of a table are told apart by this field; each stands once in a file"
-        }
-        DialectFault::NothingThere { .. } => "`ncc dialects show` lists the rows of the base",
-        DialectFault::Row { .. } => "`ncc dialects schema` says what a row needs",
-    };
-    vec![line.to_owned()]
+/// The words about a fault. In a row of the base, they name that row.
+fn worded(error: &DialectError, names: &[String], texts: &[&str]) -> Words {
+    let place = error.place.as_ref().filter(|_| error.inherited_by.is_some());
+    let base_row = place.and_then(|place| {
+        let (_, text) = file(place.text, names, texts);
+        let (before, at) = (text.get(..place.span.start)?, text.get(place.span.clone())?);
+        let table = before.get(before.rfind("[[")? + 2..)?.split("]]").next()?;
+        let line = before.rsplit('\n').next()?;
+        Some((table.to_owned(), format!("{line}{at}")))
+    });
+    let base_row = base_row.as_ref().map(|(table, key)| BaseRow { table, key });
+    words(&error.fault, base_row)
 }
 
 #[cfg(test)]

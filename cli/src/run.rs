@@ -87,8 +87,8 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
             }
             Some(DialectsWhat::New { id, base }) => new_dialect(id, base, &known),
             Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
-            Some(DialectsWhat::Test { what, quiet }) => {
-                return ended(dictionary_test::run(known, what, *quiet, &mut err), &mut err);
+            Some(DialectsWhat::Test { what, verbose, .. }) => {
+                return ended(dictionary_test::run(known, what, *verbose, &mut err), &mut err);
             }
         },
         Verb::Machines(args) => return ended(machines::run(args, &known, &mut err), &mut err),

@@ -75,7 +75,8 @@ fn faulty_dictionaries_are_found_out() {
             }
             Err(problem) => {
                 let place = path.display().to_string();
-                format!("{}\n", problem.message.replace(&place, &format!("{stem}.toml")))
+                let message = problem.message.replace(&place, &format!("{stem}.toml"));
+                format!("{message}\n  help: {}\n", problem.help.join("\n  help: "))
             }
         };
         failures.check(&stem, expect::file(&path.with_extension("expected"), text.as_bytes()));

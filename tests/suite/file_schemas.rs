@@ -409,7 +409,7 @@ fn keys_are_those_that_the_reader_names() {
         ("call", "name = \"FOO\""),
         ("option", "name = \"arc_tolerance\""),
         ("behaviour", "name = \"spindle-at-stop\""),
-        ("data", "name = \"foo\""),
+        ("data", "name = \"G10 L2\""),
         ("system", "number = 5021"),
     ];
     let head = |table: &str| if table.is_empty() { String::new() } else { format!("[{table}]\n") };

@@ -348,8 +348,11 @@ pub enum DialectsWhat {
         /// Names of dialects, or files of dictionaries
         #[arg(value_name = "FILE|ID", required = true)]
         what: Vec<PathBuf>,
-        /// Say failures and the summary only
+        /// List every row, also those that pass
         #[arg(short, long)]
+        verbose: bool,
+        /// List failures and the counts only, as without it
+        #[arg(short, long, conflicts_with = "verbose")]
         quiet: bool,
     },
     /// Print a commented dictionary to begin with, which builds on another dialect

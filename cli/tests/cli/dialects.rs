@@ -90,8 +90,10 @@ fn a_fault_of_the_base_is_shown_in_the_base() {
 fn dictionaries_are_tested() {
     let folder = shop();
     let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
-    let done = run("dialects test shop.toml").exits(0).out;
+    let done = run("dialects test shop.toml -v").exits(0).out;
     assert!(done.contains("ok      code      M24") && done.contains(", 0 failed"), "{done}");
+    let done = run("dialects test shop.toml").exits(0).out;
+    assert!(!done.contains("ok      code") && done.contains("\n301 rows tested ("), "{done}");
     let both = run("dialects test -q haas shop.toml").exits(0).out;
     let heads: Vec<&str> = both.lines().filter(|l| l.contains(": ") && !l.starts_with("builds")).collect();
     assert!(heads[0].starts_with("haas: ") && both.contains("\nshop: Our Fanuc\n"), "{both}");
@@ -100,7 +102,7 @@ fn dictionaries_are_tested() {
     let failed = run("dialects test -q shop.toml").exits(1).out;
     assert!(failed.contains("failed  number    length 100 mm"), "{failed}");
     std::fs::write(folder.path().join("shop.toml"), SHOP.replace("FLOOD_ON", "FLOD_ON")).unwrap();
-    run("dialects test shop.toml").exits(1);
+    run("dialects test shop.toml").exits(1).says("did you mean `FLOOD_ON`?");
     run("dialects test nothing").exits(2);
     run("dialects test nothing.toml").exits(4);
 }
@@ -201,20 +203,31 @@ fn an_option_says_what_a_tool_change_leaves_of_the_spindle() {
 fn a_new_dialect_is_its_base_until_rows_are_added() {
     let folder = folder();
     let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
-    for base in ["fanuc", "siemens", "mach3"] {
+    for base in ["mach9", "fanuc", "haas", "siemens", "linuxcnc", "grbl", "mach3"] {
         let file = run(&format!("dialects new own-{base} --base {base}")).exits(0).out;
         std::fs::write(folder.path().join("own.toml"), &file).unwrap();
+        let done = run("dialects test own.toml").exits(0).out;
+        assert!(done.contains(" 0 failed"), "{base}: {done}");
         // The options are what they are on the base, also without the mark of a comment.
         let (head, options) = file.split_once("# What a parameter").unwrap();
-        let rows = options.lines().filter_map(|line| line.strip_prefix("# "));
-        let rows: Vec<&str> =
-            rows.filter(|row| row.starts_with(['[', 'n', 'd']) && !row.contains(": ")).collect();
-        std::fs::write(folder.path().join("all.toml"), format!("{head}\n{}\n", rows.join("\n"))).unwrap();
+        let uncommented = |text: &str| {
+            let rows = text.lines().filter_map(|line| line.strip_prefix("# "));
+            let is_row = |row: &&str| row.starts_with('[') || row.contains(" = ") && !row.contains(": ");
+            rows.filter(is_row).collect::<Vec<_>>().join("\n")
+        };
+        let all = format!("{head}\n{}\n", uncommented(options));
+        std::fs::write(folder.path().join("all.toml"), all).unwrap();
         run("dialects --dialect all.toml").exits(0);
         let list = run("dialects --dialect own.toml").exits(0).out;
         assert!(list.contains(&format!("own-{base}")), "{list}");
+        // So are the rows, each by itself, but for what a builder's row adds.
+        let (start, rows) = head.split_once("# A code that").unwrap();
+        let all = format!("{start}\n{}\n", uncommented(rows));
+        std::fs::write(folder.path().join("rows.toml"), &all).unwrap();
+        let done = ncc(folder.path(), &["dialects", "test", "rows.toml"]);
+        let done = done.exits(0).out;
+        assert!(all.contains("remove = true") && done.contains(" 0 failed"), "{base}: {done}");
     }
-    run("dialects test own.toml -q").exits(0);
     run("dialects new fanuc --base haas").exits(2).says("cannot be the name");
     run("dialects new shop --base fanuk").exits(2).says("did you mean fanuc?");
 }

@@ -1,17 +1,19 @@
 //! Cycles and patterns that are called by name with arguments.
 
-use ncc_dialects::{CallKind, CallRow, ParameterRole};
+use ncc_dialects::{CallKind, CallRow, Dialect, ParameterRole};
 
+use super::cycles::approach;
 use super::proof::must_show;
 use super::proof::{Bench, Said, refusal};
 use super::row::Row;
 
 /// The rows of the calls.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
-    for row in &bench.dialect.call {
+    let d = bench.dialect;
+    for row in &d.call {
         let mut call = None;
-        for (what, say) in said(row) {
-            let before = if row.kind.cycles().is_empty() { cycle("drill") } else { String::new() };
+        for (what, say) in said(d, row) {
+            let before = if row.kind.cycles().is_empty() { cycle(d, "drill") } else { String::new() };
             let after = "END_CYCLE()".to_owned();
             let tried = must_show(bench.both_ways(&Said { before, after, ..Said::new(say) }), &row.name);
             let line = tried.written.iter().find(|line| line.contains(&row.name)).cloned();
@@ -24,7 +26,7 @@ pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
             let Some(name) = &parameter.refuse else { continue };
             let value = (7..).find(|v| !parameter.neutral.contains(v)).unwrap_or(7);
             let Some(text) = with_argument(&call, &row.name, at, value) else { continue };
-            let before = if row.kind.cycles().is_empty() { cycle("drill") } else { String::new() };
+            let before = if row.kind.cycles().is_empty() { cycle(d, "drill") } else { String::new() };
             let label = format!("{} {}", row.name, parameter.name);
             let name = format!("{}: {name}", parameter.name);
             rows.push(refusal(bench, "call", &label, &[(text, before.as_str())], &name, row.sure));
@@ -44,8 +46,10 @@ fn with_argument(call: &str, name: &str, at: usize, value: i64) -> Option<String
     Some(format!("{}{}{}", &call[..open], arguments.join(","), &call[close..]))
 }
 
-fn cycle(kind: &str) -> String {
-    format!("START_CYCLE({kind}, XY, retract 3mm, depth -12mm, return entry, return-plane 20mm, plane-first)")
+/// A cycle of the kind, in the text form.
+pub(super) fn cycle(d: &Dialect, kind: &str) -> String {
+    let way = approach(d);
+    format!("START_CYCLE({kind}, XY, retract 3mm, depth -12mm, return entry, return-plane 20mm, {way})")
 }
 
 /// The same, with a reference plane of its own below the retract plane.
@@ -54,9 +58,10 @@ fn above(cycle: &str) -> String {
 }
 
 /// Statements that need the call, and what of it they show.
-fn said(row: &CallRow) -> Vec<(&'static str, String)> {
+fn said(d: &Dialect, row: &CallRow) -> Vec<(&'static str, String)> {
     let has = |role| row.place(role).is_some();
-    let holes = |kind: &str| format!("{}\nHOLE(X 10mm)\nHOLE(X 20mm)", cycle(kind));
+    let holes = |kind: &str| format!("{}\nHOLE(X 10mm)\nHOLE(X 20mm)", cycle(d, kind));
+    let way = approach(d);
     let one = |say: &str| vec![("", say.to_owned())];
     match row.kind {
         CallKind::Drill => vec![("", holes("drill")), ("above", above(&holes("drill")))],
@@ -100,7 +105,8 @@ fn said(row: &CallRow) -> Vec<(&'static str, String)> {
         CallKind::Bore if !has(ParameterRole::FeedIn) => vec![("", holes("bore(dwell 0.5s)"))],
         CallKind::Bore => vec![(
             "",
-            holes("bore(dwell 0.5s, feed-out 140mm)").replace("plane-first)", "plane-first, feed 70mm)"),
+            holes("bore(dwell 0.5s, feed-out 140mm)")
+                .replace(&format!("{way})"), &format!("{way}, feed 70mm)")),
         )],
         CallKind::Line => {
             one("LINE_PATTERN(start (10mm, 30mm), angle 30deg, offset 5mm, pitch 11.5mm, count 4)")

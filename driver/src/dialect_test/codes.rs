@@ -9,6 +9,7 @@ use super::local_call;
 use super::proof::{Bench, Said, Tried, in_place, must_show, refusal};
 use super::row::Row;
 use super::statements::{arc, feed_mode, said};
+use crate::render::dictionary::dictionary;
 
 /// The rows of the codes.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -148,7 +149,7 @@ fn code(bench: &Bench, row: &CodeRow, meaning: Meaning, said: &Said) -> Tried {
             let meant = format!("SET_SPINDLE_MODE(\"turns\") & {speed}");
             must_show(bench.reads(&Said::new(speed), &meant, put), code).read_only()
         }
-        None => Tried::failure("no row is written for this meaning: none has `write`"),
+        None => Tried::failure(dictionary("none-written").text("meaning", meaning.to_string())),
     }
 }
 
@@ -168,7 +169,7 @@ fn overrides(bench: &Bench, row: &CodeRow, said: &Said) -> Tried {
     let own = |kind| bench.dialect.code_for(Meaning::Advise(kind, None)).map(|code| code.code.clone());
     let both = own(AdviceKind::FeedOverride).zip(own(AdviceKind::SpeedOverride));
     let Some((feed, speed)) = both else {
-        return Tried::failure("feed and speed have no words of their own");
+        return Tried::failure(dictionary("no-override-words"));
     };
     let change = |text: String| {
         let one = |line: &str| match line {
@@ -216,6 +217,6 @@ fn dwells(bench: &Bench, row: &CodeRow, rows: &mut Vec<Row>) {
         rows.push(bench.reads(&said, &said.say, put).read_only().row("code", name, row.sure));
     }
     if row.dwell.is_empty() {
-        rows.push(Tried::failure("a dwell needs a word: `dwell`").row("code", row.code.clone(), row.sure));
+        rows.push(Tried::failure(dictionary("no-dwell-word")).row("code", row.code.clone(), row.sure));
     }
 }

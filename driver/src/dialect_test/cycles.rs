@@ -4,6 +4,8 @@ use ncc_dialects::{CycleRow, Dialect, Family, Hand, PatternRow};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::program::cycle::Approach;
 
+use crate::render::dictionary::dictionary;
+
 use super::proof::{Bench, Said, Tried, in_place, must_show};
 use super::row::Row;
 
@@ -45,16 +47,23 @@ pub(super) fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String
         Some(ReturnLevel::Retract) => "retract",
         Some(ReturnLevel::Initial) | None => "initial",
     };
-    let approach = match Approach::from(d.cycles.approach) {
+    format!(
+        "START_CYCLE({}{own}, XY, retract {}mm, depth {}mm, return {level}, {}, feed 120mm)",
+        row.kind,
+        values.retract,
+        values.depth,
+        approach(d)
+    )
+}
+
+/// How the control goes to a hole, in the text form.
+pub(super) fn approach(d: &Dialect) -> &'static str {
+    match Approach::from(d.cycles.approach) {
         Approach::PlaneFirst => "plane-first",
         Approach::RaiseFirst => "raise-first",
         Approach::ClearFirst => "clear-first",
         Approach::RetractFirst => "retract-first",
-    };
-    format!(
-        "START_CYCLE({}{own}, XY, retract {}mm, depth {}mm, return {level}, {approach}, feed 120mm)",
-        row.kind, values.retract, values.depth
-    )
+    }
 }
 
 /// A tapping cycle's call in the text form.
@@ -116,7 +125,7 @@ pub(super) fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
                 let put = |text: String| in_place(&text, &first.code, &row.code).unwrap_or(text);
                 must_show(bench.reads(&said, &said.say, put), &row.code).read_only()
             }
-            None => Tried::failure("no row is written for this cycle: none has `write`"),
+            None => Tried::failure(dictionary("no-cycle-written").text("kind", row.kind.as_str())),
         };
         rows.push(tried.row("cycle", name, sure));
     }
@@ -157,7 +166,7 @@ pub(super) fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
 pub(super) fn pattern(bench: &Bench, row: &PatternRow, rows: &mut Vec<Row>) {
     let d = bench.dialect;
     let Some(cycle) = d.cycle.iter().find(|row| writes(d, row)) else {
-        rows.push(Tried::failure("there is no cycle to make its holes").row("pattern", row.code(), true));
+        rows.push(Tried::failure(dictionary("no-hole-cycle")).row("pattern", row.code(), true));
         return;
     };
     let start = cycle_text(d, cycle, &Values::default());

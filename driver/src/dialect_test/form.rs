@@ -5,6 +5,7 @@ use ncc_ir::program::ProgramName;
 
 use super::proof::{Bench, Said, Tried};
 use super::row::Row;
+use crate::render::dictionary::dictionary;
 
 /// The rows of a dictionary's rules.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -25,11 +26,13 @@ fn comments(bench: &Bench, rows: &mut Vec<Row>) {
         true => texts.extend(rules.signs.chars().map(|c| ("comment sign", format!("A {c} B")))),
         false => texts.push(("comment in any letters", "Bohrung Ø8 + Fase, 45°".to_owned())),
     }
-    if rules.longest > 0 {
-        texts.push((
-            "longest comment",
-            "LONG ".chars().cycle().take(rules.longest - 1).collect::<String>() + "X",
-        ));
+    // A comment needs its marks, and room in the longest block.
+    let block = bench.dialect.block.longest;
+    let marks = rules.open.len() + 2;
+    let room = if block == 0 { rules.longest } else { (block as usize).saturating_sub(marks) };
+    let longest = rules.longest.min(room);
+    if longest > 0 {
+        texts.push(("longest comment", "LONG ".chars().cycle().take(longest - 1).collect::<String>() + "X"));
     }
     for (row, text) in texts {
         let text = text.replace('\\', "\\\\").replace('"', "\\\"");
@@ -86,7 +89,7 @@ fn program_numbers(bench: &Bench, rows: &mut Vec<Row>) {
             true => text,
             false => text.replacen(letter, &sign.to_string(), 1),
         });
-        let failed = (read != name).then(|| "it is read as another".to_owned());
+        let failed = (read != name).then(|| dictionary("other-number").headline());
         let number = read.number.map(|n| n.to_string()).unwrap_or_default();
         let title = read.title.map(|t| format!(" {t:?}")).unwrap_or_default();
         let read = format!("program {number}{title}");

@@ -26,6 +26,7 @@ pub mod words;
 use ncc_dialects::{Dialect, Family};
 
 use self::proof::Bench;
+use crate::render::dictionary::dictionary;
 
 pub use self::row::Row;
 
@@ -70,7 +71,7 @@ fn rows(dialect: &'static Dialect) -> Vec<Row> {
 /// Longest column of the table.
 const WIDE: usize = 56;
 
-/// The table, a summary, and the rows that no source confirms.
+/// The failures, with `all` every row; how many rows were tested and failed; and the rows that no source confirms.
 pub fn table(dialect: &Dialect, rows: &[Row], all: bool) -> String {
     let mut out = format!("{}: {}\n", dialect.id, dialect.title);
     if let Some(base) = &dialect.base {
@@ -114,22 +115,14 @@ pub fn table(dialect: &Dialect, rows: &[Row], all: bool) -> String {
         .collect();
     let unsure: Vec<&str> = rows.iter().filter(|r| !r.sure).map(|r| r.row.as_str()).collect();
     out.push('\n');
-    match rows.is_empty() {
-        true => out.push_str("it has no words of its own: its form is the program's\n"),
-        false => out.push_str(&format!(
-            "{} of {} ok ({}), {} failed\n",
-            rows.len() - failed.len(),
-            rows.len(),
-            counts.join(", "),
-            failed.len()
-        )),
-    }
+    let tested = dictionary("tested").text("tables", counts.join(", "));
+    let tested = tested.count("rows", rows.len() as u64).count("failed", failed.len() as u64);
+    out.push_str(&tested.headline());
+    out.push('\n');
     if !unsure.is_empty() {
-        out.push_str(&format!(
-            "{} not confirmed by any source (`sure = false`, marked ?): {}\n",
-            unsure.len(),
-            unsure.join(", ")
-        ));
+        let message = dictionary("unsure").count("count", unsure.len() as u64);
+        out.push_str(&message.text("rows", unsure.join(", ")).headline());
+        out.push('\n');
     }
     out
 }

@@ -2,10 +2,12 @@
 
 use ncc_dialects::{FrameWord, Meaning, NameMeaning, NameRole, NameRow};
 
+use super::calls::cycle;
 use super::proof::must_show;
 use super::proof::{Bench, Said, Tried, in_place, refusal};
 use super::row::Row;
 use super::statements::{corner, said};
+use crate::render::dictionary::dictionary;
 
 /// The rows of the words of several letters.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -57,7 +59,7 @@ fn meant(bench: &Bench, row: &NameRow, meaning: NameMeaning) -> Tried {
             Said::new("said ARC_TANGENT(XY, X 19mm, Y 12mm, tangent)").after("said STRAIGHT_FEED(X 9mm)")
         }
         NameMeaning::CallModal => {
-            let start = "START_CYCLE(drill, XY, retract 3mm, depth -12mm, return entry, return-plane 20mm, plane-first)";
+            let start = cycle(d, "drill");
             Said {
                 after: "END_CYCLE()".to_owned(),
                 ..Said::new(format!("{start}\nHOLE(X 10mm)\nHOLE(X 20mm)"))
@@ -86,7 +88,7 @@ fn meant(bench: &Bench, row: &NameRow, meaning: NameMeaning) -> Tried {
             let put = |text: String| in_place(&text, other, &row.name).unwrap_or(text);
             must_show(bench.reads(&said, &said.say, put), &row.name).read_only()
         }
-        None => Tried::failure("no row is written for this meaning: none has `write`"),
+        None => Tried::failure(dictionary("none-written").text("meaning", row.name.as_str())),
     }
 }
 

@@ -13,6 +13,8 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
 
 use super::row::Row;
+use crate::render::dictionary::dictionary;
+use crate::render::messages::message::Message;
 use crate::render::messages::words::{Context, words};
 
 /// A statement to be tried, in the text form of the neutral program.
@@ -145,7 +147,7 @@ impl Bench {
         let mut tried =
             Tried { written: between(&lines(&without.text), &lines(&text)), read: Vec::new(), failed: None };
         if let Some(fault) = with.faults.first() {
-            tried.failed = Some(format!("cannot be written: {fault}"));
+            tried.failed = Some(dictionary("cannot-write").text("why", fault).headline());
             return tried;
         }
         let expected = parse(&format!("{meant}\n{after}"));
@@ -163,9 +165,10 @@ impl Bench {
         };
         if let Some(fault) = faults.first() {
             tried.read.clear();
-            tried.failed = Some(format!("cannot be read: {fault}"));
+            tried.failed = Some(dictionary("cannot-read").text("why", fault).headline());
         } else if read[tail..] != expected[..] {
-            tried.failed = Some(format!("meant: {}", expected[..own].join(" ¶ ")));
+            let meant = expected[..own].join(" ¶ ");
+            tried.failed = Some(dictionary("meant").text("meant", meant).headline());
         }
         tried
     }
@@ -192,7 +195,7 @@ impl Bench {
         let found = batch.diagnostics.iter().find(|d| d.span.start >= at && is_error(d));
         Err(match found {
             Some(other) => self.words(&other.fault),
-            None => "it is not refused at all".to_owned(),
+            None => dictionary("not-refused").headline(),
         })
     }
 
@@ -363,8 +366,8 @@ impl Tried {
     }
 
     /// A failure without a text.
-    pub fn failure(why: impl Into<String>) -> Tried {
-        Tried { failed: Some(why.into()), ..Tried::default() }
+    pub(crate) fn failure(why: Message) -> Tried {
+        Tried { failed: Some(why.headline()), ..Tried::default() }
     }
 
     /// Marks what is read only.
@@ -427,7 +430,7 @@ pub fn refusal(
         row: row.to_owned(),
         written: format!("[{text}]"),
         read: why,
-        failed: Some(format!("meant: refused as {name}")),
+        failed: Some(dictionary("meant-refused").text("name", name).headline()),
         sure,
     }
 }
@@ -436,7 +439,7 @@ pub fn refusal(
 pub fn must_show(mut tried: Tried, word: &str) -> Tried {
     let shown = tried.written.iter().any(|line| in_place(line, word, "").is_some());
     if tried.failed.is_none() && !shown {
-        tried.failed = Some(format!("{word} is not written: another word is taken"));
+        tried.failed = Some(dictionary("other-written").text("word", word).headline());
     }
     tried
 }

@@ -5,7 +5,7 @@ use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMod
 use ncc_ir::caps::LengthsOf;
 use ncc_ir::program::PoleFrom;
 
-use super::cycles::{Values, cycle_text, writes};
+use super::cycles::{Values, approach, cycle_text, writes};
 use super::proof::Said;
 
 /// A polar point about program zero.
@@ -240,7 +240,11 @@ pub fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         // The end of the subprogram is compared too.
         Meaning::Return => vec![with_procedure(7, Said::new("CALL(7)"))],
         Meaning::RigidTapping => {
-            let hole = "START_CYCLE(tap-rigid(clockwise, pitch feed, after stopped), XY, retract 3mm, depth -12mm, return initial, plane-first, feed 120mm)\nHOLE(X 10mm)";
+            let tap = "tap-rigid(clockwise, pitch feed, after stopped)";
+            let way = approach(d);
+            let hole = format!(
+                "START_CYCLE({tap}, XY, retract 3mm, depth -12mm, return initial, {way}, feed 120mm)\nHOLE(X 10mm)"
+            );
             vec![Said { after: "END_CYCLE()".to_owned(), ..Said::new(hole) }]
         }
         Meaning::LeftOut | Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),

@@ -6,6 +6,7 @@ use ncc_ir::canon::CornerShape;
 use super::proof::{Bench, Said, Tried, refusal};
 use super::row::Row;
 use super::statements::{arc, corner, with_procedure};
+use crate::render::dictionary::dictionary;
 
 /// The rows of the address letters.
 pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -20,7 +21,7 @@ pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         let sign = if word.negative { "-" } else { "" };
         let text = format!("{comma}{}{sign}", word.letter);
         if tried.failed.is_none() && !tried.written.iter().any(|line| line.contains(&text)) {
-            tried.failed = Some(format!("{text} is not written"));
+            tried.failed = Some(dictionary("not-written").text("word", text.as_str()).headline());
         }
         let row = bench.dialect.address_row(word.letter as u8);
         let sure = word.comma || row.is_none_or(|row| row.sure);
@@ -33,7 +34,7 @@ pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         let mut tried = bench.both_ways(&said);
         let text = format!("{first}10{last}20{times}");
         if tried.failed.is_none() && !tried.written.iter().any(|line| line.replace(' ', "").contains(&text)) {
-            tried.failed = Some(format!("{text} is not written"));
+            tried.failed = Some(dictionary("not-written").text("word", text.as_str()).headline());
         }
         rows.push(tried.row("repeat", format!("{first} {last} {times} REPEAT_BLOCKS"), true));
     }
@@ -42,7 +43,7 @@ pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         for said in said(bench.dialect, row) {
             let mut tried = bench.both_ways(&said);
             if tried.failed.is_none() && !tried.written.iter().any(|line| line.contains(&letter)) {
-                tried.failed = Some(format!("{letter} is not written: another letter is taken"));
+                tried.failed = Some(dictionary("other-written").text("word", letter.as_str()).headline());
             }
             rows.push(tried.row("address", format!("{letter} {}", name(row)), row.sure));
         }
@@ -62,7 +63,7 @@ pub fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         if row.role == Role::Parameter {
             let users = users(bench.dialect, row.letter);
             let failed = (users.is_empty() && row.refuse.is_none() && bench.dialect.family == Family::Word)
-                .then(|| "no code, cycle or pattern uses it".to_owned());
+                .then(|| dictionary("not-used").headline());
             let tried =
                 Tried { written: Vec::new(), read: vec![format!("a word of {}", users.join(", "))], failed };
             if !users.is_empty() || tried.failed.is_some() {

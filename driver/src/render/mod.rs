@@ -9,6 +9,7 @@
 
 mod about;
 pub mod dialects;
+pub mod dictionary;
 pub mod explain;
 pub mod head;
 pub mod human;

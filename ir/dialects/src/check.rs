@@ -2,11 +2,14 @@
 //!
 //! What a row means is not judged here: `ncc dialects test` shows whether it reads back.
 
+mod readable;
+pub(crate) mod unknown;
+
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::codes::{CodeIndex, CodeRow};
-use crate::fault::DialectFault;
+use crate::fault::{DialectFault, Unreadable};
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow, ParameterRole};
 use crate::schema::{Dialect, OptionRow, UNKNOWN};
@@ -150,7 +153,11 @@ fn each_code(row: CodeRow, all: &mut Vec<CodeRow>) -> Result<(), DialectFault> {
         return Ok(());
     };
     let wrong = |wrong| DialectFault::Row { row: row.code.clone(), wrong };
-    let first = row.code.get(1..).and_then(|n| n.parse::<u16>().ok()).ok_or_else(|| wrong("is no code"))?;
+    let first = row
+        .code
+        .get(1..)
+        .and_then(|n| n.parse::<u16>().ok())
+        .ok_or_else(|| DialectFault::Unreadable { row: row.code.clone(), why: Unreadable::Number })?;
     let Some(Meaning::SetOriginOffsets(number)) = row.means else {
         return Err(wrong("stands for several codes, but for no work offsets"));
     };
@@ -166,6 +173,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
     let mut index = CodeIndex::default();
     for (at, row) in dialect.code.iter().enumerate() {
         let wrong = |wrong| fault(&row.code, wrong, &places.code, at);
+        readable::code(dialect, row).map_err(|why| unreadable(&row.code, why, &places.code, at))?;
         index.put_code(at, row).map_err(wrong)?;
         if row.means.is_some() == row.refuse.is_some() {
             return Err(wrong("needs either `means` or `refuse`"));
@@ -198,6 +206,8 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
     tables(dialect, places)?;
     for (at, row) in dialect.address.iter().enumerate() {
         let wrong = |wrong| fault(&row.letter.to_string(), wrong, &places.address, at);
+        let letter = row.letter.to_string();
+        readable::address(dialect, row).map_err(|why| unreadable(&letter, why, &places.address, at))?;
         index.put_letter(at, row).map_err(wrong)?;
         if row.source.is_empty() {
             return Err(wrong("names no source"));
@@ -209,8 +219,13 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             true => row.default.parse::<f64>().is_ok_and(f64::is_finite),
             false => row.values.contains(&row.default),
         };
+        if !fits && row.values.is_empty() {
+            return Err(wrong("has a default that is no number"));
+        }
         if !fits {
-            return Err(wrong("has a default that is none of its values"));
+            let values = row.values.iter().map(|value| format!("`{value}`")).collect::<Vec<_>>().join(", ");
+            let form = format!("unknown variant `{}`, expected one of {values}", row.default);
+            return Err((DialectFault::Form(form), places.option.get(at).cloned()));
         }
     }
     index.find_meanings(&dialect.code, &dialect.name);
@@ -224,7 +239,8 @@ fn cycles(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
     for (at, row) in dialect.cycle.iter().enumerate() {
         let wrong = |wrong| fault(&row.code, wrong, &places.cycle, at);
         if !CYCLE_KINDS.contains(&row.kind.as_str()) {
-            return Err(wrong("has a kind that there is not"));
+            let (row, kind) = (row.code.as_str().into(), row.kind.as_str().into());
+            return Err((DialectFault::NoCycleKind { row, kind }, places.cycle.get(at).cloned()));
         }
         if row.kind.starts_with("tap") != row.hand.is_some() {
             return Err(wrong("needs `hand` if it is tapping, and has none else"));
@@ -245,6 +261,7 @@ fn cycles(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
         if !means(&row.code, Meaning::StartCycle) {
             return Err(wrong("is a cycle, and no row of [[code]] starts it"));
         }
+        readable::cycle(dialect, row).map_err(|why| unreadable(&row.code, why, &places.cycle, at))?;
     }
     for (at, row) in dialect.pattern.iter().enumerate() {
         if !means(row.code(), Meaning::Pattern) {
@@ -255,8 +272,13 @@ fn cycles(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
                 at,
             ));
         }
+        readable::pattern(dialect, row).map_err(|why| unreadable(row.code(), why, &places.pattern, at))?;
     }
     Ok(())
+}
+
+fn unreadable(row: &str, why: Unreadable, places: &[Range<usize>], at: usize) -> Fault {
+    (DialectFault::Unreadable { row: row.to_owned(), why }, places.get(at).cloned())
 }
 
 fn fault(row: &str, wrong: &'static str, places: &[Range<usize>], at: usize) -> Fault {
@@ -303,6 +325,7 @@ fn names(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
     let calls = dialect.call.iter().enumerate().map(|(i, row)| (&row.name, &row.source, &places.call, i));
     for (name, source, places, at) in names.chain(calls) {
         let wrong = |wrong| fault(name, wrong, places, at);
+        readable::name(dialect).map_err(|why| unreadable(name, why, places, at))?;
         if !seen.insert(name) {
             return Err(wrong("stands twice"));
         }

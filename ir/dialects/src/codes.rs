@@ -226,7 +226,7 @@ impl CodeIndex {
 }
 
 /// Letter of a code, and tenths of its number: `G5.1` is 51.
-fn tenths(code: &str) -> Option<(u8, usize)> {
+pub(crate) fn tenths(code: &str) -> Option<(u8, usize)> {
     let letter = *code.as_bytes().first()?;
     let (whole, tenth) = code.get(1..)?.split_once('.').unwrap_or((code.get(1..)?, "0"));
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());

@@ -90,6 +90,27 @@ pub enum DialectFault {
         /// The word.
         word: &'static str,
     },
+    /// A row without the fields of a new row, so that it must be one of the base; and the base has none of that name.
+    NotInBase {
+        /// The row.
+        row: Box<str>,
+        /// Names of the base's rows of this table.
+        among: Box<[String]>,
+    },
+    /// A cycle of a kind that there is not.
+    NoCycleKind {
+        /// The cycle's code.
+        row: Box<str>,
+        /// Its kind.
+        kind: Box<str>,
+    },
+    /// A row that no reader comes to.
+    Unreadable {
+        /// Code, name or letter of the row.
+        row: String,
+        /// Why.
+        why: Unreadable,
+    },
     /// A row that contradicts another, or names what is not there.
     Row {
         /// Code, name or letter of the row.
@@ -97,6 +118,25 @@ pub enum DialectFault {
         /// What is wrong.
         wrong: &'static str,
     },
+}
+
+/// Why no reader comes to a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unreadable {
+    /// A code is G or M with a number.
+    Code,
+    /// Its number has one digit after the point at most, and four before it.
+    Number,
+    /// An address is one of A to Z.
+    Letter,
+    /// The letter is read as the beginning of a code, a block number or a program number.
+    Taken,
+    /// An axis is one of X, Y, Z, A, B and C.
+    Axis,
+    /// A word of a code, cycle or pattern has a letter that no row of `[[address]]` has.
+    Word(char),
+    /// Words of several letters are read in dialects of the family `sinumerik` only.
+    Name,
 }
 
 impl DialectFault {
@@ -127,6 +167,10 @@ impl fmt::Display for DialectFault {
             DialectFault::NothingThere { row, word } => {
                 write!(f, "{row}: `{word}`, and the base has nothing of that name")
             }
+            // Users have words of the messages about these.
+            DialectFault::NotInBase { row, .. } => f.write_str(row),
+            DialectFault::NoCycleKind { row, kind } => write!(f, "{row}: {kind}"),
+            DialectFault::Unreadable { row, why } => write!(f, "{row}: {why:?}"),
             DialectFault::Row { row, wrong } => write!(f, "row {row}: {wrong}"),
         }
     }

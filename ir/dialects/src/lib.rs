@@ -38,10 +38,11 @@ mod variants;
 mod words;
 
 pub use behaviours::{BehaviourRow, Sureness};
+pub use check::unknown::{UnknownKind, UnknownWord, near};
 pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
-pub use fault::{DialectError, DialectFault, Place, Text};
+pub use fault::{DialectError, DialectFault, Place, Text, Unreadable};
 pub use formula::{FormulaRules, FunctionName, Operator, RemainderRule, Statement};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};
@@ -60,5 +61,6 @@ pub use settings::{
     SettingError, Settings, TAP_DWELL, TAPPING, TOOL_CHANGE, WAITING_TOOL,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord, VariableName};
+
 pub use variants::{VariantBlock, VariantCan, VariantRow};
 pub use words::{Address, Bare, NumberRules, PointRule, Quantity, Role};

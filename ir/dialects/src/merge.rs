@@ -7,6 +7,7 @@
 //!   `[[call]]`, `[[option]]`, `[[behaviour]]` and `[[data]]`, `number` or else `name` in `[[system]]`, the options of
 //!   `when` in `[[variant]]`. A row of a key that the base has is merged over the base's row field by field and keeps its
 //!   place; any other is added at the end. Lists inside a row are replaced, but for the rows of a variant.
+//! - A row of another key that lacks what a new row needs is refused: its name is most likely misspelt.
 //! - In `[[code]]` and `[[name]]`, `means`, `role` and `refuse` exclude each other: a row that says one
 //!   of them takes away the base's others.
 //! - `remove = true` in a row or table takes the base's away; `replace = true` puts the row or table in
@@ -50,6 +51,17 @@ pub(crate) fn row_key(table: &str) -> Option<&'static str> {
         "address" => Some("letter"),
         "system" => Some(NUMBER),
         "variant" => Some(WHEN),
+        _ => None,
+    }
+}
+
+/// A field that a new row of a table has: a row without it is one of the base, with another name there.
+fn needed(table: &str) -> Option<&'static str> {
+    match table {
+        "option" => Some("doc"),
+        "behaviour" => Some("sure"),
+        "cycle" | "call" | "data" => Some("kind"),
+        "address" => Some("role"),
         _ => None,
     }
 }
@@ -186,7 +198,13 @@ fn merge_rows<'i>(
             (Some((word, place)), None) => {
                 return Err((DialectFault::NothingThere { row: key, word }, place));
             }
-            (None, None) => rows.push(Some(Spanned::new(at, DeValue::Table(over)))),
+            (None, None) => {
+                if needed(table).is_some_and(|needs| !places.is_empty() && !over.contains_key(needs)) {
+                    let among = places.into_keys().collect();
+                    return Err((DialectFault::NotInBase { row: key.into(), among }, place));
+                }
+                rows.push(Some(Spanned::new(at, DeValue::Table(over))));
+            }
             (Some((REMOVE, _)), Some(found)) => *found = None,
             (Some(_), Some(found)) => *found = Some(Spanned::new(at, DeValue::Table(over))),
             (None, Some(found)) => {

@@ -40,6 +40,8 @@ pub(crate) enum Part {
     Common,
     /// What rows of a dictionary mean, where no manual confirms them.
     Meaning,
+    /// Faults of dictionaries, and what their test says.
+    Dictionary,
     /// Questions, and what their answers make of a program.
     Question,
     /// The account of a translation.
@@ -55,6 +57,7 @@ impl Part {
         match self {
             Part::Common => "common",
             Part::Meaning => "meaning",
+            Part::Dictionary => "dictionary",
             Part::Question => "question",
             Part::Summary => "summary",
             Part::Time => "time",
@@ -66,6 +69,7 @@ impl Part {
         match self {
             Part::Common => include_str!("../../../messages/common/en.ftl"),
             Part::Meaning => include_str!("../../../messages/meaning/en.ftl"),
+            Part::Dictionary => include_str!("../../../messages/dictionary/en.ftl"),
             Part::Question => include_str!("../../../messages/question/en.ftl"),
             Part::Summary => include_str!("../../../messages/summary/en.ftl"),
             Part::Time => include_str!("../../../messages/time/en.ftl"),

@@ -1,0 +1,84 @@
+# Faults of a dictionary, each at its place in the file.
+dictionary-meaning = no meaning: { $name }
+    .help = `ncc dialects schema` lists the meanings
+    .help-one = did you mean `{ $near }`?
+    .help-several = near it are { $near }
+dictionary-field = unknown field `{ $name }`
+    .help = `ncc dialects schema` lists the fields of each table
+    .help-one = did you mean `{ $near }`?
+    .help-several = near it are { $near }
+dictionary-value = unknown value `{ $name }`
+    .help = it is one of { $among }
+    .help-one = did you mean `{ $near }`?
+    .help-several = near it are { $near }
+dictionary-cycle-kind = row { $row }: no kind of cycle: { $name }
+    .help = it is one of { $among }
+    .help-one = did you mean `{ $near }`?
+    .help-several = near it are { $near }
+dictionary-missing-field = missing field `{ $field }`
+    .help = add `{ $field }` to this row; `ncc dialects schema` says what it holds
+    .help-source = add `source = "…"`: the manual and its page, or who says so
+dictionary-not-in-base = { $row }: the base has no such row, and a new one needs more fields
+    .help = `ncc dialects show` lists the rows of the base
+    .help-one = did you mean `{ $near }`?
+    .help-several = near it are { $near }
+dictionary-code = row { $row }: never read: not a G or M code
+    .help = write G or M and a number: `M52`
+dictionary-number = row { $row }: never read: no code has such a number
+    .help = write at most four digits, and one after the point: `G54.1`
+dictionary-letter = row { $row }: never read: not a letter
+    .help = an address is one letter from A to Z
+dictionary-taken = row { $row }: never read: `{ $row }` begins a code or a block number
+    .help = choose another letter
+    .help-base = this file gives the letter to something else; remove it too: `[[{ $table }]]`, `{ $key }`, `remove = true`
+dictionary-axis = row { $row }: never read: ncc has no axis { $row }
+    .help = the axes are X, Y, Z, A, B and C; for any other: `refuse = "axis { $row }"`, `role = "parameter"`
+dictionary-word = row { $row }: never read: no address has the letter `{ $letter }`
+    .help = use a letter of [[address]], or add a row for it there
+    .help-base = this file takes away what it needs; remove it too: `[[{ $table }]]`, `{ $key }`, `remove = true`
+dictionary-name = row { $row }: never read: this control has no words of several letters
+    .help = only dialects on siemens read [[name]] and [[call]]; a code is a row of [[code]]
+dictionary-form = { $fault }
+    .help = `ncc dialects schema` lists the tables and their fields
+dictionary-own-name = { $fault }
+    .help = give it a name of its own: `id = "shop"`; a command's name cannot be one
+dictionary-built-in = { $fault }
+    .help = give it a name of its own, and build on the other: `base = "…"`
+dictionary-name-twice = { $fault }
+    .help = leave one of the files out, or rename it
+dictionary-no-base = { $fault }
+    .help = `ncc dialects` lists the built-in ones; name a shop's file by a further --dialect
+    .help-one = did you mean `{ $near }`?
+dictionary-base-cycle = { $fault }
+    .help = the last base of all is one that builds on none
+dictionary-other-family = { $fault }
+    .help = leave `family` out
+dictionary-row-key = { $fault }
+    .help = rows of a table are told apart by this field; each stands once in a file
+dictionary-nothing-there = { $fault }
+    .help = `ncc dialects show` lists the rows of the base
+dictionary-row = { $fault }
+    .help = `ncc dialects schema` says what a row needs
+    .help-base = this file takes away what it needs; remove it too: `[[{ $table }]]`, `{ $key }`, `remove = true`
+
+# What `ncc dialects test` says of the rows of a dictionary.
+dictionary-cannot-write = cannot be written: { $why }
+dictionary-cannot-read = cannot be read: { $why }
+dictionary-meant = meant: { $meant }
+dictionary-meant-refused = meant: refused as { $name }
+dictionary-not-refused = it is not refused at all
+dictionary-not-written = { $word } is not written
+dictionary-other-written = { $word } is not written: another word is taken
+dictionary-none-written = no row is written for { $meaning }: one needs `write = true`
+dictionary-no-cycle-written = no cycle `{ $kind }` is written: its [[code]] row needs `write = true`
+dictionary-no-dwell-word = a dwell needs a word: `dwell = [{"{"} letter = "P", quantity = "seconds" {"}"}]`
+dictionary-no-override-words = feed and speed have no words of their own
+dictionary-no-hole-cycle = there is no cycle to make its holes
+dictionary-other-number = it is read as another number or title
+dictionary-not-used = no code, cycle or pattern uses it
+dictionary-tested = { $rows ->
+        [0] no rows: its form is the program's
+        [one] { $rows } row tested ({ $tables }), { $failed } failed
+       *[other] { $rows } rows tested ({ $tables }), { $failed } failed
+    }
+dictionary-unsure = { $count } not confirmed by any source (`sure = false`, marked ?): { $rows }
