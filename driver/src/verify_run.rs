@@ -142,6 +142,7 @@ impl Verifier {
             others: Vec::new(),
             holes_ahead: None,
             holes_differ: false,
+            strokes_differ: false,
             arcs_ahead: None,
             open: looked_at(job),
             optional_stop: stops_differ(job),
@@ -351,7 +352,8 @@ impl Verifier {
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
             // Holes that pass leave no pairs of events.
             let alike = run.source.agrees_on_lines(&run.target)
-                || !self.watched && run.source.makes_holes_of(&run.target);
+                || !self.watched
+                    && (run.source.makes_holes_of(&run.target) || run.source.makes_strokes_of(&run.target));
             run.level = nothing_left && !self.renamed && alike;
         }
         self.drop_same();

@@ -9,6 +9,9 @@
 //! that proves what two executions would (`moves::holes::same`). Anything else has the source executed event by event,
 //! and compared.
 //!
+//! Where the target has no such cycle, and says moves in the place of each hole, both sides execute what they are told, and
+//! their straight moves are compared without the events that these are (`moves::holes::strokes`).
+//!
 //! A piece that ends in many holes is taken as two: the statements before them are executed and compared by themselves, so
 //! that the events of a piece with the beginning of a cycle are few too. The holes stand for both sides only if all
 //! controls agree behind those statements, and no run with another fact is left.
@@ -18,8 +21,8 @@
 use ncc_exec::are_holes;
 use ncc_ir::program::{Op, Stmt};
 
-use super::facts::come_to;
-use super::verifier::{HolesAhead, HolesMade, Stop, Verifier};
+use super::facts::{come_to, stopped};
+use super::verifier::{HolesAhead, HolesMade, Run, Stop, Told, Verifier};
 
 /// Holes at the end of a piece of which fewer are executed with it.
 const MANY: usize = 32;
@@ -43,14 +46,33 @@ impl Verifier {
         let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
         let begins = stmts.iter().any(|stmt| matches!(stmt.op, Op::StartCycle(_)));
         self.holes_differ &= !begins;
-        if !level || self.holes_differ || !are_holes(stmts) {
+        self.strokes_differ &= !begins;
+        if !level || !are_holes(stmts) {
             return Ok(false);
         }
         // What the source takes for granted from here on, the target does when its text is read.
-        if !self.runs.iter().all(|run| run.source.has_cycle_like(&run.target)) {
+        if !self.holes_differ && self.runs.iter().all(|run| run.source.has_cycle_like(&run.target)) {
+            self.pass_ahead(stmts, false)?;
+            return Ok(true);
+        }
+        let along = |run: &Run| run.source.makes_strokes_of(&run.target);
+        if self.strokes_differ || self.watched || !self.runs.iter().all(along) {
             return Ok(false);
         }
-        self.pass_ahead(stmts, false)?;
+        self.strokes_differ = !self.pass_along(stmts)?;
+        Ok(!self.strokes_differ)
+    }
+
+    /// Executes the source's holes for their strokes; `false`, and nothing done, where they make anything else.
+    fn pass_along(&mut self, stmts: &[Stmt]) -> Result<bool, Stop> {
+        let mut runs = Vec::with_capacity(self.runs.len());
+        for run in &self.runs {
+            let mut behind = run.source.clone();
+            let Some(strokes) = behind.pass_strokes(stmts).map_err(Stop::Source)? else { return Ok(false) };
+            let events = strokes.len() as u64;
+            runs.push(HolesMade { behind, told: Told::Strokes(strokes), events });
+        }
+        self.hold(stmts, runs, false);
         Ok(true)
     }
 
@@ -71,19 +93,24 @@ impl Verifier {
         for run in &self.runs {
             let (mut behind, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
             let events = behind.pass_holes(stmts, &mut places).map_err(Stop::Source)?;
-            runs.push(HolesMade { behind, places, events });
+            runs.push(HolesMade { behind, told: Told::Places(places), events });
         }
+        self.hold(stmts, runs, at_end);
+        Ok(())
+    }
+
+    fn hold(&mut self, stmts: &[Stmt], runs: Vec<HolesMade>, at_end: bool) {
         self.holes_ahead = Some(HolesAhead { stmts: stmts.to_vec(), runs, at_end });
         if let Some(stmt) = stmts.last() {
             self.last = stmt.span;
         }
-        Ok(())
     }
 
     /// Takes the holes out of the text just read with which it ends, where those of the source are at the end of a piece.
     pub(super) fn take_holes_read(&mut self) -> Option<Vec<Stmt>> {
         let ahead = self.holes_ahead.as_ref().filter(|ahead| ahead.at_end)?;
-        let holes = ahead.runs.first()?.places.len();
+        let Told::Places(places) = &ahead.runs.first()?.told else { return None };
+        let holes = places.len();
         let read = &mut self.batch.stmts;
         let spoken = read.iter().enumerate().rev().filter(|(_, stmt)| !is_silent(stmt));
         let (from, first) = spoken.take(holes).last()?;
@@ -95,20 +122,38 @@ impl Verifier {
         let Some(ahead) = &self.holes_ahead else { return Ok(false) };
         let (read, open) = (&self.batch.stmts, self.open[1]);
         let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
+        let along = matches!(ahead.runs.first(), Some(HolesMade { told: Told::Strokes(_), .. }));
+        let lines = self.runs.first().filter(|_| along).and_then(|run| run.target.value_lines(read));
         let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
             level
                 && (open == 0 || open & come_to(&run.target, read) == 0)
-                && run.source.makes_holes_of(&run.target)
-                && run.target.has_holes_at(read, &made.places)
+                && match (&made.told, &lines) {
+                    (Told::Places(places), _) => {
+                        run.source.makes_holes_of(&run.target) && run.target.has_holes_at(read, places)
+                    }
+                    (Told::Strokes(strokes), Some(lines)) => {
+                        run.source.makes_strokes_of(&run.target) && run.target.goes_along(lines, strokes)
+                    }
+                    (Told::Strokes(_), None) => false,
+                }
         });
         if !same {
-            self.holes_differ = level;
+            let differ = if along { &mut self.strokes_differ } else { &mut self.holes_differ };
+            *differ = level;
             return self.make_holes().map(|()| false);
         }
         let ahead = self.holes_ahead.take().into_iter().flat_map(|ahead| ahead.runs);
+        let last = self.last;
         for (run, made) in self.runs.iter_mut().zip(ahead) {
             run.source = made.behind;
-            run.target.follow(&run.source);
+            match &lines {
+                None => run.target.follow(&run.source),
+                Some(lines) => {
+                    let passed = run.target.pass_valued(lines);
+                    let passed = passed.map_or_else(|| run.target.pass(&self.batch.stmts), Ok);
+                    passed.map_err(|fault| stopped(&fault, None, last))?;
+                }
+            }
             run.comparison.pass(made.events, run.source.machine());
         }
         self.batch.stmts.clear();
@@ -274,6 +319,75 @@ mod tests {
         for state in ["F151", "S501", "M4", "G55", "M8", "G91"] {
             let written = format!("{}\n{state}", CYCLES[0]);
             assert!(verified_at_end([CYCLES[0], &written], [&holes; 2], false).is_err(), "{state}");
+        }
+    }
+
+    /// Lines in the place of [`HOLES`] under the first cycle.
+    fn lines() -> String {
+        let place = |place: &str| match place.starts_with(';') {
+            true => format!("{place}\n"),
+            false => format!("G0 {place}\nG0 Z2\nG1 Z-20\nG0 Z5\n"),
+        };
+        HOLES.lines().map(place).collect()
+    }
+
+    /// Events of both sides, where the output says lines for holes; whether the last of them passed without events.
+    fn verified_by_lines(
+        [said, written]: [&str; 2],
+        state: &str,
+        by_itself: bool,
+    ) -> Result<(u64, bool), Stop> {
+        let (mut reader, mut verifier) = sides(by_itself);
+        let mut batch = Batch::default();
+        let (cycle, first) = (format!("{HEAD}{}\nX8 Y9\n", CYCLES[0]), "G0 X8 Y9\nZ2\nG1 Z-20\nG0 Z5\n");
+        let first = format!("{HEAD}{first}{state}");
+        let mut passed = false;
+        for [said, written] in
+            [[&*cycle, &*first], [said, written], ["MCALL\nG0 Z50\nM30\n", "G0 Z50\nM30\n"]]
+        {
+            reader.read(said.as_bytes(), 0, &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            verifier.source(&stmts, &batch.assumed)?;
+            let held = verifier.holes_ahead.is_some();
+            verifier.target(written.as_bytes(), 0, &batch.assumed)?;
+            passed |= held && !verifier.strokes_differ;
+        }
+        verifier.finish()?;
+        Ok((verifier.covered().events, passed))
+    }
+
+    #[test]
+    fn lines_for_holes_count_as_all_events_that_both_make() {
+        let lines = lines();
+        let [short, long] = [false, true]
+            .map(|by_itself| verified_by_lines([HOLES, &lines], "", by_itself).expect("the same"));
+        assert_eq!([(long.0, true), (short.0, false)], [short, long]);
+    }
+
+    #[test]
+    fn other_lines_for_holes_are_seen() {
+        let lines = lines();
+        for (from, to) in [
+            ("G0 X2.5\n", "G0 X2.501\n"),
+            ("G0 X2.5\n", "G1 X2.5\n"),
+            ("G0 Z2\nG1", "G1 Z2\nG1"),
+            ("G0 Z2\nG1", "G0 Z1.9\nG1"),
+            ("G1 Z-20", "G0 Z-20"),
+            ("G1 Z-20", "G1 Z-20.001"),
+            ("G1 Z-20", "G1 Z-19\nG1 Z-20"),
+            ("G0 X0 Y0\nG0 Z2\nG1 Z-20\nG0 Z5\n", ""),
+            ("G0 X0 Y0\n", "F151\nG0 X0 Y0\n"),
+            ("G0 X0 Y0\n", "M8\nG0 X0 Y0\n"),
+            ("G0 X0 Y0\nG0 Z2", "G0 X0 Y0 Z2"),
+        ] {
+            let written = lines.replacen(from, to, 1);
+            assert!(written != lines, "{from}");
+            let verdict = verified_by_lines([HOLES, &written], "", false);
+            assert!(matches!(verdict, Err(Stop::Target(_))), "{from} → {to}: {verdict:?}");
+        }
+        for state in ["F151", "S501", "M4", "G55", "M8", "G91"] {
+            let verdict = verified_by_lines([HOLES, &lines], &format!("{state}\n"), false);
+            assert!(verdict.is_err(), "{state}");
         }
     }
 }

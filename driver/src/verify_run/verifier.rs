@@ -7,7 +7,7 @@
 //! Not here: how they go on (`verify_run`), and facts that another run has otherwise (`facts`).
 
 use ncc_exec::verify::{Comparison, Pair};
-use ncc_exec::{Event, Exec};
+use ncc_exec::{Event, Exec, Stroke};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Modes};
@@ -113,8 +113,16 @@ pub(super) struct HolesAhead {
 pub(super) struct HolesMade {
     /// The source's control behind them; its run has it as it is before them.
     pub(super) behind: Exec,
-    pub(super) places: Vec<[Nanos; AXES]>,
+    pub(super) told: Told,
     pub(super) events: u64,
+}
+
+/// What is known of holes that were executed for their effect alone.
+pub(super) enum Told {
+    /// Where they are: the target is to make the same holes.
+    Places(Vec<[Nanos; AXES]>),
+    /// Their straight moves: the target is to go along these.
+    Strokes(Vec<Stroke>),
 }
 
 /// Arcs of one run that the source has made, and the target not yet.
@@ -139,6 +147,8 @@ pub struct Verifier {
     pub(super) holes_ahead: Option<HolesAhead>,
     /// Whether it did not, under the cycle in force.
     pub(super) holes_differ: bool,
+    /// Whether it did not go along their strokes either.
+    pub(super) strokes_differ: bool,
     /// What each run has made of arcs that the source has executed, where the target is likely to make the same.
     pub(super) arcs_ahead: Option<Vec<ArcsMade>>,
     /// Open facts of the source's control, the target's, a bit each, that are looked at.

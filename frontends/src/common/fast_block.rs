@@ -233,6 +233,14 @@ impl Line {
         self.seen & AXES != 0 && self.seen & !AXES == 0
     }
 
+    /// Whether it has nothing but words of a plane's axes, one at least: a position, where a cycle is in force.
+    pub(crate) fn is_position(&self, plane: Plane) -> bool {
+        let (first, second, _) = plane.axes();
+        let in_plane = 1u16 << first as u16 | 1 << second as u16;
+        let alone = self.code.is_none() && self.feed.is_none() && self.skip.is_none();
+        alone && self.seen & in_plane != 0 && self.seen & !in_plane == 0
+    }
+
     /// Whether it has the words of an arc in a plane, with an end in it and either a centre in it or a radius.
     pub(crate) fn is_arc(&self, plane: Plane) -> bool {
         let (first, second, normal) = plane.axes();
@@ -424,6 +432,8 @@ pub(crate) enum Path {
     Feed,
     /// Whatever is in force when the program runs.
     Position,
+    /// To a hole of the cycle in force.
+    Hole,
     Arc {
         plane: Plane,
         turn: Turn,
@@ -463,6 +473,7 @@ pub(crate) fn push(line: &Line, known: Known, stmts: &mut Vec<Stmt>) {
         Path::Traverse => stmts.push(stmt(Op::StraightTraverse(empty()))),
         Path::Feed => stmts.push(stmt(Op::StraightFeed(empty()))),
         Path::Position => stmts.push(stmt(Op::Position(empty()))),
+        Path::Hole => stmts.push(stmt(Op::Hole(empty()))),
         Path::Arc { plane, turn, from } => {
             let centre = match line.to_expr(Kind::Radius as usize, unit) {
                 Some(radius) => Centre::Radius(radius),
@@ -473,7 +484,7 @@ pub(crate) fn push(line: &Line, known: Known, stmts: &mut Vec<Stmt>) {
         }
     }
     match stmts.last_mut().map(|stmt| &mut stmt.op) {
-        Some(Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to)) => {
+        Some(Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) | Op::Hole(to)) => {
             fill(line, unit, distance, &mut to.to);
         }
         Some(Op::ArcFeed(arc)) => fill(line, unit, distance, &mut arc.to),

@@ -3,7 +3,7 @@
 //! Not here: how they are sorted (`sort`).
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Settings};
-use ncc_ir::canon::{Axis, Distance, FeedMode, RotaryWay, Units};
+use ncc_ir::canon::{Axis, Distance, FeedMode, Plane, RotaryWay, Units};
 use ncc_ir::source::Span;
 
 use super::siemens_state::Motion;
@@ -129,6 +129,8 @@ pub(in crate::siemens) struct UsualBlocks {
     pub(in crate::siemens) feed: Option<u8>,
     /// The units of the machine's basic system.
     pub(in crate::siemens) basic: Units,
+    /// The plane of which positions are holes that go this way.
+    pub(in crate::siemens) holes: Option<Plane>,
     pub(in crate::siemens) line: Line,
     /// Whether the last block was one, so that the next one is likely to be one, and no plain move.
     pub(in crate::siemens) likely: bool,
@@ -160,6 +162,7 @@ impl UsualBlocks {
             linear: linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z),
             feed: dialect.letter_for(Role::Feed).map(|letter| letter as u8).filter(|l| row(*l).is_some()),
             basic: if settings.get("feed_unit") == "inch" { Units::Inch } else { Units::Mm },
+            holes: None,
             line: Line::default(),
             likely: false,
         }

@@ -3,7 +3,7 @@
 //! Not here: how they are sorted (`sort`).
 
 use ncc_dialects::{BLOCK_SKIP, Bare, CodeRow, Dialect, Meaning, NumberRules, Quantity, Role, Settings};
-use ncc_ir::canon::{Axis, Motion};
+use ncc_ir::canon::{Axis, Motion, Plane};
 use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
 
@@ -127,6 +127,8 @@ pub(in crate::word) struct UsualBlocks {
     pub(in crate::word) angles: bool,
     /// Highest level of a block skip that goes this way.
     pub(in crate::word) skip_levels: u8,
+    /// The plane of which positions are holes that go this way.
+    pub(in crate::word) holes: Option<Plane>,
     pub(in crate::word) line: Line,
     /// Whether the last block was one, so that the next one is likely to be one, and no plain move.
     pub(in crate::word) likely: bool,
@@ -165,6 +167,7 @@ impl UsualBlocks {
             feed: row(roles.feed).is_some(),
             lengths: understood(Quantity::Length),
             angles: understood(Quantity::Angle),
+            holes: None,
             line: Line::default(),
             likely: false,
             #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Whether plain moves can go the short way ([`crate::common::fast_lower`]) from here: while every fact that
 //! they depend on is settled.
 
-use ncc_dialects::Quantity;
-use ncc_ir::canon::{FeedMode, Motion, ReturnLevel};
+use ncc_dialects::{CYCLE_APPROACH, Quantity};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, Op, Stmt};
 
@@ -17,6 +17,7 @@ impl Lower {
     /// Finds out whether plain moves can go the short way from here.
     pub(super) fn refresh(&mut self) {
         self.fast_lower = self.settled();
+        self.usual.holes = self.plane_of_holes();
     }
 
     fn settled(&self) -> Option<FastLower> {
@@ -49,6 +50,38 @@ impl Lower {
 
     /// Whether every fact is settled that a move depends on, whichever it is.
     pub(super) fn moves_are_settled(&self) -> bool {
+        self.state.cycle == CycleState::None && self.is_settled_beside_cycle()
+    }
+
+    /// Whether a block of nothing but words of a plane's axes is a hole of the cycle in force, and every fact is settled
+    /// that it depends on: then it says no more than the hole, and leaves the state as it is. Gives the plane.
+    fn plane_of_holes(&self) -> Option<Plane> {
+        let (state, rules) = (&self.state, &self.settings.dialect.cycles);
+        let CycleState::Active(active) = &state.cycle else { return None };
+        let modes = &state.modes;
+        let row = self.settings.dialect.cycle.get(active.row)?;
+        let plane = modes.plane.value().filter(|plane| active.plane == Fact::Known(*plane))?;
+        let absolute = Fact::Known(Distance::Absolute);
+        let settled = self.is_settled_beside_cycle()
+            && self.usual.linear
+            && modes.is_length_noted(&self.inherited)
+            && modes.distance.fact() == absolute
+            && modes.feed_mode.value() != Some(FeedMode::InverseTime)
+            // The first hole takes it.
+            && state.cycle_feed.is_none()
+            && !rules.level_lost
+            && self.depth_letter(row, active.plane).is_some()
+            && self.option_is_told(CYCLE_APPROACH);
+        // Where a cycle's planes are measured anew with each block, the first one of another mode calls it up again.
+        let measured =
+            !rules.measured_anew || (active.retract.distance, active.depth.distance) == (absolute, absolute);
+        // The first block of a loop says where it begins.
+        let within = self.computes.loops.last().is_none_or(|open| open.at.is_some())
+            && self.o.open.last().is_none_or(|open| open.at.is_some());
+        Some(plane).filter(|_| settled && measured && within)
+    }
+
+    fn is_settled_beside_cycle(&self) -> bool {
         let state = &self.state;
         let open = self.assume && (state.modes.is_open_to_moves() || state.modes.no_shift == Know::Unsaid);
         let level_lost = self.settings.dialect.cycles.level_lost
@@ -62,7 +95,6 @@ impl Lower {
             || state.after_cycle
             || state.no_motion
             || state.rigid.is_some()
-            || state.cycle != CycleState::None
             || state.unplaced != 0
             || state.words != AxisWords::Cartesian
             || state.follows_polar

@@ -105,6 +105,37 @@ fn move_line() -> impl Strategy<Value = String> {
         .prop_map(|(l, w, b, t)| format!("{l}{}{t}", w.join(b)))
 }
 
+/// A cycle, or a position that is one of its holes, or nearly so.
+fn hole_line() -> impl Strategy<Value = String> {
+    let cycles = [
+        "G81 X1. Y1. Z-5. R1. F10.",
+        "G81 Z-5. R1.",
+        "G99 G82 X1. Y1. Z-5. R1. P500 F10.",
+        "G98 G83 X1. Y1. Z-5. R1. Q1.",
+        "G84 X1. Y1. Z-5. R1. F10.",
+        "G73 Z-5. R1. Q1. F5. K0",
+        "G91 G81 X1. Y1. Z-5. R1. F10.",
+        "G18 G81 X1. Z1. Y-5. R1. F10.",
+        "G80",
+        "G98",
+        "G90",
+        "G91",
+        "F20.",
+        "R2.",
+        "Z-6.",
+        "X1. Y1. K3",
+        "X1. Y2. F30.",
+        "G21 G17 G90 G54 G94 G98 G43 H1 Z5.",
+    ];
+    let cycle = prop::sample::select(cycles.to_vec()).prop_map(String::from);
+    let word = ("[XYXYXYXYZA]", "-?[0-9]{1,3}\\.?[0-9]{0,2}").prop_map(|(l, n)| format!("{l}{n}"));
+    let lead = prop::sample::select(vec!["", "", "", "", "", "N10 ", "N5", "/", "/2 "]);
+    let tail = prop::sample::select(vec!["", "", "", "", "", "(C)", " ; c", "\r", "(MSG, a)", " ()"]);
+    let place = (lead, prop::collection::vec(word, 1..3), tail)
+        .prop_map(|(l, words, t)| format!("{l}{}{t}", words.join(" ")));
+    prop_oneof![1 => cycle, 4 => place]
+}
+
 /// What makes a text one that is kept whole.
 fn computing_line() -> impl Strategy<Value = String> {
     let lines = [
@@ -153,7 +184,7 @@ proptest! {
 
     #[test]
     fn the_short_way_and_the_long_way_agree(
-        lines in prop::collection::vec(prop_oneof![1 => line(), 6 => move_line()], 1..25),
+        lines in prop::collection::vec(prop_oneof![1 => line(), 6 => move_line(), 7 => hole_line()], 1..25),
         assume: bool,
         watch: bool,
     ) {
@@ -196,7 +227,7 @@ proptest! {
     /// The same of a text that jumps and computes.
     #[test]
     fn the_short_way_and_the_long_way_agree_where_a_text_jumps(
-        lines in prop::collection::vec(prop_oneof![1 => line(), 2 => computing_line(), 6 => move_line()], 1..25),
+        lines in prop::collection::vec(prop_oneof![1 => line(), 2 => computing_line(), 6 => move_line(), 4 => hole_line()], 1..25),
         assume: bool,
     ) {
         for id in ["fanuc", "haas"] {

@@ -41,7 +41,7 @@ pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::Compensation;
 pub use moves::fine::Increments;
 pub use moves::holes::same::are_holes;
-pub use moves::lines::valued::ValuedLines;
+pub use moves::lines::valued::{Stroke, ValuedLines};
 pub use moves::pace::{DEGREES, LINEAR};
 pub use moves::rotary::end as rotary_end;
 pub use run::again;
@@ -155,6 +155,8 @@ pub struct Exec {
     shown: message::Shown,
     /// Whether events are counted only.
     quiet: bool,
+    /// Straight moves that are kept in place of their events.
+    strokes: Option<Box<moves::holes::strokes::Strokes>>,
     /// Whether functions are told that make no events.
     narrating: bool,
     /// Whether straight moves that go nowhere make events.
@@ -263,6 +265,7 @@ impl Exec {
             ended: false,
             shown: message::Shown::default(),
             quiet: false,
+            strokes: None,
             narrating: false,
             every_move: false,
             counted: 0,

@@ -237,6 +237,12 @@ impl Exec {
         self.slots == other.slots && self.agrees_in_place(other)
     }
 
+    /// Whether all is the same that straight moves of a hole or of lines make events of: but for cycles, the motion in
+    /// force, and the direction of the last move, which these do not read. Nor do they slots, where nothing waits for them.
+    pub(crate) fn agrees_beside_motion(&self, other: &Exec) -> bool {
+        self.agrees_beside_way(other, InModes { motion: self.modes.motion, ..other.modes })
+    }
+
     /// Whether the same cycle is in force on both controls, if any is.
     fn has_cycle_of(&self, other: &Exec) -> bool {
         let same_parameters = self.cycle.is_none() || self.world.orientation == other.world.orientation;
@@ -245,13 +251,17 @@ impl Exec {
 
     /// Whether two controls are in one state but for the slots of their frames, and for cycles.
     fn agrees_in_place(&self, other: &Exec) -> bool {
-        self.modes == InModes { return_level: self.modes.return_level, ..other.modes }
+        self.heading == other.heading && self.agrees_beside_way(other, other.modes)
+    }
+
+    /// The same, with these modes of the other, and whatever way both have come.
+    fn agrees_beside_way(&self, other: &Exec, modes: InModes) -> bool {
+        self.modes == InModes { return_level: self.modes.return_level, ..modes }
             && self.position == other.position
             && self.frame == other.frame
             && self.chain == other.chain
             && self.offset_turned == other.offset_turned
             && self.last == other.last
-            && self.heading == other.heading
             && self.raw == other.raw
             && self.probing == other.probing
             && self.detour == other.detour

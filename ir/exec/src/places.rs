@@ -27,13 +27,14 @@ impl Exec {
     /// A point of the program in machine coordinates.
     #[inline]
     pub(super) fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
-        match &self.chain {
-            None => std::array::from_fn(|i| p[i].wrapping_add(self.frame[i])),
-            Some(chain) => {
-                let p = chain.place(p);
-                std::array::from_fn(|i| p[i].wrapping_add(self.frame[i]))
-            }
+        let mut at = match &self.chain {
+            None => *p,
+            Some(chain) => chain.place(p),
+        };
+        for (at, frame) in at.iter_mut().zip(&self.frame) {
+            *at = at.wrapping_add(*frame);
         }
+        at
     }
 
     /// A point of the machine in program coordinates.

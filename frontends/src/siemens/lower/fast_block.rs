@@ -3,14 +3,15 @@
 //!
 //! Not here: plain moves (`fast_lower`).
 
-use ncc_ir::canon::{Axis, Distance, Fact, FeedMode};
+use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Plane};
 use ncc_ir::expr::num::Unit;
-use ncc_ir::program::CentreFrom;
+use ncc_ir::program::{CentreFrom, Text};
 
+use super::super::program::repeated_blocks::PLANE;
 use super::super::siemens_state::{Motion, SiemensState};
 use super::{Head, Lower, skip_level};
 use crate::batch::Batch;
-use crate::common::fast_block::{Known, Path, push, read};
+use crate::common::fast_block::{Known, Line, Path, push, read};
 use crate::common::known::Know;
 use crate::common::number::unit_of;
 
@@ -51,13 +52,17 @@ impl Lower {
         longest: usize,
         out: &mut Batch,
     ) -> Option<usize> {
-        if !self.moves_are_settled(&self.state) {
+        let holes = self.usual.holes;
+        if holes.is_none() && !self.moves_are_settled(&self.state) {
             return None;
         }
         let usual = &mut self.usual;
         let end = read(&usual.letters, text, at, base, &mut usual.line).filter(|end| end - at <= longest)?;
         if usual.line.number().is_some() && self.flow.numbered {
             return None;
+        }
+        if let Some(plane) = holes {
+            return self.fast_hole(plane, text, out).map(|()| end);
         }
         let skip = usual.line.skip;
         // Of blocks that one switch skips together, the ones before count.
@@ -77,6 +82,40 @@ impl Lower {
             self.refresh();
         }
         Some(end)
+    }
+
+    /// The same of a block that is a hole. What it says of the state is that no move has followed the last one.
+    fn fast_hole(&mut self, plane: Plane, text: &[u8], out: &mut Batch) -> Option<()> {
+        if !self.usual.line.is_position(plane) {
+            return None;
+        }
+        let (modes, line) = (&self.state.modes, &self.usual.line);
+        let comment = self.comment_of(line, text)?;
+        let (unit, distance) = (unit_of(modes.units.fact()), modes.distance.fact());
+        let known =
+            Known { path: Path::Hole, unit, distance, feed: Unit::One, span: line.span, skip: None, comment };
+        push(line, known, out.body(&mut self.sub));
+        self.executed = true;
+        self.stretch = None;
+        (self.moved, self.motion_without_move) = (None, false);
+        self.stands_by_line(distance == Fact::Known(Distance::Absolute), unit);
+        self.usual.likely = true;
+        Some(())
+    }
+
+    /// The comment of the block at hand; `None` if it is not one of the text.
+    fn comment_of(&self, line: &Line, text: &[u8]) -> Option<Option<Box<Text>>> {
+        let Some((start, end)) = line.comment else { return Some(None) };
+        Some(Some(self.text_of_comment(text.get(start..end)?.trim_ascii_end())))
+    }
+
+    /// The block at hand has put axes where its words say.
+    fn stands_by_line(&mut self, absolute: bool, unit: Unit) {
+        for (place, stand) in self.stand.axes.iter_mut().enumerate() {
+            if let Some(num) = self.usual.line.length(place, unit) {
+                *stand = if absolute { Some(num) } else { None };
+            }
+        }
     }
 
     /// Whether nothing has to be said before the block at hand, and told behind it, because a switch may skip it.
@@ -118,7 +157,8 @@ impl Lower {
             Some(Motion::Arc(turn)) if !no_feed => {
                 let plane = state.modes.plane.value().filter(|plane| line.is_arc(*plane))?;
                 // A variable may have the radius's name.
-                if line.has_radius() && (line.is_radius_zero() || !self.variables.is_empty()) {
+                let radius = line.has_radius() && (line.is_radius_zero() || !self.variables.is_empty());
+                if radius || !self.repeated_blocks.knows(PLANE) {
                     return None;
                 }
                 Path::Arc { plane, turn, from: CentreFrom::Start }
@@ -139,10 +179,7 @@ impl Lower {
             }
             None => None,
         };
-        let comment = match line.comment {
-            Some((start, end)) => Some(self.text_of_comment(text.get(start..end)?.trim_ascii_end())),
-            None => None,
-        };
+        let comment = self.comment_of(line, text)?;
         let distance = state.modes.distance.fact();
         let known = Known { path, unit, distance, feed, span: line.span, skip, comment };
         Some((said, motion, known))
@@ -170,13 +207,9 @@ impl Lower {
         (self.moved, self.motion_without_move) = (motion, false);
         let absolute = state.modes.distance.fact() == Fact::Known(Distance::Absolute);
         let unit = unit_of(state.modes.units.fact());
-        for (place, stand) in self.stand.axes.iter_mut().enumerate() {
-            if let Some(num) = line.length(place, unit) {
-                *stand = if absolute { Some(num) } else { None };
-            }
-        }
+        self.stands_by_line(absolute, unit);
         let stretch_ended = self.fast_lower.is_none();
-        if stretch_ended || (state.modes.motion, state.modes.feed, self.moved) != before {
+        if stretch_ended || (self.state.modes.motion, self.state.modes.feed, self.moved) != before {
             self.refresh();
         }
         self.usual.likely = !(repeated && self.usual.line.is_plain() && self.fast_lower.is_some());

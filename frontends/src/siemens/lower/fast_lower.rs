@@ -1,10 +1,11 @@
 //! Blocks that only move: what they need is kept as long as no other block comes.
 
-use ncc_ir::canon::{Distance, Fact, FeedMode};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Plane};
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
 
+use super::super::program::repeated_blocks::{CYCLE, DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::super::siemens_state::{ModalCall, Motion, SiemensState};
 use super::{Head, Lower};
 use crate::batch::Batch;
@@ -43,6 +44,7 @@ impl Lower {
     /// Finds out whether plain moves can go the short way from here.
     pub(in crate::siemens) fn refresh(&mut self) {
         self.fast_lower = self.settled();
+        self.usual.holes = self.plane_of_holes();
     }
 
     fn settled(&self) -> Option<FastLower> {
@@ -82,15 +84,37 @@ impl Lower {
 
     /// Whether every fact is settled that a move depends on, whichever it is, in a block that begins with `state`.
     pub(super) fn moves_are_settled(&self, state: &SiemensState) -> bool {
+        state.cycle == ModalCall::None && self.is_settled_beside_cycle(state)
+    }
+
+    /// Whether a block of nothing but words of a plane's axes is a hole of the cycle in force, and every fact is settled
+    /// that it depends on: then it says no more than the hole, and leaves the state as it is. Gives the plane.
+    fn plane_of_holes(&self) -> Option<Plane> {
+        let (state, modes) = (&self.state, &self.state.modes);
+        let ModalCall::Active(cycle) = &state.cycle else { return None };
+        let settled = self.is_settled_beside_cycle(state)
+            && self.usual.linear
+            && modes.motion.value() == Some(Motion::Traverse)
+            && modes.is_length_noted(&self.inherited)
+            && self.repeated_blocks.knows(PLANE)
+            && modes.feed != Know::Unsaid
+            && modes.feed_mode.value() != Some(FeedMode::InverseTime)
+            // With a feed of its own, nobody knows behind a hole which is in force.
+            && cycle.feed.is_none();
+        // The first hole behind these says more.
+        let called = !self.recall && !self.idle_tap;
+        modes.plane.value().filter(|_| settled && called)
+    }
+
+    fn is_settled_beside_cycle(&self, state: &SiemensState) -> bool {
         let open = self.assume
             && (state.modes.is_open_to_moves()
                 || state.modes.no_shift.unsaid()
                 || state.implied_edge.is_some());
         !(open
             || state.modes.is_new_to_moves(&self.inherited)
-            || state.cycle != ModalCall::None
             || self.ended
-            || !self.repeated_blocks.is_empty()
+            || !self.repeated_blocks.knows(UNITS | DISTANCE | MOTION | CYCLE)
             || self.rounding.is_some()
             || self.stale)
     }
@@ -103,7 +127,8 @@ impl Lower {
 
     /// What a feed counts that is no time, if its word changes no more than the feed.
     pub(super) fn unit_of_feed(&self, state: &SiemensState) -> Option<Unit> {
-        let settled = state.modes.is_feed_mode_settled(self.assume, &self.inherited);
+        let settled = state.modes.is_feed_mode_settled(self.assume, &self.inherited)
+            && self.repeated_blocks.knows(UNITS | SCALED);
         if !settled || state.modes.feed != Know::Said(()) {
             return None;
         }

@@ -116,9 +116,11 @@ pub(in crate::siemens) enum NotRepeatable {
 }
 
 impl RepeatedBlocks {
-    /// Whether nothing can be repeated.
-    pub(in crate::siemens) fn is_empty(&self) -> bool {
-        self.labels.is_empty()
+    /// Whether nothing comes of relying on these facts, or of saying one of them: no block can be repeated, or it is
+    /// known of every label already that they are said behind it, or relied on.
+    pub(in crate::siemens) fn knows(&self, facts: u8) -> bool {
+        // What the last one knows, all before it do.
+        self.labels.last().is_none_or(|label| (label.used | label.said) & facts == facts)
     }
 
     /// A block with a label begins.

@@ -379,7 +379,7 @@ impl Lower {
     }
 
     /// The letter of a cycle's bottom in a plane; `None` if the cycle does not work there.
-    fn depth_letter(&self, row: &CycleRow, plane: Fact<Plane>) -> Option<char> {
+    pub(in crate::word) fn depth_letter(&self, row: &CycleRow, plane: Fact<Plane>) -> Option<char> {
         let Some(plane) = plane.known() else { return Some(row.depth) };
         let normal = char::from(plane.axes().2.letter());
         (normal == row.depth || self.settings.dialect.cycles.any_plane && !row.one_plane).then_some(normal)

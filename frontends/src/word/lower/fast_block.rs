@@ -4,7 +4,7 @@
 //! Not here: plain moves (`fast_lower`).
 
 use ncc_dialects::Quantity;
-use ncc_ir::canon::{Axis, FeedMode, Motion, Turn};
+use ncc_ir::canon::{Axis, FeedMode, Motion, Plane, Turn};
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CentreFrom, Text};
 
@@ -59,13 +59,17 @@ impl Lower {
         longest: usize,
         out: &mut Batch,
     ) -> Option<usize> {
-        if !self.moves_are_settled() {
+        let holes = self.usual.holes;
+        if holes.is_none() && !self.moves_are_settled() {
             return None;
         }
         let usual = &mut self.usual;
         let end = read(&usual.letters, text, at, base, &mut usual.line).filter(|end| end - at <= longest)?;
         let src = Source { text, base };
-        let (motion, known) = self.known(src)?;
+        let (motion, known) = match holes {
+            Some(plane) => (None, self.known_hole(plane, src)?),
+            None => self.known(src)?,
+        };
         if self.computes.jumps && self.usual.line.number().is_some_and(|number| !self.computes.passes(number))
         {
             return None;
@@ -75,10 +79,40 @@ impl Lower {
             out.pointed = self.usual.line.has_point();
         }
         if !out.whole {
-            self.cycles.entered = false;
+            self.cycles.entered = holes.is_some();
         }
-        self.block_done(motion);
+        match holes {
+            // A hole changes nothing.
+            Some(_) => self.usual.likely = true,
+            None => self.block_done(motion),
+        }
         Some(end)
+    }
+
+    /// What the block at hand says, if it is a hole of the cycle in force.
+    fn known_hole(&self, plane: Plane, src: Source) -> Option<Known> {
+        let (modes, usual) = (&self.state.modes, &self.usual);
+        let line = &usual.line;
+        if !line.is_position(plane) || !line.is_understood([usual.lengths, usual.angles]) {
+            return None;
+        }
+        let (unit, distance) = (unit_of(modes.units.fact()), modes.distance.fact());
+        let comment = self.comment_of(src)?;
+        Some(Known {
+            path: Path::Hole,
+            unit,
+            distance,
+            feed: Unit::One,
+            span: line.whole,
+            skip: None,
+            comment,
+        })
+    }
+
+    /// The comment of the block at hand; `None` if it does something.
+    fn comment_of(&self, src: Source) -> Option<Option<Box<Text>>> {
+        let Some((start, end)) = self.usual.line.comment else { return Some(None) };
+        self.text_of_comment(src.text.get(start..end)?).map(Some)
     }
 
     /// What the block at hand says, and the motion of its code; `None` if that is not settled.
@@ -119,10 +153,7 @@ impl Lower {
             Some(level) => Some(self.skip_level(level)?),
             None => None,
         };
-        let comment = match line.comment {
-            Some((start, end)) => Some(self.text_of_comment(src.text.get(start..end)?)?),
-            None => None,
-        };
+        let comment = self.comment_of(src)?;
         let known = Known { path, unit, distance, feed, span: line.whole, skip, comment };
         // The level of return is another one behind the block.
         let keeps_level = !self.settings.dialect.cycles.level_lost;

@@ -4,6 +4,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::siemens::lower::Lower;
 
 /// Something like a word.
 fn word() -> impl Strategy<Value = String> {
@@ -85,6 +86,10 @@ fn move_line() -> impl Strategy<Value = String> {
         "GOTOF AA",
         "IF R1==5 GOTOB N5",
         "AA:",
+        "BB: X1",
+        "REPEAT AA",
+        "REPEAT BB AA P=2",
+        "REPEATB BB",
         "T2 M6",
         "L1",
     ];
@@ -119,12 +124,45 @@ fn move_line() -> impl Strategy<Value = String> {
         .prop_map(|(l, w, b, t)| format!("{l}{}{t}", w.join(b)))
 }
 
+/// A cycle, or a position that is one of its holes, or nearly so.
+fn hole_line() -> impl Strategy<Value = String> {
+    let cycles = [
+        "MCALL CYCLE81(5,0,2,-3)",
+        "MCALL CYCLE82(5,0,2,-3,,1)",
+        "MCALL CYCLE83(5,0,1,-20,,-8,,0,0,0,1,1)",
+        "MCALL CYCLE85(5,0,2,-3,,,9,8)",
+        "MCALL CYCLE84(5,0,2,-20,,,3,,1,,300,)",
+        "MCALL CYCLE840(5,0,2,-20,,,4,3,,1,)",
+        "MCALL",
+        "MCALL L1",
+        "G0",
+        "G1 F5",
+        "F20",
+        "S300",
+        "G91",
+        "G90 G0",
+        "G18",
+        "T2 M6",
+        "G54 G17 G90 G0 G71 G94 D1",
+        "X1 Z2",
+        "HOLES2(0,0,5,0,0,3)",
+    ];
+    let cycle = prop::sample::select(cycles.to_vec()).prop_map(String::from);
+    let word =
+        ("[XYXYXYXYZA]", "=?", "-?[0-9]{1,3}\\.?[0-9]{0,2}").prop_map(|(l, s, n)| format!("{l}{s}{n}"));
+    let lead = prop::sample::select(vec!["", "", "", "", "", "N10 ", "N5", "/", "/2 "]);
+    let tail = prop::sample::select(vec!["", "", "", "", "", "; c", " ;", "\r", ";(a)"]);
+    let place = (lead, prop::collection::vec(word, 1..3), tail)
+        .prop_map(|(l, words, t)| format!("{l}{}{t}", words.join(" ")));
+    prop_oneof![1 => cycle, 4 => place]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn the_short_way_and_the_long_way_agree(
-        lines in prop::collection::vec(prop_oneof![1 => line(), 6 => move_line()], 1..25),
+        lines in prop::collection::vec(prop_oneof![1 => line(), 6 => move_line(), 7 => hole_line()], 1..25),
         assume: bool,
         watch: bool,
     ) {
@@ -135,7 +173,11 @@ proptest! {
             first.watch();
         }
         first.read(text.as_bytes(), 0, &mut short);
-        let state = (first.lower.state.clone(), first.lower.moved, first.lower.stand.axes);
+        let said = |lower: &Lower| {
+            let spent = (lower.recall, lower.idle_tap, lower.executed);
+            (lower.state.clone(), lower.moved, lower.stand.axes, spent)
+        };
+        let state = said(&first.lower);
         first.finish(&mut short);
         // The other one is fed line by line, and every line goes through the grammar.
         let mut reader = Reader::new(settings(), assume);
@@ -154,7 +196,7 @@ proptest! {
             reader.read(line.as_bytes(), at, &mut long);
             at += line.len() as u32;
         }
-        prop_assert_eq!(state, (reader.lower.state.clone(), reader.lower.moved, reader.lower.stand.axes));
+        prop_assert_eq!(state, said(&reader.lower));
         reader.finish(&mut long);
         prop_assert_eq!(&short.stmts, &long.stmts);
         prop_assert_eq!(&short.procedures, &long.procedures);

@@ -44,6 +44,7 @@ impl Exec {
         }
         if self.quiet {
             self.counted += 1;
+            self.keep_stroke(&kind);
         } else {
             let mut state = self.state;
             let rate = match kind {

@@ -4,6 +4,7 @@
 //! tests holds the two together.
 
 pub(crate) mod same;
+pub(crate) mod strokes;
 
 use crate::{Attribute, Event, Exec, Kind, Z};
 use ncc_ir::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};

@@ -260,7 +260,8 @@ impl ExpandCyclesState {
                 return made.leave_out(stmt);
             }
         };
-        let mut moves = Vec::new();
+        // Most holes are four moves, and a feed.
+        let mut moves = Vec::with_capacity(6 * holes.len());
         // Behind the first hole the tool is followed apart from the walk, which goes by the statement.
         let mut apart: Option<Walk> = None;
         let last = holes.len().saturating_sub(1);

@@ -98,7 +98,7 @@ impl Exec {
         Some(Moves { plane, retract, depth, out_to, legs, way })
     }
 
-    fn makes_plain_holes(&self) -> bool {
+    pub(super) fn makes_plain_holes(&self) -> bool {
         let otherwise = self.ended || self.narrating || self.every_move;
         let beside = self.contour.watched || self.state.tip || self.state.tilted;
         self.modes.distance == Distance::Absolute

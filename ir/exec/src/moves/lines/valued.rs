@@ -8,7 +8,7 @@
 //! fault, is left to [`Exec::pass`]: nothing is done then.
 
 use crate::{Exec, Heading, MOTION, Z};
-use ncc_ir::canon::{Distance, Motion, same_point};
+use ncc_ir::canon::{AXES, Distance, Motion, same_point};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Stmt};
 
@@ -38,6 +38,50 @@ pub struct ValuedLines {
     lines: Vec<Valued>,
     /// The unit in which they were worked out.
     inch: bool,
+}
+
+/// A straight move that makes an event: of a line, or of a hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// Whether it goes at feed.
+    pub(crate) feed: bool,
+    /// Where it ends in the program.
+    pub(crate) to: [Nanos; AXES],
+}
+
+impl ValuedLines {
+    /// Whether these lines are these strokes, on a control from where it stands; not if any of them can be skipped, or says
+    /// a feed.
+    pub(crate) fn go_along(&self, exec: &Exec, strokes: &[Stroke]) -> bool {
+        let (mut at, mut motion) = (exec.position, exec.modes.motion);
+        let mut strokes = strokes.iter();
+        let mut along = |Valued { level, does, values }: &Valued| {
+            let named = match does {
+                Does::Goes(named, own) => {
+                    motion = *own;
+                    *named
+                }
+                Does::GoesOn(named) => *named,
+                Does::Feeds => return false,
+                Does::Nothing => return true,
+            };
+            let mut to = at;
+            for (axis, value) in values.iter().enumerate() {
+                if named >> axis & 1 == 1 {
+                    to[axis] = *value;
+                }
+            }
+            let feed = match motion {
+                Motion::Feed => true,
+                Motion::Traverse => false,
+                Motion::Arc(_) | Motion::Cycle => return false,
+            };
+            let goes = !same_point(&to, &at);
+            at = to;
+            *level == 0 && (!goes || strokes.next() == Some(&Stroke { feed, to }))
+        };
+        exec.modes.inch == self.inch && self.lines.iter().all(&mut along) && strokes.next().is_none()
+    }
 }
 
 impl Exec {
@@ -159,7 +203,7 @@ impl Exec {
 mod tests {
     use super::*;
     use crate::world::World;
-    use ncc_ir::canon::{AXES, Fact, Modes, Units};
+    use ncc_ir::canon::{Fact, Modes, Units};
     use ncc_ir::expr::Expr;
     use ncc_ir::expr::num::{Num, Unit};
     use ncc_ir::program::{Coord, Move, Point};
