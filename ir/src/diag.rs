@@ -14,6 +14,7 @@ use crate::program::numbered::Numbered;
 use crate::run_time::RunTime;
 use crate::source::Span;
 use crate::unexecuted::{NoCorner, Unexecuted};
+use crate::unsupported::Unsupported;
 
 /// What was found, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,6 +202,11 @@ macro_rules! faults {
                 Fault::NotExecuted { what: what.into() }
             }
 
+            /// The fault of what ncc does not translate; `code` is its text.
+            pub fn not_supported(code: impl Into<Box<str>>, what: impl Into<Unsupported>) -> Fault {
+                Fault::NotSupported { code: code.into(), what: what.into() }
+            }
+
             /// The fault of what a target cannot compute when the program runs.
             pub fn computes(what: impl Into<RunTime>) -> Fault {
                 Fault::Computes { what: what.into() }
@@ -261,7 +267,7 @@ faults! {
     /// A code that the dialect's dictionary does not have.
     UnknownCode { code: Box<str> } = 201, Error;
     /// A code that the dictionary names, and that is not translated.
-    NotSupported { code: Box<str>, name: Box<str> } = 202, Error;
+    NotSupported { code: Box<str>, what: Unsupported } = 202, Error;
     /// Two codes of one modal group in a block.
     CodesExclude { first: Box<str>, second: Box<str> } = 203, Error;
     /// A word that nothing in the block uses.

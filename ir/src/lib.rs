@@ -178,3 +178,4 @@ pub mod source;
 pub mod track;
 pub mod transliterate;
 pub mod unexecuted;
+pub mod unsupported;

@@ -41,7 +41,10 @@ fn p_of_pecks_dwells_or_not() {
         assert_eq!(holes("dwell"), Ok(vec![(-9 * ONE, half), (-11 * ONE, half), spot]), "{code}");
         assert_eq!(holes("ignored"), Ok(vec![spot]), "{code}");
         let refused = holes("refused").expect_err("a refusal");
-        assert!(refused.contains("P as a dwell (option peck_dwell)"), "{code}: {refused}");
+        assert!(
+            refused.contains("DwellByOption { letter: 'P', option: \"peck_dwell\" }"),
+            "{code}: {refused}"
+        );
     }
 }
 
@@ -61,7 +64,10 @@ fn p_of_drilling_dwells_or_not() {
         assert_eq!(holes("dwell"), Ok(vec![(-9 * ONE, half), (-11 * ONE, half), spot]), "{code}");
         assert_eq!(holes("ignored"), Ok(vec![spot]), "{code}");
         let refused = holes("refused").expect_err("a refusal");
-        assert!(refused.contains("P as a dwell (option drill_dwell)"), "{code}: {refused}");
+        assert!(
+            refused.contains("DwellByOption { letter: 'P', option: \"drill_dwell\" }"),
+            "{code}: {refused}"
+        );
         let left = text(code, "G82 X1. Z-1. R2. P500 F80.\n").replacen(" P500 F80.\nX10.", " F80.\nX10.", 1);
         let holes = made("drill_dwell", "refused", &left).map(|events| dwells(&events));
         assert_eq!(holes, Ok(vec![(-ONE, half), spot]), "{code}");
@@ -80,7 +86,7 @@ fn the_letter_of_the_spindles_angle() {
             let events = match made(OPTION, value, &text) {
                 Ok(events) => events,
                 Err(refused) => {
-                    let name = format!("{letter} of the spindle's angle, by the option {OPTION}");
+                    let name = format!("AngleByOption {{ letter: '{letter}', option: \"{OPTION}\" }}");
                     assert!(value != letter && letter != "S" && refused.contains(&name), "{said}: {refused}");
                     continue;
                 }

@@ -128,7 +128,7 @@ fn an_option_says_what_p_of_a_deep_hole_is() {
     let done = run(dwells).exits(0).out;
     assert_eq!(done.matches("DWELL(0.5)").count(), 1, "{done}");
     let refused = "fanuc to canon part.nc --from-option peck_dwell=refused";
-    run(refused).exits(1).says("P as a dwell (option peck_dwell)");
+    run(refused).exits(1).says("the option `peck_dwell` decides");
     // What the target has no word for is written out; what it has, is not.
     let out = run("fanuc to fanuc part.nc --no-head --from-option peck_dwell=dwell").exits(0).out;
     assert!(!out.contains("G83") && out.contains("G04 X0.500"), "{out}");

@@ -12,8 +12,8 @@ const REFUSED: [(&str, &str); 7] = [
     ("ccomp-lathe-comp", "NC0501"),
     ("interp-g71-with-g70", "NC0120"),
     ("interp-g76", "NC0120"),
-    ("interp-g84-g18-g99", "cycle along another axis"),
-    ("interp-g84-g19-g99", "cycle along another axis"),
+    ("interp-g84-g18-g99", "drills along another axis"),
+    ("interp-g84-g19-g99", "drills along another axis"),
     ("interp-inverse-time-with-comp", "SET_FEED_MODE in a contour that ncc computes"),
     ("interp-m98m99-10-M98-P001", "two programs have the name `2`"),
 ];

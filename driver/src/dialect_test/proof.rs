@@ -187,7 +187,8 @@ impl Bench {
         let mut reader = Reader::new(self.settings.clone(), false);
         reader.read(format!("{open}{text}\n").as_bytes(), 0, &mut batch);
         reader.finish(&mut batch);
-        let named = |d: &Diagnostic| matches!(&d.fault, Fault::NotSupported { name: n, .. } if **n == *name);
+        let named =
+            |d: &Diagnostic| matches!(&d.fault, Fault::NotSupported { what, .. } if what.is_named(name));
         if batch.diagnostics.iter().any(named) {
             return Ok(());
         }

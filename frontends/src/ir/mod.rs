@@ -40,6 +40,7 @@ use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TextUnsupported;
 
 use self::lexer::Token;
 use self::line::{Line, Refusal};
@@ -181,8 +182,8 @@ impl Reader {
             Line::Empty => {}
             Line::Version(VERSION) => {}
             Line::Version(other) => {
-                let (code, name) = (format!("ncc-ir {other}"), "another version of the text form");
-                return Err((Fault::NotSupported { code: code.into(), name: name.into() }, span));
+                let fault = Fault::not_supported(format!("ncc-ir {other}"), TextUnsupported::Version);
+                return Err((fault, span));
             }
             Line::Program(name) => out.name = name,
             Line::Assumed(facts) => out.assumed = line::with(out.assumed, facts),

@@ -8,6 +8,7 @@ use ncc_ir::canon::{AXES, Axis, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Frame, FrameSlot, FrameStep, Op};
+use ncc_ir::unsupported::FrameUnsupported;
 
 use super::block_words::{Code, Given, Words};
 use super::lower::Lower;
@@ -23,12 +24,12 @@ impl Lower {
             _ => return,
         };
         if words.codes.len() > 1 {
-            return self.not_supported(code.name, "frame beside other functions", code.span, out);
+            return self.not_supported(code.name, FrameUnsupported::BesideFunctions, code.span, out);
         }
         self.stand.forget();
         if words.no_address() {
             if added {
-                return self.not_supported(code.name, "appended frame without axes", code.span, out);
+                return self.not_supported(code.name, FrameUnsupported::AppendedNothing, code.span, out);
             }
             self.frame_changes(false, [false; AXES]);
             return self.push(code.span, Op::ClearFrame(FrameSlot::Chain), out);
@@ -86,8 +87,8 @@ impl Lower {
             if axis == normal {
                 angle = Some(value);
             } else if !value.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
-                let name = "rotation about an axis of the plane";
-                self.not_supported(code.name, name, given.span, out);
+                let what = FrameUnsupported::RotationAboutPlaneAxis;
+                self.not_supported(code.name, what, given.span, out);
             }
         }
         let zero = ncc_ir::expr::num::Num::int(0, ncc_ir::expr::num::Unit::Degree);
@@ -113,8 +114,8 @@ impl Lower {
     fn unmarked(&mut self, given: Option<Given>, src: Source, out: &mut Batch) -> Option<Given> {
         let given = given?;
         if given.distance.is_some() {
-            let name = "AC or IC in a frame";
-            self.not_supported(&src.text(given.span), name, given.span, out);
+            let what = FrameUnsupported::FrameDistance;
+            self.not_supported(&src.text(given.span), what, given.span, out);
             return None;
         }
         Some(given)

@@ -9,6 +9,9 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
+use ncc_ir::unsupported::{
+    CodeUnsupported, FrameUnsupported, MoveUnsupported, SpindleUnsupported, TableUnsupported, Unsupported,
+};
 
 use super::block_words::{Code, Words};
 use super::lower::{Head, Lower};
@@ -91,8 +94,8 @@ impl Lower {
         let late =
             change.filter(|change| moves && self.option(CHANGE_IN_BLOCK, change.span, out) == AFTER_MOTION);
         if let (Some(change), Some(edge)) = (late, words.get(self.role_letter(Role::ToolEdge))) {
-            let (name, at) = ("edge of a tool in a block that moves before it changes the tool", edge.span);
-            self.not_supported(change.name, name, at, out);
+            let (what, at) = (TableUnsupported::EdgeBeforeChange, edge.span);
+            self.not_supported(change.name, what, at, out);
         }
         self.select_tool(words, src, out);
         if late.is_none() {
@@ -101,8 +104,8 @@ impl Lower {
         for (code, meaning) in coded.clone() {
             let op = match meaning {
                 Meaning::UseToolCentrePoint(_) if words.has_point() => {
-                    let name = "transformation in a block with axis words";
-                    self.not_supported(code.name, name, code.span, out);
+                    let what = FrameUnsupported::TransformationAxisWords;
+                    self.not_supported(code.name, what, code.span, out);
                     continue;
                 }
                 Meaning::UseToolCentrePoint(on) => {
@@ -110,21 +113,21 @@ impl Lower {
                     Op::UseToolCentrePoint(on)
                 }
                 Meaning::SetTilt => {
-                    let name = "swivelled plane without parentheses";
-                    self.not_supported(code.name, name, code.span, out);
+                    let what = FrameUnsupported::SwivelBrackets;
+                    self.not_supported(code.name, what, code.span, out);
                     continue;
                 }
                 Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
                 Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
                 Meaning::MachineFunction(_) if words.has_point() => {
                     // Whether it comes before or after the move is a matter of the machine.
-                    let name = "function of the machine in a block with axis words";
-                    self.not_supported(code.name, name, code.span, out);
+                    let what = CodeUnsupported::AxisWords;
+                    self.not_supported(code.name, what, code.span, out);
                     continue;
                 }
                 Meaning::OrientSpindle if words.has_point() => {
-                    let name = "stop of the spindle at an angle in a block with axis words";
-                    self.not_supported(code.name, name, code.span, out);
+                    let what = SpindleUnsupported::StopWithAxes;
+                    self.not_supported(code.name, what, code.span, out);
                     continue;
                 }
                 Meaning::OrientSpindle => Op::OrientSpindle(None),
@@ -253,8 +256,8 @@ impl Lower {
         if let (Meaning::SelectPlane(plane), ModalCall::Active(cycle)) = (meaning, &self.state.cycle)
             && cycle.plane.known() != Some(plane)
         {
-            let name = "change of the plane while a cycle is in force";
-            self.not_supported(code.name, name, code.span, out);
+            let what = MoveUnsupported::PlaneInCycle;
+            self.not_supported(code.name, what, code.span, out);
         }
         let ends_surface = self.before_spindle_mode(code, meaning, has_speed, out);
         // Said once more, it says what the feed counts.
@@ -302,8 +305,8 @@ impl Lower {
         let [within, rapids] = lengths;
         if mode == PathMode::Distance && within.is_none() {
             // One that was said before stays in force; what that is, is not followed.
-            let name = "rounding without its distance in the block";
-            return self.not_supported(code.name, name, code.span, out);
+            let what = CodeUnsupported::RoundingDistance;
+            return self.not_supported(code.name, what, code.span, out);
         }
         let within = within.or_else(|| rapids.is_some().then(|| Expr::int(0)));
         let control = PathControl { mode, within, rapids, merged: None };
@@ -332,8 +335,8 @@ impl Lower {
                 match &self.state.cycle {
                     ModalCall::Active(cycle) => self.recall |= cycle.feed.is_some(),
                     ModalCall::Inherited { own_feed: true } | ModalCall::Lost { own_feed: true } => {
-                        let name = "feed under the cycle of a caller that may have its own";
-                        self.not_supported(&src.text(given.span), name, given.span, out);
+                        let what = MoveUnsupported::FeedInCallersCycleWord;
+                        self.not_supported(&src.text(given.span), what, given.span, out);
                     }
                     ModalCall::None
                     | ModalCall::Refused
@@ -348,8 +351,8 @@ impl Lower {
             && let Some(speed) = self.amount(given, Quantity::Speed, src, out)
         {
             if matches!(&self.state.cycle, ModalCall::Active(c) if c.kind.name() == "tap-rigid") {
-                let name = "speed while a tapping cycle is modal";
-                self.not_supported(&src.text(given.span), name, given.span, out);
+                let what = SpindleUnsupported::SpeedInTap;
+                self.not_supported(&src.text(given.span), what, given.span, out);
             }
             self.push(given.span, Op::SetSpindleSpeed(speed), out);
         }
@@ -407,10 +410,10 @@ impl Lower {
     /// A dwell, which stands alone.
     fn dwell(&mut self, code: Code, words: &mut Words, src: Source, out: &mut Batch) {
         if words.codes.len() > 1 {
-            return self.not_supported(code.name, "dwell beside other functions", code.span, out);
+            return self.not_supported(code.name, CodeUnsupported::DwellBesideOthers, code.span, out);
         }
         if words.get(self.role_letter(Role::Speed)).is_some() {
-            return self.not_supported(code.name, "dwell in turns of the spindle", code.span, out);
+            return self.not_supported(code.name, CodeUnsupported::DwellInTurns, code.span, out);
         }
         let rows = &self.settings.dialect.code;
         let parameters = rows.iter().find(|row| row.code == code.name).map_or(&[][..], |row| &row.dwell);
@@ -496,7 +499,9 @@ impl Lower {
             let row = letter.and_then(|l| self.settings.dialect.address_row(l));
             // Some words have a function of their own, which is known and not translated.
             match row.and_then(|row| row.refuse.as_deref()) {
-                Some(name) => self.not_supported(&src.text(given.span), name, given.span, out),
+                Some(name) => {
+                    self.not_supported(&src.text(given.span), Unsupported::named(name), given.span, out);
+                }
                 None => self.fault(Fault::WordUnused { word: src.text(given.span) }, given.span, out),
             }
             words.drop_left(letter);

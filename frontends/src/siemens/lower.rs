@@ -20,6 +20,7 @@ use ncc_ir::canon::{Plane, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::block_words::{UsualBlocks, Words};
 use super::program::repeated_blocks::RepeatedBlocks;
@@ -292,7 +293,7 @@ impl Lower {
             && level > self.settings.dialect.block.skip_levels
         {
             let code = format!("/{written}").into();
-            self.fault(Fault::NotSupported { code, name: "block-skip level".into() }, at, out);
+            self.fault(Fault::NotSupported { code, what: CodeUnsupported::SkipLevel.into() }, at, out);
         }
         if head.label.is_none() && self.has_targets() {
             self.arrive(None, head.number, head.span, src, out);
@@ -304,7 +305,8 @@ impl Lower {
             if end {
                 name = self.repeated_blocks.end_name();
             } else if let Some(row) = row {
-                let refuse = row.refuse.as_deref().unwrap_or("word of the language as a label");
+                let refuse =
+                    row.refuse.as_deref().map_or(ValueUnsupported::ReservedLabel.into(), Unsupported::named);
                 self.not_supported(&name, refuse, label, out);
             }
             self.arrive(Some(&name), head.number, label, src, out);
@@ -349,7 +351,7 @@ impl Lower {
             Statement::CallIso(_) => self.refuse_word("ISOCALL", head.span, out),
             Statement::Synchronous(_) => {
                 let code = src.text(head.span);
-                self.not_supported(&code, "synchronised action", head.span, out);
+                self.not_supported(&code, CodeUnsupported::SynchronisedAction, head.span, out);
             }
             Statement::If(condition) => self.begin_if(condition, head, src, out),
             Statement::Else => self.otherwise(head, src, out),
@@ -368,8 +370,10 @@ impl Lower {
                 self.case(value, branches, default.as_ref(), head.span, src, out);
             }
             Statement::Declare(definition) => self.define(definition, head.span, src, out),
-            Statement::Define { .. } => self.not_supported("DEFINE", "macro", head.span, out),
-            Statement::Redefine(_) => self.not_supported("REDEF", "definition anew", head.span, out),
+            Statement::Define { .. } => self.not_supported("DEFINE", CodeUnsupported::Macro, head.span, out),
+            Statement::Redefine(_) => {
+                self.not_supported("REDEF", CodeUnsupported::DefinedAnew, head.span, out)
+            }
         }
     }
 
@@ -428,8 +432,9 @@ impl Lower {
     /// A word of the language that the dictionary refuses.
     pub(super) fn refuse_word(&mut self, word: &str, at: Span, out: &mut Batch) {
         let row = self.settings.dialect.name_row(word);
-        let name = row.and_then(|row| row.refuse.as_deref()).unwrap_or("call");
-        self.not_supported(word, name, at, out);
+        let what = row.and_then(|row| row.refuse.as_deref());
+        let what = what.map_or(ValueUnsupported::Call.into(), Unsupported::named);
+        self.not_supported(word, what, at, out);
     }
 
     /// Where statements go.
@@ -476,9 +481,15 @@ impl Lower {
     }
 
     /// Refuses by name what the dictionary or the language names.
-    pub(super) fn not_supported(&mut self, code: &str, name: &str, span: Span, out: &mut Batch) {
+    pub(super) fn not_supported(
+        &mut self,
+        code: &str,
+        what: impl Into<Unsupported>,
+        span: Span,
+        out: &mut Batch,
+    ) {
         self.now.refused = true;
-        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, span, out);
+        self.fault(Fault::not_supported(code, what), span, out);
     }
 
     /// Whether something is met for the first time by the reports.

@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Alarm, Op, Piece, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TextUnsupported;
 
 use super::lower::Lower;
 use super::text::tree::{Binary, Called, Expr as Tree, Unary};
@@ -27,7 +28,7 @@ impl Lower {
             None | Some([] | [None]) => return self.push(called.span, Op::Message("".into()), out),
             Some([Some(text)]) => text,
             Some(_) => {
-                return self.not_supported("MSG", "message in continuous-path mode", called.span, out);
+                return self.not_supported("MSG", TextUnsupported::BlendedMessage, called.span, out);
             }
         };
         let mut pieces = Vec::new();
@@ -66,8 +67,8 @@ impl Lower {
             }
             Tree::Unary(Unary::Show, operand, _) => self.pieces(operand, into, src, out),
             Tree::Place(place) if self.text_variable(place, src).is_some() => {
-                let name = "text that is not known here";
-                self.not_supported(&src.text(place.span), name, place.span, out);
+                let what = TextUnsupported::UnknownText;
+                self.not_supported(&src.text(place.span), what, place.span, out);
                 None
             }
             _ => {
@@ -77,7 +78,7 @@ impl Lower {
                     Kind::Int => 0,
                     Kind::Bool | Kind::Text => {
                         let span = tree.span();
-                        self.not_supported(&src.text(span), "truth value in a text", span, out);
+                        self.not_supported(&src.text(span), TextUnsupported::TruthValue, span, out);
                         return None;
                     }
                 };
@@ -95,22 +96,22 @@ impl Lower {
             [Some(Tree::Number(digits, _))] if !digits.point => (digits.mantissa, None),
             [Some(Tree::Number(digits, _)), Some(text)] if !digits.point => (digits.mantissa, Some(text)),
             // As the dictionary has it of all others.
-            _ => return self.not_supported("SETAL", "alarm", at, out),
+            _ => return self.refuse_word("SETAL", at, out),
         };
         let text: Option<Text> = match text {
             None => Some("".into()),
             Some(text) => self.known_text(text, src),
         };
         let Some(text) = text else {
-            return self.not_supported("SETAL", "text that is put together", at, out);
+            return self.not_supported("SETAL", TextUnsupported::JoinedText, at, out);
         };
         match number {
             60_000..=69_999 => {}
             _ => return self.fault(Fault::OutOfRange { word: src.text(at) }, at, out),
         }
         if !matches!(number, 61_000..=61_999 | 65_000..=66_999) {
-            let name = "alarm of which it is not known that it ends the program";
-            return self.not_supported("SETAL", name, at, out);
+            let what = TextUnsupported::AlarmEnd;
+            return self.not_supported("SETAL", what, at, out);
         }
         self.ends_program(at, out);
         out.whole = true;

@@ -13,6 +13,7 @@ use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TextUnsupported;
 
 use super::lower::Lower;
 use super::program::calls::procedure_name;
@@ -362,7 +363,7 @@ impl Reader {
                 // The main program may come after it.
                 self.headed = !first;
                 self.passing = true;
-                self.refuse(&src.text(line), "unit that is no program", line, out);
+                self.refuse(&src.text(line), TextUnsupported::NoProgram, line, out);
             }
             Kind::Main | Kind::Sub if first => {
                 let sub = header.kind == Kind::Sub;
@@ -375,11 +376,11 @@ impl Reader {
             }
             Kind::Main => {
                 self.passing = true;
-                self.refuse(&src.text(line), "second main program in one text", line, out);
+                self.refuse(&src.text(line), TextUnsupported::SecondMain, line, out);
             }
             Kind::Sub if name.starts_with(|c: char| c.is_ascii_digit()) => {
                 self.passing = true;
-                self.refuse(&name, "subprogram that only a path can call", header.name, out);
+                self.refuse(&name, TextUnsupported::ByPathOnly, header.name, out);
             }
             Kind::Sub => {
                 self.end_of_program(out);
@@ -393,10 +394,10 @@ impl Reader {
         }
     }
 
-    fn refuse(&mut self, code: &str, name: &str, at: Span, out: &mut Batch) {
+    fn refuse(&mut self, code: &str, what: TextUnsupported, at: Span, out: &mut Batch) {
         self.end_of_program(out);
         self.lower.ended = true;
-        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, at, out);
+        self.fault(Fault::not_supported(code, what), at, out);
     }
 
     /// The program that is being read is over.

@@ -9,6 +9,7 @@ use ncc_ir::canon::{Distance, FeedMode, RotaryWay};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::block_words::{Code, Given, Words};
 use super::lower::Lower;
@@ -79,14 +80,14 @@ impl Lower {
         };
         let measured = matches!(row.role, Role::Axis | Role::CentreX | Role::CentreY | Role::CentreZ);
         if given.way.is_some() && !b"ABC".contains(&letter) {
-            let name = "way of a turning axis in a word of another kind".into();
+            let what = CodeUnsupported::WayOfOtherWord.into();
             let code = src.text(given.span);
-            return self.fault(Fault::NotSupported { code, name }, given.span, out);
+            return self.fault(Fault::NotSupported { code, what }, given.span, out);
         }
         if given.distance.is_some() && !measured {
-            let name = "AC or IC of a word that is no coordinate".into();
+            let what = CodeUnsupported::DistanceOfOtherWord.into();
             let code = src.text(given.span);
-            return self.fault(Fault::NotSupported { code, name }, given.span, out);
+            return self.fault(Fault::NotSupported { code, what }, given.span, out);
         }
         if !row.sure && self.first_time(&row.letter.to_string()) {
             let (code, meaning) = (row.letter.to_string().into(), format!("{:?}", row.role).into());
@@ -100,7 +101,7 @@ impl Lower {
     fn code(&mut self, letter: u8, given: Given, words: &mut Words, src: Source, out: &mut Batch) {
         let dialect = self.settings.dialect;
         if given.computed.is_some() {
-            return self.not_supported(&src.text(given.span), "code that is computed", given.span, out);
+            return self.not_supported(&src.text(given.span), CodeUnsupported::Computed, given.span, out);
         }
         let digits = given.digits;
         let whole = u32::try_from(digits.mantissa).ok().filter(|_| digits.scale == 0);
@@ -120,8 +121,8 @@ impl Lower {
             self.fault(Fault::PointNotAllowed { word: src.text(given.span) }, given.span, out);
         }
         let Some(meaning) = row.means else {
-            let name = row.refuse.as_deref().unwrap_or_default();
-            return self.not_supported(&row.code, name, given.span, out);
+            let what = Unsupported::named(row.refuse.as_deref().unwrap_or_default());
+            return self.not_supported(&row.code, what, given.span, out);
         };
         if let Some(other) = row.read_as.as_deref()
             && self.first_time(&row.code)
@@ -172,7 +173,7 @@ impl Lower {
         if !place.index.is_empty() && !self.is_first_spindle(place, src, out) {
             return match place.address {
                 Address::Name(name) => self.refuse_name(name, span, src, out),
-                Address::Letter(_) => self.not_supported(&src.text(span), "word with an index", span, out),
+                Address::Letter(_) => self.not_supported(&src.text(span), CodeUnsupported::Index, span, out),
                 Address::System(_) => self.set_control(place, value, span, src, out),
             };
         }
@@ -220,13 +221,13 @@ impl Lower {
                 // Which way round the spindle goes to where it stops cuts nothing, where it is the shortest.
                 let stop = role == NameRole::SpindleAngle;
                 if given.way.is_some_and(|way| !(stop && way == RotaryWay::Shortest)) {
-                    let name = "way of a turning axis in a word of another kind";
-                    return self.not_supported(&src.text(span), name, span, out);
+                    let what = CodeUnsupported::WayOfOtherWord;
+                    return self.not_supported(&src.text(span), what, span, out);
                 }
                 let absolute = stop && given.distance == Some(Distance::Absolute);
                 if given.distance.is_some() && !through && !absolute {
-                    let name = "AC or IC of a word that is no coordinate";
-                    return self.not_supported(&src.text(span), name, span, out);
+                    let what = CodeUnsupported::DistanceOfOtherWord;
+                    return self.not_supported(&src.text(span), what, span, out);
                 }
                 if words.named[role as usize].replace(given).is_some() {
                     let letter = name.chars().next().unwrap_or(' ');
@@ -248,12 +249,14 @@ impl Lower {
             }
             (None, _) => {
                 let kind = match place.address {
-                    Address::Letter(b'S' | b'M') => "spindle by its number",
-                    Address::Letter(b'T') => "tool of a spindle by its number",
-                    Address::Letter(b'H') => "auxiliary function",
-                    _ => "axis by its number",
+                    Address::Letter(b'S' | b'M') => CodeUnsupported::SpindleByNumber,
+                    Address::Letter(b'T') => CodeUnsupported::ToolOfSpindle,
+                    Address::Letter(b'H') => CodeUnsupported::AuxiliaryFunction,
+                    _ => CodeUnsupported::AxisByNumber,
                 };
-                self.not_supported(&name, kind, span, out);
+                let row = self.settings.dialect.name_row(&name).and_then(|row| row.refuse.as_deref());
+                let what = row.map_or(kind.into(), Unsupported::named);
+                self.not_supported(&name, what, span, out);
             }
         }
     }
@@ -263,7 +266,7 @@ impl Lower {
         let text = src.text(name).to_ascii_uppercase();
         let row = self.settings.dialect.name_row(&text);
         match row.and_then(|row| row.refuse.as_deref()) {
-            Some(refuse) => self.not_supported(&text, refuse, span, out),
+            Some(refuse) => self.not_supported(&text, Unsupported::named(refuse), span, out),
             None => {
                 self.now.refused = true;
                 self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
@@ -285,8 +288,10 @@ impl Lower {
                 self.add_code(code, row.sure, words, src, out);
             }
             (_, Some(_), Some(arguments)) if row.empty_brackets && arguments.is_empty() => {}
-            (_, Some(refuse), _) => self.not_supported(&row.name, refuse, called.span, out),
-            (_, None, Some(_)) => self.not_supported(&row.name, "arguments", called.span, out),
+            (_, Some(refuse), _) => {
+                self.not_supported(&row.name, Unsupported::named(refuse), called.span, out)
+            }
+            (_, None, Some(_)) => self.not_supported(&row.name, CodeUnsupported::Arguments, called.span, out),
             (None, None, None) => {
                 let fault = Fault::WordMissing { code: row.name.as_str().into(), word: "=".into() };
                 self.now.refused = true;
@@ -329,11 +334,14 @@ impl Lower {
                 (None, expr)
             }
             Value::Qualified(qualifier, _) => {
-                let name = match qualifier {
-                    Qualifier::Quick => "auxiliary function that is not waited for",
-                    _ => "coded position",
+                let text = src.text(span);
+                let word = text.split(['=', '(']).nth(1).unwrap_or_default().trim().to_ascii_uppercase();
+                let row = self.settings.dialect.name_row(&word).and_then(|row| row.refuse.as_deref());
+                let what = match qualifier {
+                    Qualifier::Quick => CodeUnsupported::QuickFunction.into(),
+                    _ => row.map_or(CodeUnsupported::CodedPosition.into(), Unsupported::named),
                 };
-                self.not_supported(&src.text(span), name, span, out);
+                self.not_supported(&text, what, span, out);
                 return None;
             }
             Value::List(_) => {
@@ -343,15 +351,15 @@ impl Lower {
         match expr {
             Expr::Number(digits, _) => Some(Given { digits: *digits, distance, way, computed: None, span }),
             Expr::Text(_) => {
-                self.not_supported(&src.text(span), "name as a value", span, out);
+                self.not_supported(&src.text(span), ValueUnsupported::Name, span, out);
                 None
             }
             _ => {
                 let typed = self.formula(expr, src, out)?;
                 let given = self.given(typed, span);
                 if way.is_some() && given.computed.is_some() {
-                    let name = "computed angle of a way round";
-                    self.not_supported(&src.text(span), name, span, out);
+                    let what = CodeUnsupported::ComputedTurn;
+                    self.not_supported(&src.text(span), what, span, out);
                     return None;
                 }
                 Some(Given { distance, way, ..given })
@@ -369,7 +377,7 @@ impl Lower {
     ) -> Option<Num> {
         let Given { digits, span, .. } = given;
         if given.computed.is_some() {
-            self.not_supported(&src.text(span), "computed value of this word", span, out);
+            self.not_supported(&src.text(span), CodeUnsupported::ComputedWord, span, out);
             return None;
         }
         if self.settings.dialect.numbers(quantity).unsigned && digits.mantissa < 0 {

@@ -6,6 +6,7 @@ use ncc_dialects::{Meaning, NameRole, Quantity};
 use ncc_ir::canon::SpindleMode;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
+use ncc_ir::unsupported::SpindleUnsupported;
 
 use super::block_words::{Code, Words};
 use super::lower::Lower;
@@ -30,13 +31,13 @@ impl Lower {
         match meaning {
             Meaning::SetSpindleMode(SpindleMode::Surface) => {
                 if self.surfaces.doubted {
-                    let name = "constant cutting speed behind a subprogram that says what a feed counts";
-                    self.not_supported(code.name, name, code.span, out);
+                    let what = SpindleUnsupported::SurfaceAfterCall;
+                    self.not_supported(code.name, what, code.span, out);
                 }
                 self.surfaces.met = true;
                 if self.option(AXIS, code.span, out) != "X" {
-                    let name = "constant cutting speed about another axis than X";
-                    self.not_supported(code.name, name, code.span, out);
+                    let what = SpindleUnsupported::SurfaceOtherAxis;
+                    self.not_supported(code.name, what, code.span, out);
                 }
                 if !has_speed && surface != Know::Said(true) {
                     let fault = Fault::WordMissing { code: code.name.into(), word: "S".into() };
@@ -65,8 +66,8 @@ impl Lower {
     pub(super) fn spindle_angle(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         let Some(given) = words.take_named(NameRole::SpindleAngle) else { return };
         if words.has_point() {
-            let name = "stop of the spindle at an angle in a block with axis words";
-            self.not_supported(&src.text(given.span), name, given.span, out);
+            let what = SpindleUnsupported::StopWithAxes;
+            self.not_supported(&src.text(given.span), what, given.span, out);
         } else if let Some(angle) = self.amount(given, Quantity::Angle, src, out) {
             self.push(given.span, Op::OrientSpindle(Some(angle)), out);
         }

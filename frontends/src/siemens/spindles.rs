@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Advice, Op, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, SpindleUnsupported, TableUnsupported};
 
 use super::block_words::Words;
 use super::lower::Lower;
@@ -50,7 +51,7 @@ impl Lower {
         let Value::Expr(Expr::Text(text)) = value else { return };
         let bytes = src.bytes(*text);
         if bytes.len() <= 2 || bytes[1..bytes.len() - 1].contains(&b'"') {
-            return self.not_supported(&src.text(span), "tool of this name", span, out);
+            return self.not_supported(&src.text(span), TableUnsupported::ToolName, span, out);
         }
         let number = self.settings.dialect.letter_for(Role::Tool).map_or(0, |letter| letter as u8);
         if words.get(number).is_some() || words.tool_name.replace(*text).is_some() {
@@ -122,7 +123,12 @@ impl Lower {
             return self.path_tolerance(name, called, arguments, src, out);
         }
         if !arguments.is_empty() && (arguments.len() > 1 || number(arguments.first()) != Some(1)) {
-            return self.not_supported(&src.text(called.span), "another master spindle", called.span, out);
+            return self.not_supported(
+                &src.text(called.span),
+                SpindleUnsupported::MasterSpindle,
+                called.span,
+                out,
+            );
         }
         self.master_spindle(called.span, out);
         self.push(called.span, Op::NoEffect(name.into()), out);
@@ -156,7 +162,7 @@ impl Lower {
             None | Some(None) => None,
         };
         let Some(stage) = stage else {
-            return self.not_supported(name, "tolerance of the path in another coding", called.span, out);
+            return self.not_supported(name, CodeUnsupported::ToleranceCoding, called.span, out);
         };
         let amount = match (arguments.first(), stage) {
             (_, 0) => None,
@@ -166,13 +172,13 @@ impl Lower {
                 Some(ncc_ir::expr::Expr::Num(num))
             }
             _ => {
-                return self.not_supported(name, "tolerance of the path without its value", called.span, out);
+                return self.not_supported(name, CodeUnsupported::ToleranceWithoutValue, called.span, out);
             }
         };
         // A third argument of 1 says that the orientation of the tool is not meant.
         if arguments.len() > 3 || arguments.get(2).is_some_and(|a| a.is_some() && number(Some(a)) != Some(1))
         {
-            return self.not_supported(name, "tolerance of the orientation", called.span, out);
+            return self.not_supported(name, CodeUnsupported::Tolerance, called.span, out);
         }
         let advice = Advice { kind: AdviceKind::PathTolerance, value: stage as u8, amount };
         self.push(called.span, Op::Advise(Box::new(advice)), out);

@@ -13,6 +13,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::system::System;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{MoveUnsupported, TableUnsupported};
 
 use super::block_words::{Code, Words};
 use super::lower::Lower;
@@ -76,8 +77,8 @@ impl Lower {
             }
             Know::Unsaid => self.stated_at_start(&System::LengthEntry, code.span, out),
             Know::Lost | Know::Open | Know::Callers => {
-                let name = format!("{letter} of a block before, of which entry is not known here").into();
-                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                let what = MoveUnsupported::EntryOfBefore { letter }.into();
+                return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
             }
         };
         let Some(entry) = entry else {
@@ -95,8 +96,8 @@ impl Lower {
             used[which].is_some() && (several[which] || said[which].is_some() && said[which] != used[which])
         };
         if other(TOOL) || other(ENTRY) {
-            let name = "beginning again with another T or H code than what is stated of the start".into();
-            self.fault(Fault::NotSupported { code: "M99".into(), name }, at, out);
+            let what = TableUnsupported::SeveralStarts.into();
+            self.fault(Fault::NotSupported { code: "M99".into(), what }, at, out);
         }
     }
 }

@@ -12,6 +12,7 @@ use ncc_dialects::{BY_HAND, FILE_PER_TOOL, Meaning, TOOL_CHANGE};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TableUnsupported;
 
 use super::block_words::{Code, Words, motion_of};
 use super::lower::Lower;
@@ -65,8 +66,8 @@ impl Lower {
         let axes = b"XYZABC".iter().filter(|letter| words.get(**letter).is_some()).count() as u32;
         let moves = codes.iter().any(|code| motion_of(code.meaning).is_some());
         if moves || axes > own {
-            let name = "tool length beside a move or a word of another axis".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = TableUnsupported::LengthBesideMove.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
     }
 

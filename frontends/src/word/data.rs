@@ -11,6 +11,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
+use ncc_ir::unsupported::TableUnsupported;
 
 use super::block_words::{Code, Words};
 use super::lower::Lower;
@@ -61,8 +62,8 @@ impl Lower {
             // What the other words are for is another table's matter.
             words.left = 0;
             let text = format!("{code_text} {}{number}", char::from(letter)).into();
-            let name = "data input of this kind".into();
-            return self.fault(Fault::NotSupported { code: text, name }, code.span.to(word.span), out);
+            let what = TableUnsupported::Kind.into();
+            return self.fault(Fault::NotSupported { code: text, what }, code.span.to(word.span), out);
         };
         self.table(code, row, words, src, out);
     }
@@ -72,8 +73,8 @@ impl Lower {
         // Execution looks at what is not known here: where a caller, or a block that may be skipped, has a cycle in force.
         let active = matches!(self.state.cycle, CycleState::Active(_));
         if active {
-            let name = "data input while a cycle is in force".into();
-            self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
+            let what = TableUnsupported::InCycle.into();
+            self.fault(Fault::NotSupported { code: row_name(), what }, code.span, out);
         }
         let Some(entry) = words.take(row.entry as u8) else {
             let word = row.entry.to_string().into();
@@ -92,8 +93,8 @@ impl Lower {
                 let number = self.entry_number(words.exprs[usize::from(place)].clone(), &entry, out);
                 let Some(known) = self.known_number(&number) else {
                     let code = format!("{} {}", row.name, src.text(entry.span)).into();
-                    let name = self.unknown_entry(&number).into();
-                    return self.fault(Fault::NotSupported { code, name }, entry.span, out);
+                    let what = self.unknown_entry(&number).into();
+                    return self.fault(Fault::NotSupported { code, what }, entry.span, out);
                 };
                 Some(known)
             }
@@ -107,8 +108,8 @@ impl Lower {
             true => match self.distance(code.span, out) {
                 Fact::Known(distance) => distance == Distance::Incremental,
                 Fact::Entry => {
-                    let name = "data input where it is not known whether values are added".into();
-                    return self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
+                    let what = TableUnsupported::UnknownMode.into();
+                    return self.fault(Fault::NotSupported { code: row_name(), what }, code.span, out);
                 }
             },
         };
@@ -134,8 +135,8 @@ impl Lower {
         let turn = row.turns.and_then(|letter| words.take(letter as u8));
         if let Some(word) = turn.filter(|_| row.kind == DataKind::OffsetHere) {
             let code = format!("{} {}", row.name, src.text(word.span)).into();
-            let name = "rotation of a work offset by where the axes stand".into();
-            return self.fault(Fault::NotSupported { code, name }, word.span, out);
+            let what = TableUnsupported::TurnFromPosition.into();
+            return self.fault(Fault::NotSupported { code, what }, word.span, out);
         }
         let turn = turn.and_then(|word| self.number(&word, Quantity::Angle, src, out)).map(Expr::Num);
         if by.iter().all(Option::is_none) && turn.is_none() && !self.now.failed {
@@ -177,18 +178,18 @@ impl Lower {
             let own = self.state.modes.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
             let Some(own) = own.filter(|own| (1..=row.count).contains(own)) else {
                 let code = format!("{} {}", row.name, src.text(entry.span)).into();
-                let name = "data input for the offset in force where that is not known".into();
-                return self.refuse(Fault::NotSupported { code, name }, entry.span, out);
+                let what = TableUnsupported::UnknownOffset.into();
+                return self.refuse(Fault::NotSupported { code, what }, entry.span, out);
             };
             number = u32::from(own);
         }
         if !(1..=u32::from(row.count)).contains(&number) {
-            let name = match number {
-                0 => "data input for what has no number of its own",
-                _ => "data input for an entry that there is not",
+            let what = match number {
+                0 => TableUnsupported::NoEntryZero,
+                _ => TableUnsupported::NoEntry,
             };
             let code = format!("{} {}", row.name, src.text(entry.span)).into();
-            return self.refuse(Fault::NotSupported { code, name: name.into() }, entry.span, out);
+            return self.refuse(Fault::NotSupported { code, what: what.into() }, entry.span, out);
         }
         Some(number)
     }
@@ -206,17 +207,15 @@ impl Lower {
 
     /// Why the number of an entry is refused: it is the T or H code in force before the program has said one, or only
     /// known when it runs.
-    fn unknown_entry(&self, number: &Expr) -> &'static str {
+    fn unknown_entry(&self, number: &Expr) -> TableUnsupported {
         let asked = |node: &Node| match node {
             Node::Var(Var::System(System::SelectedTool)) => self.state.modes.tool == Know::Unsaid,
             Node::Var(Var::System(System::LengthEntry)) => self.state.length_entry == Know::Unsaid,
             _ => false,
         };
         match number {
-            Expr::Node(node) if asked(node) => {
-                "data input for the entry of a code in force that the program has not said"
-            }
-            _ => "data input for an entry whose number only the running program knows",
+            Expr::Node(node) if asked(node) => TableUnsupported::EntryAtStart,
+            _ => TableUnsupported::EntryComputed,
         }
     }
 
@@ -234,13 +233,13 @@ impl Lower {
         let code_text: Box<str> = code.row.code.as_str().into();
         let data = match code.meaning {
             Meaning::StorePosition(_) if self.has_axis_word(words) => {
-                let name = "storing where the axes stand in a block with axis words".into();
-                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                let what = TableUnsupported::StoredWithAxes.into();
+                return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
             }
             // What is stated of it holds for the whole program.
             Meaning::StorePosition(_) if self.settings.get(STORED_POSITION) == AT_ZERO => {
-                let name = "storing a position that is stated to be the machine's zero".into();
-                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                let what = TableUnsupported::StoredZero.into();
+                return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
             }
             Meaning::StorePosition(place) => Data::Position(place),
             _ => {
@@ -270,12 +269,12 @@ impl Lower {
         let by = self.offset_words(words, src, out);
         let along: Vec<usize> = (0..AXES).filter(|axis| by[*axis].is_some()).collect();
         if self.has_axis_word(words) || entry.is_some() && !along.is_empty() {
-            let name = match entry {
-                Some(_) => "entry of the length table beside axis words",
-                None => "offset of a tool along another axis than X, Y and Z",
+            let what = match entry {
+                Some(_) => TableUnsupported::LengthWithAxes,
+                None => TableUnsupported::OffsetAxis,
             };
             words.left = 0;
-            return self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
+            return self.fault(Fault::NotSupported { code: code_text, what: what.into() }, code.span, out);
         }
         let [x, y, z, ..] = by;
         let length = match (entry, &along[..], z) {
@@ -328,8 +327,8 @@ impl Lower {
         let by = self.offset_words(words, src, out);
         if self.has_axis_word(words) || words.get(b'R').is_some() {
             words.left = 0;
-            let name = "another value of a tool than its offsets along X, Y and Z".into();
-            return self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
+            let what = TableUnsupported::OtherValue.into();
+            return self.fault(Fault::NotSupported { code: row_name(), what }, code.span, out);
         }
         if by.iter().all(Option::is_none) && !self.now.failed {
             return self.fault(Fault::WordMissing { code: row_name(), word: "Z".into() }, code.span, out);

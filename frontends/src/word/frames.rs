@@ -11,6 +11,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Coord, FrameSlot, Op, Point, Slot};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::FrameUnsupported;
 
 use super::block_words::{Code, Words, motion_of};
 use super::lower::Lower;
@@ -67,10 +68,10 @@ impl Lower {
                 .filter_map(|axis| words.get(axis.letter()))
                 .all(|word| matches!(word.value, Value::Number(digits) if digits.mantissa == 0));
         if by_mode && !takes_back && self.state.modes.distance.value() == Some(Distance::Incremental) {
-            return self.no_frame(code, "under incremental coordinates", out);
+            return self.no_frame(code, in_increments(code.meaning), out);
         }
         if matches!(self.state.cycle, CycleState::Active(_)) {
-            return self.no_frame(code, "while a cycle is in force", out);
+            return self.no_frame(code, FrameUnsupported::InCycle, out);
         }
         let op = match code.meaning {
             Meaning::SetShift(origin) => {
@@ -120,9 +121,8 @@ impl Lower {
         false
     }
 
-    fn no_frame(&mut self, code: &Code, why: &str, out: &mut Batch) {
-        let name = format!("{} {why}", noun(code.meaning)).into();
-        self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+    fn no_frame(&mut self, code: &Code, what: FrameUnsupported, out: &mut Batch) {
+        self.fault(Fault::not_supported(code.row.code.as_str(), what), code.span, out);
     }
 
     /// Whether factors are in force, or a mirror of the drilling axis.
@@ -134,8 +134,8 @@ impl Lower {
     /// Refuses another zero in a frame that turns, scales or mirrors.
     pub(super) fn check_shut(&mut self, code: &Code, out: &mut Batch) {
         if self.state.turned != 0 && self.settings.dialect.can.frames_shut {
-            let name = "another zero while a rotation, factors or a mirror are in force".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = FrameUnsupported::ZeroUnderFrame.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
     }
 
@@ -172,9 +172,9 @@ impl Lower {
                 || to.get(*axis).is_some_and(|word| word.distance != Fact::Known(Distance::Incremental))
         };
         if !Axis::ALL.iter().all(absolute) {
-            let name = "first move of a new rotation without both axes of its plane, absolute".into();
+            let what = FrameUnsupported::FirstMove.into();
             let code = self.rotation_code();
-            self.fault(Fault::NotSupported { code, name }, block, out);
+            self.fault(Fault::NotSupported { code, what }, block, out);
         }
         self.state.unplaced = 0;
     }
@@ -277,7 +277,7 @@ impl Lower {
     /// Mirrors are set and taken back outside rotations and factors.
     fn mirror_in_turn(&mut self, code: &Code, out: &mut Batch) -> Option<()> {
         if self.state.turned & (ROTATION | SCALE) != 0 && self.settings.dialect.can.frames_shut {
-            self.no_frame(code, "while a rotation or factors are in force", out);
+            self.no_frame(code, FrameUnsupported::MirrorUnderFrame, out);
             return None;
         }
         Some(())
@@ -310,14 +310,14 @@ impl Lower {
     }
 }
 
-/// What a code does, for a message.
-fn noun(meaning: Meaning) -> &'static str {
+/// Why a frame is refused under G91.
+fn in_increments(meaning: Meaning) -> FrameUnsupported {
     match meaning {
-        Meaning::SetShift(_) => "local shift",
-        Meaning::SetPosition => "coordinates of the present point",
-        Meaning::SetRotation => "rotation",
-        Meaning::SetScale => "scaling",
-        Meaning::SetTilt => "tilted plane",
-        _ => "mirror",
+        Meaning::SetShift(_) => FrameUnsupported::ShiftInIncrements,
+        Meaning::SetPosition => FrameUnsupported::PositionInIncrements,
+        Meaning::SetRotation => FrameUnsupported::RotationInIncrements,
+        Meaning::SetScale => FrameUnsupported::ScaleInIncrements,
+        Meaning::SetTilt => FrameUnsupported::TiltInIncrements,
+        _ => FrameUnsupported::MirrorInIncrements,
     }
 }

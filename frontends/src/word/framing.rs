@@ -7,6 +7,7 @@ use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TextUnsupported;
 
 use super::o_code::o_subs::is_title;
 use super::reader::Reader;
@@ -145,7 +146,8 @@ impl Reader {
             && (!self.frame.named || self.block.names.len() > 1)
         {
             let name = self.block.names.get(1).copied().filter(|_| self.frame.named).unwrap_or(name);
-            let fault = Fault::NotSupported { code: src.text(name), name: "program with a name".into() };
+            let fault =
+                Fault::NotSupported { code: src.text(name), what: TextUnsupported::ProgramName.into() };
             self.block.faults.push((fault, name));
             return false;
         }
@@ -194,7 +196,8 @@ impl Reader {
     fn title(&mut self, src: Source, out: &mut Batch) -> bool {
         let Some(span) = self.block.title else { return false };
         if !self.frame.programs.is_empty() || self.frame.blocks {
-            let fault = Fault::NotSupported { code: src.text(span), name: "program with a name".into() };
+            let fault =
+                Fault::NotSupported { code: src.text(span), what: TextUnsupported::ProgramName.into() };
             self.block.faults.push((fault, span));
             return false;
         }
@@ -259,8 +262,8 @@ impl Reader {
         let open = !self.lower.ended && !alarmed;
         if self.lower.settings.dialect.program.o_words && open && !self.frame.faulty {
             // A number in its way ends nothing (LinuxCNC's interpreter, run).
-            let told = "program that another one goes on into".into();
-            out.report(Fault::NotSupported { code: src.text(span), name: told }, span);
+            let what = TextUnsupported::GoesOn.into();
+            out.report(Fault::NotSupported { code: src.text(span), what }, span);
             self.frame.faulty = true;
         }
         self.end_of_program(out);
@@ -294,8 +297,8 @@ impl Reader {
             if self.lower.settings.dialect.program.o_words && self.lower.state.compensated == Know::Said(true)
             {
                 // The last move under it is made when the program says its end (LinuxCNC's interpreter, run).
-                let name = "under cutter radius compensation".into();
-                out.report(Fault::NotSupported { code: "end of the text".into(), name }, at);
+                let what = TextUnsupported::EndUnderCompensation.into();
+                out.report(Fault::NotSupported { code: "G40".into(), what }, at);
             }
         }
         if let Some(procedure) = self.lower.sub.take() {

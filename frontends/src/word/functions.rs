@@ -9,6 +9,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, FrameUnsupported, MoveUnsupported};
 
 use super::block_words::{Code, Words, motion_of};
 use super::frames::is_frame;
@@ -94,9 +95,9 @@ impl Lower {
                     }
                 }
                 Meaning::Advise(AdviceKind::StrokeCheck, Some(_)) if self.has_axis_word(words) => {
-                    let name = "limits of the stroke check".into();
+                    let what = CodeUnsupported::StrokeLimits.into();
                     let code_text = code.row.code.as_str().into();
-                    self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                    self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
                     b"XYZABC".iter().for_each(|letter| _ = words.take(*letter));
                 }
                 Meaning::SetOriginOffsets(first) if code.row.count.is_some() => {
@@ -224,16 +225,16 @@ impl Lower {
             self.check_shut(code, out);
         }
         if let (Meaning::UseOriginShift(true), KeptShift::Unknown) = (code.meaning, self.state.shift_kept) {
-            let name = "an origin shift of an earlier program taken up again".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = FrameUnsupported::OriginOfBefore.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
         if let (Meaning::SelectPlane(plane), CycleState::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
             // Of a text that was emitted, the plane at the start is what was taken for granted.
             && (self.assume || active.plane.known().is_some())
         {
-            let name = "change of the plane while a cycle is in force".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = MoveUnsupported::PlaneInCycle.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
         self.set_mode(code.meaning, out);
         let op = match code.meaning {
@@ -286,8 +287,8 @@ impl Lower {
             },
             (None, None) => PathControl::plain(PathMode::Continuous),
             (None, Some((_, span))) => {
-                let name = "tolerance for moves that are made one without one for corners".into();
-                return self.fault(Fault::NotSupported { code: src.text(span), name }, span, out);
+                let what = CodeUnsupported::CornerTolerance.into();
+                return self.fault(Fault::NotSupported { code: src.text(span), what }, span, out);
             }
         };
         self.push(code.span, Op::SetMotionControlMode(Box::new(control)), out);
@@ -306,8 +307,8 @@ impl Lower {
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
         if self.has_axis_word(words) {
-            let name = "advice to the control in a block with axis words".into();
-            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            let what = CodeUnsupported::AdviceWithAxis.into();
+            return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
         }
         let value = match self.read_whole(&word, src, out) {
             None => return,
@@ -317,8 +318,8 @@ impl Lower {
             Some(value) if kind.has_amount() && (value as usize) < kind.values().len() => value as u8,
             Some(value) if code.row.on.unwrap_or(1) == value => 1,
             Some(_) => {
-                let name = "another use of this code".into();
-                return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+                let what = CodeUnsupported::OtherUse.into();
+                return self.fault(Fault::NotSupported { code: src.text(word.span), what }, word.span, out);
             }
         };
         let letter = code.row.words.as_bytes().get(1).copied().filter(|_| kind.has_amount());
@@ -354,8 +355,8 @@ impl Lower {
             |c: &Code| matches!(c.meaning, Meaning::StartCycle | Meaning::EndCycle | Meaning::Dwell);
         let words = || self.has_axis_word(words) || words.get(self.roles.speed).is_some();
         if waits && !codes.iter().any(settled) && words() {
-            let name = "between the code for rigid tapping and its cycle".into();
-            self.fault(Fault::NotSupported { code: "a move or a speed".into(), name }, block, out);
+            let what = MoveUnsupported::RigidTappingMove.into();
+            self.fault(Fault::NotSupported { code: self.rigid_code(), what }, block, out);
         }
     }
 
@@ -409,9 +410,9 @@ impl Lower {
             Meaning::MachineFunction(name) => {
                 if !code.row.after_move && b"XYZABC".iter().any(|letter| words.get(*letter).is_some()) {
                     // Whether it comes before or after the move is a matter of the machine.
-                    let name = "function of the machine in a block with axis words".into();
+                    let what = CodeUnsupported::AxisWords.into();
                     let code_text = code.row.code.as_str().into();
-                    return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                    return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
                 }
                 Op::MachineFunction(name.into())
             }

@@ -18,6 +18,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, Unsupported};
 
 use super::block_words::{Code, Roles, UsualBlocks, Words};
 use super::text::block::Block;
@@ -315,11 +316,15 @@ impl Lower {
         let rules = &self.settings.dialect.block;
         if rules.skip_levels == 0 {
             let code = rules.skip.as_str().into();
-            let name = "block skip: this control has no switch for it and executes the block always".into();
-            self.fault(Fault::NotSupported { code, name }, block.span, out);
+            let what = CodeUnsupported::NoSkipSwitch.into();
+            self.fault(Fault::NotSupported { code, what }, block.span, out);
         } else if block.skip > rules.skip_levels {
             let code = format!("/{}", block.skip).into();
-            self.fault(Fault::NotSupported { code, name: "block-skip level".into() }, block.span, out);
+            self.fault(
+                Fault::NotSupported { code, what: CodeUnsupported::SkipLevel.into() },
+                block.span,
+                out,
+            );
         }
         if self.assume && rules.skip_unsure && !std::mem::replace(&mut self.reported.skip, true) {
             let (code, meaning) = (rules.skip.as_str().into(), "block skip".into());
@@ -376,7 +381,7 @@ impl Lower {
             // Some words have a function of their own, which ncc knows and does not translate.
             let refused = self.letters[place].and_then(|row| row.refuse.as_deref());
             let fault = match refused {
-                Some(name) => Fault::NotSupported { code: src.text(word.span), name: name.into() },
+                Some(name) => Fault::not_supported(src.text(word.span), Unsupported::named(name)),
                 None => Fault::WordUnused { word: src.text(word.span) },
             };
             self.fault(fault, word.span, out);

@@ -11,6 +11,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use super::lower::Lower;
 use super::text_facts::OwnCentre;
@@ -21,8 +22,8 @@ use crate::common::number::{spell, unit_of};
 use crate::common::words::{Digits, Value, Word};
 
 fn centre_open() -> Fault {
-    let name = "centre of an arc that is measured as other blocks say".into();
-    Fault::NotSupported { code: "I J K".into(), name }
+    let what = MoveUnsupported::CentreOfOtherBlocks.into();
+    Fault::NotSupported { code: "I J K".into(), what }
 }
 
 /// Digits behind the point that are kept of a length which may be in inches: a millionth of a micrometre is finer than

@@ -5,6 +5,7 @@
 
 use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, Meaning, Role};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::unsupported::{CodeUnsupported, Unsupported};
 
 use super::block_words::{Code, Words};
 use super::lower::Lower;
@@ -128,8 +129,8 @@ impl Lower {
             self.now.refused = true;
             let cycles = dialect.code_for(Meaning::StartCycle).map(|row| row.group.as_str());
             self.now.cycle_refused |= cycles == Some(&row.group);
-            let name = row.refuse.as_deref().unwrap_or_default().into();
-            return self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, word.span, out);
+            let what = Unsupported::named(row.refuse.as_deref().unwrap_or_default());
+            return self.fault(Fault::NotSupported { code: row.code.as_str().into(), what }, word.span, out);
         };
         let of_group = |c: &Code| !row.group.is_empty() && c.row.group == row.group;
         if row.passed_over && codes.iter().any(of_group) {
@@ -157,8 +158,8 @@ impl Lower {
         let words = block.words.get(tail..).unwrap_or_default();
         let calls = codes.iter().any(|c| matches!(c.meaning, Meaning::Call | Meaning::Return));
         if calls || words.iter().any(|w| w.letter != b'M') {
-            let name = "block skip amid the words of a block".into();
-            self.fault(Fault::NotSupported { code: "/".into(), name }, block.span, out);
+            let what = CodeUnsupported::SkipAmidWords.into();
+            self.fault(Fault::NotSupported { code: "/".into(), what }, block.span, out);
         }
     }
 }

@@ -6,6 +6,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::Op;
+use ncc_ir::unsupported::SpindleUnsupported;
 
 use super::block_words::{Code, Words};
 use super::lower::Lower;
@@ -25,14 +26,14 @@ impl Lower {
         }
         let asked = self.settings.dialect.option.iter().any(|option| option.name == AXIS);
         if asked && self.option(AXIS, code.span, out) != "X" {
-            let name = "constant surface speed about another axis than X".into();
-            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            let what = SpindleUnsupported::SurfaceAxis.into();
+            return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
         }
         if let Some(letter) = code.row.limit {
             let word = words.take(letter as u8);
             if *self.limits.get_or_insert(word.is_some()) != word.is_some() {
-                let name = "surface speeds with and without a limit".into();
-                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                let what = SpindleUnsupported::SurfaceLimits.into();
+                return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
             }
             if let Some(word) = word
                 && let Some(limit) = self.number(&word, Quantity::Speed, src, out)
@@ -52,8 +53,8 @@ impl Lower {
             && let Some(code) = settings.iter().find(|c| matches!(c.meaning, Meaning::UseLengthUnits(_)))
             && met()
         {
-            let name = "units in the block of a surface speed".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = SpindleUnsupported::SurfaceUnits.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
     }
 
@@ -70,11 +71,11 @@ impl Lower {
             return;
         }
         if self.has_axis_word(words) {
-            let name = "coordinates and a limit of the spindle in one block".into();
+            let what = SpindleUnsupported::LimitAndAxes.into();
             b"XYZABC".iter().for_each(|letter| _ = words.take(*letter));
             _ = words.take(self.roles.speed);
             let code_text = code.row.code.as_str().into();
-            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
         }
         let Some(word) = words.take(self.roles.speed) else {
             let word = char::from(self.roles.speed).to_string().into();
@@ -105,8 +106,9 @@ impl Lower {
                 return None;
             }
             if !chosen {
-                let name = format!("{} of the spindle's angle, by the option {}", said.letter, option.name);
-                self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
+                let option = option.name.as_str().into();
+                let what = SpindleUnsupported::AngleByOption { letter: said.letter, option };
+                self.fault(Fault::NotSupported { code: code_text, what: what.into() }, code.span, out);
                 _ = words.take(said.letter as u8);
                 return None;
             }
@@ -129,15 +131,15 @@ impl Lower {
             && let Some(word) = words.take(turn as u8)
             && self.read_whole(&word, src, out)? != 0
         {
-            let name = "sense in which the spindle turns to its angle".into();
-            return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+            let what = SpindleUnsupported::Direction.into();
+            return self.refuse(Fault::NotSupported { code: src.text(word.span), what }, word.span, out);
         }
         let said = said?;
         let word = words.take(said.letter as u8)?;
         if self.settings.dialect.cycles.retained_by_all() {
             // The cycles have the letter too; whether theirs changes with it, no source tells.
-            let name = format!("{} of the spindle's angle while a cycle is in force", said.letter).into();
-            self.without_cycle(Fault::NotSupported { code: code_text, name }, word.span, out);
+            let what = SpindleUnsupported::AngleInCycle { letter: said.letter }.into();
+            self.without_cycle(Fault::NotSupported { code: code_text, what }, word.span, out);
         }
         let mut angle = self.number(&word, said.quantity, src, out)?;
         angle.unit = Unit::Degree;

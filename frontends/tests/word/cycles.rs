@@ -104,11 +104,11 @@ fn incremental_cycles() {
     );
     assert_eq!(
         faults("mach9", "G91\nG81Z-6.R3.F191\n"),
-        ["NotSupported { code: 'G81', name: 'cycle with incremental words' } at 'G81'"]
+        ["NotSupported { code: 'G81', what: Cycle(Increments) } at 'G81'"]
     );
     assert_eq!(
         faults("mach9", "G81Z-6.R3.F191\nG91\nX1.\n"),
-        ["NotSupported { code: 'G81', name: 'cycle with incremental words' } at 'X1.'"]
+        ["NotSupported { code: 'G81', what: Cycle(Increments) } at 'X1.'"]
     );
 }
 
@@ -120,7 +120,7 @@ fn repetitions_of_a_cycle() {
     );
     assert_eq!(
         faults("fanuc", "G81 Z-5. R2. F50. L3\n"),
-        ["NotSupported { code: 'L3', name: 'repetition by L' } at 'L3'"]
+        ["NotSupported { code: 'L3', what: Code(Named { name: 'repetition by L' }) } at 'L3'"]
     );
     assert_eq!(faults("fanuc", "G81 X1. Z-5. R2. K99999\n"), ["OutOfRange { word: 'K99999' } at 'K99999'"]);
 }
@@ -174,11 +174,11 @@ fn what_a_cycle_lacks() {
     assert_eq!(faults("fanuc", "G83 X1. Z-5. R2. Q0\n")[0], "OutOfRange { word: 'Q0' } at 'Q0'");
     assert_eq!(
         faults("fanuc", "G18 G81 X1. Z-5. R2.\n"),
-        ["NotSupported { code: 'G81', name: 'cycle along another axis' } at 'G81'"]
+        ["NotSupported { code: 'G81', what: Cycle(OtherAxis) } at 'G81'"]
     );
     assert_eq!(
         faults("fanuc", "G81 X1. Z-5. R2.\nG18 X1.\n"),
-        ["NotSupported { code: 'G18', name: 'change of the plane while a cycle is in force' } at 'G18'"]
+        ["NotSupported { code: 'G18', what: Move(PlaneInCycle) } at 'G18'"]
     );
     assert_eq!(faults("mach9", "G81X1.Z-6.R3.\n"), ["WordUnused { word: 'X1.' } at 'X1.'"]);
 }

@@ -76,24 +76,24 @@ fn codes_that_are_refused() {
     assert_eq!(faults("fanuc", "U5.\n"), ["UnknownCode { code: 'U5.' } at 'U5.'"]);
     assert_eq!(
         faults("fanuc", "G12.1\n"),
-        ["NotSupported { code: 'G12.1', name: 'polar interpolation' } at 'G12.1'"]
+        ["NotSupported { code: 'G12.1', what: Code(Named { name: 'polar interpolation' }) } at 'G12.1'"]
     );
     assert_eq!(
         faults("fanuc", "G41 D1 X1. G12.1\n"),
-        ["NotSupported { code: 'G12.1', name: 'polar interpolation' } at 'G12.1'"]
+        ["NotSupported { code: 'G12.1', what: Code(Named { name: 'polar interpolation' }) } at 'G12.1'"]
     );
     assert_eq!(
         faults("fanuc", "G1 X5. ,A45.\n"),
-        ["NotSupported { code: ',A45.', name: 'line by its angle' } at ',A45.'"]
+        ["NotSupported { code: ',A45.', what: Move(CommaAngle) } at ',A45.'"]
     );
     assert_eq!(faults("fanuc", "G0 X5. ,R2.\n"), ["WordUnused { word: ',R2.' } at ',R2.'"]);
     assert_eq!(
         faults("haas", "M98 <PART>\n"),
-        ["NotSupported { code: '<PART>', name: 'program with a name' } at '<PART>'"]
+        ["NotSupported { code: '<PART>', what: Text(ProgramName) } at '<PART>'"]
     );
     assert_eq!(
         faults("fanuc", "M98 P<PART>\n"),
-        ["NotSupported { code: 'P<PART>', name: 'program with a name' } at 'P<PART>'"]
+        ["NotSupported { code: 'P<PART>', what: Text(ProgramName) } at 'P<PART>'"]
     );
 }
 
@@ -119,7 +119,7 @@ fn words_that_are_too_many_or_too_few() {
     );
     assert_eq!(
         faults("mach9", "G0X60.Q10.\n"),
-        ["NotSupported { code: 'Q10.', name: 'corner rounding or chamfer' } at 'Q10.'"]
+        ["NotSupported { code: 'Q10.', what: Code(Named { name: 'corner rounding or chamfer' }) } at 'Q10.'"]
     );
     assert_eq!(faults("mach9", "H90E240\n").len(), 2);
     assert_eq!(faults("mach9", "H90E240L25\n"), ["LabelUnknown { name: 'N90' } at 'H90'"]);
@@ -148,9 +148,7 @@ fn the_macro_language_is_refused_by_name() {
     };
     refused("G0 X##1\n", "##1");
     refused("X[#1.]\n", "#1.");
-    let code = "code whose number may be anything: on a way to it, its variable has neither that of a code in force \
-                nor one of a known range";
-    let told = format!("NotSupported {{ code: 'G#1', name: '{code}' }} at 'G#1'");
+    let told = "NotSupported { code: 'G#1', what: Code(AnyNumber) } at 'G#1'";
     assert_eq!(faults("fanuc", "G#1\n"), [told]);
     refused("M[#1+3]\n", "M[#1+3]");
     refused("G51 X0 Y0 Z0 P#1\n", "P#1");
@@ -187,34 +185,28 @@ fn the_macro_language_is_refused_by_name() {
     }
     assert_eq!(
         faults("fanuc", "G66 P9000 A1.\nG66 P9001\n")[0],
-        "NotSupported { code: 'G66', name: 'modal macro call within another' } at 'G66'"
+        "NotSupported { code: 'G66', what: Call(ModalInModal) } at 'G66'"
     );
 }
 
 #[test]
 fn loops_and_macro_calls_that_are_none() {
     let one = |piece: &str, wanted: &str| assert_eq!(faults("fanuc", piece), [wanted], "{piece}");
-    one("END1\n", "NotSupported { code: 'END1', name: 'end of no loop' } at 'END1'");
-    one("DO 2\nX1.\n", "NotSupported { code: 'DO2', name: 'loop without its end' } at 'DO 2'");
-    one("DO4\nEND4\n", "NotSupported { code: 'DO4', name: 'loop of another number' } at 'DO4'");
-    one(
-        "DO1\nDO1\nEND1\nEND1\n",
-        "NotSupported { code: 'DO1', name: 'loop within one of its number' } at 'DO1'",
-    );
+    one("END1\n", "NotSupported { code: 'END1', what: Flow(EndOfNoLoop) } at 'END1'");
+    one("DO 2\nX1.\n", "NotSupported { code: 'DO2', what: Flow(LoopUnclosed) } at 'DO 2'");
+    one("DO4\nEND4\n", "NotSupported { code: 'DO4', what: Flow(LoopNumber) } at 'DO4'");
+    one("DO1\nDO1\nEND1\nEND1\n", "NotSupported { code: 'DO1', what: Flow(LoopTwice) } at 'DO1'");
     let crossing = "WHILE[#1 LT 5]DO1\nDO2\nEND1\nEND2\n";
-    let wanted = "NotSupported { code: 'END1', name: 'end of a loop within the loop 2' } at 'END1'";
+    let wanted = "NotSupported { code: 'END1', what: Flow(EndOfOther { own: 2 }) } at 'END1'";
     assert_eq!(faults("fanuc", crossing)[0], wanted);
     one(
         "/WHILE[#1 LT 5]DO1\nX1.\nEND1\n",
-        "NotSupported { code: 'END1', name: 'loop whose head or end can be skipped' } at 'END1'",
+        "NotSupported { code: 'END1', what: Flow(LoopSkipped) } at 'END1'",
     );
     // A head that is refused is one slip.
     one("WHILE[BIN[#1] LT 5]DO1\nX1.\nEND1\n", "MacroLanguage { what: 'BIN[#1]' } at 'BIN[#1]'");
     one("G65 A1.\n", "WordMissing { code: 'G65', word: 'P' } at 'G65'");
-    one(
-        "G65 P9000 E5\n",
-        "NotSupported { code: 'E5', name: 'argument without a decimal point, of an address whose increment is the machine's' } at 'E5'",
-    );
+    one("G65 P9000 E5\n", "NotSupported { code: 'E5', what: Code(IncrementUnit) } at 'E5'");
     one("G65 P9000 X1. X2.\n", "WordTwice { letter: 'X' } at 'X2.'");
     one("G65 P9000 G1 X1.\n", "WordUnused { word: 'G1' } at 'G1'");
     one("G65 P9000 A\n", "WordWithoutNumber { letter: 'A' } at 'A'");

@@ -110,13 +110,13 @@ fn subprograms_stand_after_the_main_program() {
     assert_eq!(stmts(&read("fanuc", "O1\n/M99\nM30\n")), ["/1 BeginAgain", "ProgramEnd"]);
     assert_eq!(stmts(&read("linuxcnc", "G21\nM99\n")).last().map(String::as_str), Some("BeginAgain"));
     assert_eq!(errors("fanuc", "O1\nM99\nG21\n"), ["TextAfterEnd at 'G21'"]);
-    let name = "return in the main program: endless repetition";
-    let told = format!("NotSupported {{ code: 'M99', name: '{name}' }} at 'M99'");
+    let what = "Call(MainReturn)";
+    let told = format!("NotSupported {{ code: 'M99', what: {what} }} at 'M99'");
     assert_eq!(errors("fanuc", "O1\n/M99\nM99\n"), [told]);
     // One that says where its caller goes on.
     assert!(errors("fanuc", "O1\nM98 P2\nN100 M30\nO2\nM99 P100\n").is_empty());
-    let name = "return to a block of a caller that is not in the text";
-    let told = format!("NotSupported {{ code: 'M99', name: '{name}' }} at 'M99'");
+    let what = "Call(ReturnElsewhere)";
+    let told = format!("NotSupported {{ code: 'M99', what: {what} }} at 'M99'");
     assert_eq!(errors("fanuc", "O1\nM30\nO2\nM99 P100\n"), [told]);
     assert_eq!(errors("fanuc", "O1\nM99 P100\n"), ["WordUnused { word: 'P100' } at 'P100'"]);
 }

@@ -135,7 +135,7 @@ fn arcs_that_are_none() {
     assert_eq!(faults("fanuc", "G2 X1. I1. K1.\n"), ["WordUnused { word: 'K1.' } at 'K1.'"]);
     assert_eq!(
         faults("mach9", "G2X1.Y1.Z1.I1.J0\n"),
-        ["NotSupported { code: 'Z', name: 'arc with a third axis' } at 'G2X1.Y1.Z1.I1.J0'"]
+        ["NotSupported { code: 'Z', what: Move(HelixAxis) } at 'G2X1.Y1.Z1.I1.J0'"]
     );
     assert_eq!(faults("mach9", "G2X1.R5.\n"), ["ArcWithoutCentre at 'G2X1.R5.'"]);
 }
@@ -171,7 +171,7 @@ fn length_offsets() {
     let text = "G21 G90\nG43 Z5.\nM30\n";
     let missing = "WordMissing { code: 'G43', word: 'H' } at 'G43'";
     assert!(diagnostics(&read("fanuc", text), text).contains(&missing.to_owned()));
-    let unknown = "NotSupported { code: 'G43', name: 'H of a block before, of which entry is not known here' } at 'G43'";
+    let unknown = "NotSupported { code: 'G43', what: Move(EntryOfBefore { letter: 'H' }) } at 'G43'";
     assert_eq!(faults("fanuc", "/G43 H2 Z5.\nG43 Z6.\n"), [unknown]);
     assert_eq!(faults("fanuc", "G43 H#1 Z5.\nG43 Z6.\n"), [unknown]);
     let once = |id, text: &str| {
@@ -212,17 +212,14 @@ fn block_skip() {
     assert_eq!(after_head("fanuc", "Z2./2 M9\n"), ["TRAVERSE Z2.", "/2 CoolantOff"]);
     assert_eq!(
         faults("fanuc", "X1./Y2.\n"),
-        ["NotSupported { code: '/', name: 'block skip amid the words of a block' } at 'X1./Y2.'"]
+        ["NotSupported { code: '/', what: Code(SkipAmidWords) } at 'X1./Y2.'"]
     );
     assert_eq!(
         faults("fanuc", "/1/3 X1.\n"),
-        ["NotSupported { code: '/3', name: 'second skip level in a block' } at '/3'"]
+        ["NotSupported { code: '/3', what: Code(SecondSkipLevel) } at '/3'"]
     );
     assert_eq!(faults("fanuc", "/0 X1.\n"), ["OutOfRange { word: '/0' } at '/0'"]);
-    assert_eq!(
-        faults("mach9", "/2X1.\n"),
-        ["NotSupported { code: '/2', name: 'block-skip level' } at '/2X1.'"]
-    );
+    assert_eq!(faults("mach9", "/2X1.\n"), ["NotSupported { code: '/2', what: Code(SkipLevel) } at '/2X1.'"]);
     assert_eq!(
         assumptions("mach9", "/M5\n/M5\nM2\n"),
         ["AssumedRow { code: '/', meaning: 'block skip' } at '/M5'"]

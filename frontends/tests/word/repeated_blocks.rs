@@ -53,7 +53,7 @@ fn pieces_and_the_whole_agree() {
 fn what_blocks_put_in_force_for_themselves_is_found_out() {
     let other = |piece: &str| {
         let found = faults("mach9", piece);
-        found.iter().any(|fault| fault.contains("other modes in force"))
+        found.iter().any(|fault| fault.contains("Call(RepeatModes)"))
     };
     // The second time the blocks begin under the motion at feed.
     assert!(other("N10X5.\nN20G1X10.\nH10E20L1\nM2\n"));

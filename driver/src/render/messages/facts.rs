@@ -97,7 +97,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             let m = m.text("code", shown(code));
             if is_open(code, at.from) { m.form("machine") } else { m }
         }
-        Fault::NotSupported { code, name } => m.text("code", shown(code)).text("name", plain(name)),
+        Fault::NotSupported { code, what } => m.reason(what).text("code", shown(code)).typed(typed(at.from)),
         Fault::CodesExclude { first, second } => m.text("first", shown(first)).text("second", shown(second)),
         Fault::WordUnused { word } | Fault::PointNotAllowed { word } | Fault::OutOfRange { word } => {
             m.text("word", shown(word))

@@ -14,6 +14,7 @@ use ncc_ir::program::numbered::Numbered;
 use ncc_ir::reason::{Reason, Values, Variants};
 use ncc_ir::run_time::{ComputedFrame, RunTime, RunTimeFlow};
 use ncc_ir::unexecuted::{FlowUnexecuted, NoCorner, Unexecuted, ValueUnexecuted};
+use ncc_ir::unsupported::{Unsupported, ValueUnsupported};
 
 use super::advice::advice;
 use super::codes::typed;
@@ -69,9 +70,9 @@ fn text_and_meaning() -> Vec<Fault> {
         ComparedLast { what: "EQ".into() },
         UnknownCode { code: "G123".into() },
         UnknownCode { code: "M46".into() },
-        NotSupported { code: "G12".into(), name: "circular pocket".into() },
-        NotSupported { code: "M31".into(), name: "chip conveyor forward".into() },
-        NotSupported { code: "#3000".into(), name: "variable of the control".into() },
+        NotSupported { code: "G12".into(), what: Unsupported::named("circular pocket, clockwise") },
+        NotSupported { code: "M31".into(), what: Unsupported::named("chip conveyor forward") },
+        NotSupported { code: "#3000".into(), what: ValueUnsupported::Control.into() },
         CodesExclude { first: "G90".into(), second: "G91".into() },
         WordUnused { word: t() },
         WordMissing { code: "G41".into(), word: "D".into() },
@@ -347,6 +348,7 @@ fn every_reason_has_its_words() {
     let mut all = wings(501, Lack::WINGS);
     all.extend(wings(226, Unexecuted::WINGS));
     all.extend(wings(233, RunTime::WINGS));
+    all.extend(wings(202, Unsupported::WINGS));
     all.extend(NoCorner::VARIANTS.iter().map(|(name, fields)| Named {
         code: 250,
         name: (*name).to_owned(),
@@ -361,6 +363,7 @@ fn every_reason_has_its_words() {
             let mut message = Message::new(reason.code)
                 .reason(&Sample { name: &reason.name, fields: reason.fields, nested: what })
                 .text("source", "fanuc")
+                .text("code", "G68")
                 .text("target", "siemens")
                 .typed(typed(at));
             if what.is_some_and(|what| what.contains("Function") || what == "BeforeLeadOut") {
@@ -376,7 +379,9 @@ fn every_reason_has_its_words() {
                     long.push(format!("{} {}: {words}", words.chars().count(), reason.name));
                 }
             }
-            let option = |help: Help| help.text("option", "tap_dwell").text("value", "left-out");
+            let option = |help: Help| {
+                help.text("option", "tap_dwell").text("value", "left-out").text("options", "`M5`")
+            };
             assert!(message.helps(Some(vec![Help::new("help")])).iter().all(|help| !help.is_empty()));
             if message.has("help-option") {
                 message.helps(Some(vec![option(Help::new("help-option"))]));
@@ -387,8 +392,8 @@ fn every_reason_has_its_words() {
 
     let mut known: Vec<String> =
         all.iter().map(|reason| format!("NC{:04}-{}", reason.code, reason.name)).collect();
-    known.extend([501, 226, 233, 250].map(|code| format!("NC{code:04}")));
-    let entries = FILES.iter().filter(|files| [501, 226, 233, 250].contains(&files.code));
+    known.extend([501, 226, 233, 250, 202].map(|code| format!("NC{code:04}")));
+    let entries = FILES.iter().filter(|files| [501, 226, 233, 250, 202].contains(&files.code));
     let entries = entries.flat_map(|files| files.words.lines()).filter(|line| line.starts_with("NC"));
     let mut entries: Vec<String> =
         entries.map(|line| line.split(' ').next().unwrap_or("").to_owned()).collect();

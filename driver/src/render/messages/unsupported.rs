@@ -4,58 +4,60 @@ use ncc_dialects::{
     CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, Role,
 };
 use ncc_ir::expr::system::System;
+use ncc_ir::unsupported::{
+    CallUnsupported, CodeUnsupported, CycleUnsupported, MoveUnsupported, SpindleUnsupported,
+    TableUnsupported, Unsupported, ValueUnsupported,
+};
 
 use super::message::Help;
 
-/// The helps of NC0202 for a block of which `name` says what is not supported; `code` is its text. `None`: the help of the
-/// entry itself.
-pub(super) fn helps(code: &str, name: &str, from: &Dialect) -> Option<Vec<Help>> {
+/// The helps of NC0202 where they depend on the dialect, or are several; `code` is the text of what is refused. `None`:
+/// the help of the entry itself.
+pub(super) fn helps(code: &str, what: &Unsupported, from: &Dialect) -> Option<Vec<Help>> {
+    use Unsupported::{Call, Code, Cycle, Move, Spindle, Table, Value};
     let has = |option: &str| from.option.iter().any(|row| row.name == option);
-    if let Some(typed) = variant(code, from).or_else(|| by_option(name, from)) {
+    if let Some(typed) = variant(code, from) {
         return Some(vec![typed]);
     }
-    let all = match name {
-        _ if name.starts_with("return in the main program") => {
-            vec![Help::new("help-run-once"), Help::new("help-subprogram")]
-        }
-        "machine coordinates without an axis word" => {
-            let nothing = || option_help("help-no-axis-nothing", MACHINE_WITHOUT_AXIS, NOTHING);
+    let all = match what {
+        Code(CodeUnsupported::Named { name }) => vec![Help::new(of_name(name)?)],
+        Call(CallUnsupported::MainReturn) => vec![Help::new("help-run-once"), Help::new("help-subprogram")],
+        Cycle(CycleUnsupported::DwellByOption { option, .. })
+        | Spindle(SpindleUnsupported::AngleByOption { option, .. }) => vec![of_option(option, from)?],
+        Move(MoveUnsupported::MachineNoAxis) => {
+            let nothing = || option_help("help-nothing", MACHINE_WITHOUT_AXIS, NOTHING);
             let nothing = has(MACHINE_WITHOUT_AXIS).then(nothing);
-            [Help::new("help-no-axis")].into_iter().chain(nothing).collect()
+            [Help::new("help")].into_iter().chain(nothing).collect()
         }
-        "variable of the control" => vec![Help::new("help-system-variable")],
-        _ if name.ends_with(" while a cycle is in force") => vec![Help::new("help-cancel-cycle")],
-        _ if name.starts_with("computed feed that may count") => vec![Help::new("help-feed-unit")],
-        "variable that the program does not define" => {
-            vec![Help::new("help-definition"), Help::new("help-assignments")]
-        }
-        "D of a block before, of which entry is not known here" => {
+        Move(MoveUnsupported::RadiusEntryOfBefore { .. }) => {
             let without = has(RADIUS_UNSAID).then(without_radius);
             [Help::new("help-radius-entry")].into_iter().chain(without).collect()
         }
-        "data input for the entry of a code in force that the program has not said" => {
+        Table(TableUnsupported::EntryAtStart) => {
             let variable = code.rsplit_once('#').map_or("", |(_, number)| number);
             vec![Help::new("help-entry-at-start").text("variable", variable), Help::new("help-or-entry")]
         }
-        _ if name.ends_with("of a block before, of which entry is not known here") => {
-            let letter = name.chars().next().unwrap_or('H');
-            vec![Help::new("help-entry-word").text("letter", letter)]
+        Table(TableUnsupported::AnyEntry) if code.starts_with('#') => vec![Help::new("help-table-entry")],
+        Value(ValueUnsupported::Undefined) => {
+            vec![Help::new("help-definition"), Help::new("help-assignments")]
         }
-        "data input for an entry whose number only the running program knows" => {
-            vec![Help::new("help-entry")]
-        }
-        "VAR, or a first value, in a subprogram without its main program" => vec![Help::new("help-main")],
-        _ if name.starts_with("time that goes on while") => vec![Help::new("help-timer")],
-        "whether a probe has touched" => vec![Help::new("help-probe")],
-        "data input of this kind" => vec![Help::new("help-data-input")],
-        _ if code.starts_with('#') && name.starts_with("place of the control's tables whose number") => {
-            vec![Help::new("help-table-entry")]
-        }
-        "pocket milling" => vec![Help::new("help-pocket")],
-        _ if name.starts_with("circular pocket") => vec![Help::new("help-pocket")],
         _ => return None,
     };
     Some(all)
+}
+
+/// The help for what a dictionary refuses by this name.
+fn of_name(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "time that goes on while it is read" => "help-timer",
+        "whether a probe has touched" => "help-probe",
+        "pocket milling"
+        | "circular pocket clockwise"
+        | "circular pocket counter-clockwise"
+        | "circular pocket, clockwise"
+        | "circular pocket, counterclockwise" => "help-pocket",
+        _ => return None,
+    })
 }
 
 /// A help that names an option and a value of it.
@@ -78,9 +80,8 @@ pub(super) fn missing(code: &str, word: &str, from: &Dialect) -> Vec<Help> {
     [Help::new("help-add")].into_iter().chain(retract).chain(length_in_force(code, word, from)).collect()
 }
 
-/// What to type where an option decides what a word is: its name in brackets ends the fault's.
-fn by_option(name: &str, from: &Dialect) -> Option<Help> {
-    let option = name.split_once("(option ")?.1.strip_suffix(')')?;
+/// What to type where an option decides what a word is.
+fn of_option(option: &str, from: &Dialect) -> Option<Help> {
     let row = from.option.iter().find(|row| row.name == option)?;
     let values = row.values.iter().filter(|value| *value != DWELL_REFUSED);
     let typed: Vec<String> = values.map(|value| format!("`--from-option {option}={value}`")).collect();

@@ -16,6 +16,7 @@ use ncc_dialects::SystemRow;
 use ncc_ir::expr::Var;
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, TableUnsupported};
 
 /// What the text saves of the modes in force and puts back.
 #[derive(Debug, Default)]
@@ -52,9 +53,7 @@ impl Saved {
 }
 
 /// Why a code is refused.
-pub(crate) const ANY: &str = "code whose number may be anything: on a way to it, its variable has neither that of a code in force \
-                   nor one of a known range";
+pub(crate) const ANY: CodeUnsupported = CodeUnsupported::AnyNumber;
 
 /// Why a place of a table is refused.
-pub(crate) const ANY_PLACE: &str = "place of the control's tables whose number may be anything: on a way to it, its variable has \
-                              no whole number of a known range in which all are places of one table";
+pub(crate) const ANY_PLACE: TableUnsupported = TableUnsupported::AnyEntry;

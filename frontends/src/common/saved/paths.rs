@@ -13,6 +13,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CodeUnsupported;
 
 use self::comparisons::{compared, opposite, turned, variable};
 pub(crate) use self::range::{Range, range};
@@ -52,8 +53,8 @@ impl Saved {
             let sets =
                 |(own, set): &(Text, Option<Var>)| set.as_ref().is_none_or(|set| set == var && main(own));
             if self.set.iter().any(sets) {
-                let name = "code of a variable that the program itself sets".into();
-                out.report(Fault::NotSupported { code: code.clone(), name }, *span);
+                let what = CodeUnsupported::Variable.into();
+                out.report(Fault::NotSupported { code: code.clone(), what }, *span);
             }
         }
         if self.back.is_empty() {
@@ -317,11 +318,11 @@ impl PathAnalysis<'_> {
     /// Why such a code is not kept.
     fn refused(&self, code: &ComputedCode<'_>, at: Span) -> Fault {
         let told = self.saved.back.iter().find(|(span, _)| *span == at);
-        let (code, name) = match told {
+        let (code, what) = match told {
             Some((_, GroupSource::Entry(name))) => ((*name).into(), ANY_PLACE.into()),
             _ => (format!("G{}", spelt(code.number)).into(), ANY.into()),
         };
-        Fault::NotSupported { code, name }
+        Fault::NotSupported { code, what }
     }
 
     /// Whether the number of a code is surely that of one of these.

@@ -12,6 +12,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute, clearance_by_depth};
 use ncc_ir::program::{Alarm, Control, Op, Stmt};
+use ncc_ir::unsupported::CycleUnsupported;
 
 use super::drilling::Arguments;
 use crate::batch::Batch;
@@ -33,8 +34,9 @@ impl Lower {
             return self.needed_value(a, to, src, out);
         }
         if a.get(to).is_some() {
-            let name = format!("{} beside {} where one is computed", a.name(to), a.name(by));
-            self.not_supported(&a.row.name, &name, a.at(by), out);
+            let (first, second) = (a.name(to).into(), a.name(by).into());
+            let what = CycleUnsupported::TwoComputedDepths { first, second };
+            self.not_supported(&a.row.name, what, a.at(by), out);
             return None;
         }
         let down = self.value(a, by, src, out)?;
@@ -152,8 +154,8 @@ impl Lower {
         for (given, parameter) in a.given.iter().zip(&a.row.parameters) {
             let Some(given) = given.filter(|given| given.computed.is_some()) else { continue };
             if !parameter.role.is_some_and(|role| PLANES.contains(&role)) {
-                let name = format!("{}: an argument that is computed", parameter.name);
-                self.not_supported(&a.row.name, &name, given.span, out);
+                let what = CycleUnsupported::ComputedArgument { parameter: parameter.name.as_str().into() };
+                self.not_supported(&a.row.name, what, given.span, out);
                 return None;
             }
         }
@@ -171,8 +173,8 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<CycleKind> {
         if self.is_given(a, Role::LeastPeck) {
-            let name = format!("{} beside depths that are computed", a.name(Role::LeastPeck));
-            self.not_supported(&a.row.name, &name, a.at(Role::LeastPeck), out);
+            let what = CycleUnsupported::LeastPeckComputed { parameter: a.name(Role::LeastPeck).into() };
+            self.not_supported(&a.row.name, what, a.at(Role::LeastPeck), out);
             return None;
         }
         let settle = self.time(a, Role::Settle, src, out);

@@ -13,6 +13,7 @@ use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CycleUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -81,8 +82,9 @@ impl Lower {
                         && !value.is_zero()
                         && !neutral()
                     {
-                        let name = format!("{}: {refuse}", parameter.name);
-                        self.not_supported(&row.name, &name, *span, out);
+                        let (parameter, name) = (parameter.name.as_str().into(), refuse.as_str().into());
+                        let what = CycleUnsupported::RefusedArgument { parameter, name };
+                        self.not_supported(&row.name, what, *span, out);
                     }
                     if !parameter.sure && !value.is_zero() && self.first_time(&parameter.name) {
                         let what = parameter.name.as_str().into();
@@ -96,8 +98,9 @@ impl Lower {
                 Some(other) => {
                     let span = other.span();
                     if parameter.refuse.is_some() {
-                        let name = format!("{}: an argument that is computed", parameter.name);
-                        self.not_supported(&row.name, &name, span, out);
+                        let what =
+                            CycleUnsupported::ComputedArgument { parameter: parameter.name.as_str().into() };
+                        self.not_supported(&row.name, what, span, out);
                     }
                     self.formula(other, src, out).map(|typed| self.given(typed, span))
                 }
@@ -119,13 +122,13 @@ impl Lower {
             Some(2) => Some(Plane::Zx),
             Some(3) => Some(Plane::Yz),
             _ => {
-                let name = format!("{}: mode of the display", a.name(Role::WorkingPlane));
-                return self.not_supported(&a.row.name, &name, a.at(Role::WorkingPlane), out);
+                let what = CycleUnsupported::DisplayMode { parameter: a.name(Role::WorkingPlane).into() };
+                return self.not_supported(&a.row.name, what, a.at(Role::WorkingPlane), out);
             }
         };
         if says.is_some() && self.known_plane(a.at(Role::WorkingPlane), out) != says {
-            let name = format!("{}: another plane than the one in force", a.name(Role::WorkingPlane));
-            return self.not_supported(&a.row.name, &name, a.at(Role::WorkingPlane), out);
+            let what = CycleUnsupported::ArgumentPlane { parameter: a.name(Role::WorkingPlane).into() };
+            return self.not_supported(&a.row.name, what, a.at(Role::WorkingPlane), out);
         }
         let Some(place) = a.row.place(Role::DepthMode) else { return };
         let mode = self.whole_of(a, Role::DepthMode).unwrap_or(-1);
@@ -137,8 +140,8 @@ impl Lower {
             _ => false,
         };
         if !agrees || rest != 0 && !a.row.parameters[place].neutral.contains(&rest) {
-            let name = format!("{}: mode of depths and dwells", a.name(Role::DepthMode));
-            self.not_supported(&a.row.name, &name, a.at(Role::DepthMode), out);
+            let what = CycleUnsupported::DepthMode { parameter: a.name(Role::DepthMode).into() };
+            self.not_supported(&a.row.name, what, a.at(Role::DepthMode), out);
         }
     }
 
@@ -244,8 +247,8 @@ impl Lower {
         let cycle = Box::new(cycle);
         if modal {
             if matches!(self.state.cycle, ModalCall::Subprogram(_)) && self.skipped() {
-                let name = "end of a call after each move that a switch may skip";
-                return self.not_supported(&row.name, name, block, out);
+                let what = CycleUnsupported::CallEndSkipped;
+                return self.not_supported(&row.name, what, block, out);
             }
             self.push(block, Op::StartCycle(cycle.clone()), out);
             self.idle_tap = says_speed;
@@ -256,8 +259,8 @@ impl Lower {
         }
         self.repeated_blocks.use_fact(CYCLE);
         if !matches!(self.state.cycle, ModalCall::None | ModalCall::Refused) {
-            let name = "cycle called while another is modal";
-            return self.not_supported(&row.name, name, block, out);
+            let what = CycleUnsupported::InModalCycle;
+            return self.not_supported(&row.name, what, block, out);
         }
         if cycle.relies_on_feed() {
             self.rely_on_feed(block, out);
@@ -277,8 +280,8 @@ impl Lower {
     /// The same where the place is a code.
     pub(in crate::siemens) fn idle_tap_ends(&mut self, code: &str, at: Span, out: &mut Batch) {
         if std::mem::take(&mut self.idle_tap) {
-            let name = "a modal tap with a speed of its own that makes no hole";
-            self.not_supported(code, name, at, out);
+            let what = CycleUnsupported::IdleTap;
+            self.not_supported(code, what, at, out);
         }
     }
 
@@ -288,8 +291,8 @@ impl Lower {
         self.repeated_blocks.say(CYCLE);
         if matches!(self.state.cycle, ModalCall::Subprogram(_)) {
             if self.skipped() {
-                let name = "end of a call after each move that a switch may skip";
-                return self.not_supported("MCALL", name, at, out);
+                let what = CycleUnsupported::CallEndSkipped;
+                return self.not_supported("MCALL", what, at, out);
             }
             self.now.heading = true;
             self.state.cycle = ModalCall::None;
@@ -426,8 +429,9 @@ impl Lower {
         if to_given {
             let written = self.argument(a, to, src, out)?;
             if !written.is_zero() && (below(written, depth) || below(depth, written)) {
-                let name = format!("{} and {} that differ", a.name(to), a.name(by));
-                self.not_supported(&a.row.name, &name, a.at(by), out);
+                let (first, second) = (a.name(to).into(), a.name(by).into());
+                let what = CycleUnsupported::TwoDepths { first, second };
+                self.not_supported(&a.row.name, what, a.at(by), out);
                 return None;
             }
         }
@@ -466,8 +470,8 @@ impl Lower {
         if let Some(least) = self.argument(a, Role::LeastPeck, src, out)
             && (least.mantissa < 0 || below(stroke, least))
         {
-            let name = format!("{}: a least depth above that of the first peck", a.name(Role::LeastPeck));
-            self.not_supported(&a.row.name, &name, a.at(Role::LeastPeck), out);
+            let what = CycleUnsupported::LeastPeckAbove { parameter: a.name(Role::LeastPeck).into() };
+            self.not_supported(&a.row.name, what, a.at(Role::LeastPeck), out);
             return None;
         }
         let whole = self.sum(a, stroke, safety, out)?;

@@ -12,6 +12,7 @@ use ncc_ir::expr::{Binary, Expr, Node, Unary};
 use ncc_ir::geometry::polar;
 use ncc_ir::program::cycle::{Along, First, Pattern, Row, absolute};
 use ncc_ir::program::{Coord, Op, Point};
+use ncc_ir::unsupported::CycleUnsupported;
 
 use super::drilling::Arguments;
 use crate::batch::Batch;
@@ -43,8 +44,8 @@ impl Lower {
             self.fault(Fault::NoCycle, called.span, out);
         }
         if matches!(self.state.cycle, ModalCall::Subprogram(_)) {
-            let name = "pattern of a subprogram called after each move";
-            return self.not_supported(&row.name, name, called.span, out);
+            let what = CycleUnsupported::PatternOfSubprogram;
+            return self.not_supported(&row.name, what, called.span, out);
         }
         let Some(arguments) = self.arguments(row, called, src, out) else {
             return;
@@ -176,8 +177,8 @@ impl Lower {
             Some(step) if step.is_zero() => Some(Expr::Num(share(count))),
             None if !is_never_zero(&step) => {
                 // The control shares the circle out where it is 0.
-                let name = format!("{}: an angle that is computed and may be 0", a.name(role));
-                self.not_supported(&a.row.name, &name, a.at(role), out);
+                let what = CycleUnsupported::StepComputed { parameter: a.name(role).into() };
+                self.not_supported(&a.row.name, what, a.at(role), out);
                 None
             }
             Some(_) | None => Some(step),
@@ -222,11 +223,8 @@ impl Lower {
                 return Some((Pattern::List(points.into_iter().map(point).collect()), begins));
             }
             _ => {
-                let name = format!(
-                    "{}: positions in another order than those of a grid or a frame",
-                    a.name(Role::Way)
-                );
-                self.not_supported(&a.row.name, &name, a.at(Role::Way), out);
+                let what = CycleUnsupported::PatternOrder { parameter: a.name(Role::Way).into() };
+                self.not_supported(&a.row.name, what, a.at(Role::Way), out);
                 return None;
             }
         }
@@ -273,7 +271,7 @@ impl Lower {
         use ParameterRole as Role;
         for role in [Role::FirstFlags, Role::SecondFlags] {
             if self.needed(a, role, src, out)?.whole_number() != Some(ALL_ABSOLUTE) {
-                self.not_supported(&a.row.name, "positions that are not all absolute", a.span, out);
+                self.not_supported(&a.row.name, CycleUnsupported::PointsNotAbsolute, a.span, out);
                 return None;
             }
         }
@@ -294,7 +292,7 @@ impl Lower {
                 (Some(x), Some(y)) if !gap => (x, y),
                 (x, y) => {
                     let at = x.or(y).map_or(a.span, |given| given.span);
-                    self.not_supported(&a.row.name, "gap between the positions", at, out);
+                    self.not_supported(&a.row.name, CycleUnsupported::PointsGap, at, out);
                     return None;
                 }
             };

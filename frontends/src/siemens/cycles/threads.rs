@@ -10,6 +10,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{BoreStop, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::program::{Op, Pitch};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CycleUnsupported;
 
 use super::drilling::Arguments;
 use crate::batch::Batch;
@@ -69,8 +70,8 @@ impl Lower {
         let hand = |num: Num| if num.mantissa < 0 { Turn::Counterclockwise } else { Turn::Clockwise };
         let found = match (self.written(a, Role::ThreadSize), self.written(a, Role::ThreadPitch)) {
             (Some(_), Some(_)) => {
-                let name = "size and pitch of the thread at once";
-                self.not_supported(&a.row.name, name, a.at(Role::ThreadPitch), out);
+                let what = CycleUnsupported::SizeAndPitch;
+                self.not_supported(&a.row.name, what, a.at(Role::ThreadPitch), out);
                 return None;
             }
             (None, None) => return Some(None),
@@ -135,8 +136,8 @@ impl Lower {
         let back = self.argument(a, Role::SpeedOut, src, out).filter(|num| !num.is_zero());
         let value = |num: Num| (num.trimmed().mantissa, num.trimmed().scale);
         if back.is_some() && back.map(value) != speed.map(value) {
-            let name = "another speed out of the thread";
-            self.not_supported(&a.row.name, name, a.at(Role::SpeedOut), out);
+            let what = CycleUnsupported::SpeedOut;
+            self.not_supported(&a.row.name, what, a.at(Role::SpeedOut), out);
             return None;
         }
         let pitch = Pitch::Stated(pitch.into());
@@ -165,8 +166,8 @@ impl Lower {
     ) -> Option<CycleKind> {
         let back = match self.whole_argument(a, Role::Back) {
             0 => {
-                let name = "spindle that turns round by itself";
-                self.not_supported(&a.row.name, name, a.at(Role::Back), out);
+                let what = CycleUnsupported::SpindleByItself;
+                self.not_supported(&a.row.name, what, a.at(Role::Back), out);
                 return None;
             }
             _ => self.sense(a, Role::Back, out)?,
@@ -187,8 +188,8 @@ impl Lower {
                 return self.refuse(Fault::WordMissing { code, word }, a.span, out);
             }
             (1, Some(_)) => {
-                let name = "feed and pitch of a thread at once";
-                self.not_supported(&a.row.name, name, a.at(Role::ThreadPitch), out);
+                let what = CycleUnsupported::FeedAndPitch;
+                self.not_supported(&a.row.name, what, a.at(Role::ThreadPitch), out);
                 return None;
             }
             _ => return self.out_of_range(a, Role::Encoder, out),
@@ -216,8 +217,8 @@ impl Lower {
     ) -> Option<CycleKind> {
         let turn = self.sense(a, Role::Sense, out)?;
         let Some(plane) = plane else {
-            let name = "in a plane that is not known";
-            self.not_supported(&a.row.name, name, a.span, out);
+            let what = CycleUnsupported::UnknownPlane;
+            self.not_supported(&a.row.name, what, a.span, out);
             return None;
         };
         let (first, second, normal) = plane.axes();

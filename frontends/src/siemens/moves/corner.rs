@@ -9,6 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -27,8 +28,8 @@ impl Lower {
         let Some(given) = words.take_named(NameRole::RoundCorners) else { return };
         let Some(num) = self.number(given, Quantity::Length, src, out) else { return };
         if self.skipped() {
-            let name = "modal rounding of corners in a block that can be skipped";
-            return self.not_supported(&src.text(given.span), name, given.span, out);
+            let what = MoveUnsupported::RoundingSkipped;
+            return self.not_supported(&src.text(given.span), what, given.span, out);
         }
         if num.mantissa < 0 {
             return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
@@ -81,8 +82,8 @@ impl Lower {
             Op::Call(_) | Op::Return | Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_)
         );
         if leads && self.rounding.is_some() {
-            let name = "label, call or return while every corner is rounded";
-            self.not_supported("RNDM", name, span, out);
+            let what = MoveUnsupported::RoundingFlow;
+            self.not_supported("RNDM", what, span, out);
         }
     }
 }

@@ -14,6 +14,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::ONE;
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape, Turns};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -56,8 +57,8 @@ impl Lower {
             self.repeated_blocks.say(MOTION);
             let foreign = matches!(self.state.cycle, ModalCall::Inherited { .. } | ModalCall::Lost { .. });
             if foreign && motion != Motion::Traverse {
-                let name = "motion at feed while a cycle of the caller may be in force";
-                self.not_supported(code.name, name, code.span, out);
+                let what = MoveUnsupported::FeedInCallersCycle;
+                self.not_supported(code.name, what, code.span, out);
             }
         }
         let line = |m| matches!(m, Motion::Traverse | Motion::Feed | Motion::Thread(_));
@@ -107,13 +108,13 @@ impl Lower {
                     self.push_to(polar, block, Op::Hole(Move { to, said: false }), out);
                 } else if cycle.feed.is_some() && self.state.modes.motion.value() != Some(Motion::Traverse) {
                     // The way there has the program's feed; the cycle's is taken up in the hole.
-                    let name = "position reached at feed under a cycle with a feed of its own";
-                    self.not_supported(&src.text(block), name, block, out);
+                    let what = MoveUnsupported::PositionAtFeed;
+                    self.not_supported(&src.text(block), what, block, out);
                 } else if self.idle_tap {
                     // On the way there the spindle still has the speed that was said before.
-                    let name = "way at feed or along Z to a tap with its own speed";
+                    let what = MoveUnsupported::TapPosition;
                     self.idle_tap = false;
-                    self.not_supported(&src.text(block), name, block, out);
+                    self.not_supported(&src.text(block), what, block, out);
                 } else {
                     self.push(block, Op::EndCycle, out);
                     self.path(motion.is_some(), machine, block, words, src, out);
@@ -129,8 +130,8 @@ impl Lower {
                 if self.is_position(machine, block, words, out) {
                     self.position(words, block, src, out);
                 } else if !self.now.failed {
-                    let name = "move other than a position under the cycle of a caller";
-                    self.not_supported(&src.text(block), name, block, out);
+                    let what = MoveUnsupported::NoPosition;
+                    self.not_supported(&src.text(block), what, block, out);
                 }
             }
             ModalCall::Lost { own_feed } => {
@@ -191,7 +192,7 @@ impl Lower {
                 let polar = self.polar_words(words, src, out).ok()?;
                 let to = self.point(false, machine, words, src, out);
                 if let (Some(code), true) = (machine, polar.is_some()) {
-                    self.not_supported(code.name, "polar words in machine coordinates", code.span, out);
+                    self.not_supported(code.name, MoveUnsupported::MachinePolar, code.span, out);
                 }
                 if let Some(code) = machine {
                     self.in_machine(code, &to, out);
@@ -205,7 +206,7 @@ impl Lower {
             }
             Some(arc) => {
                 if let Some(code) = machine {
-                    self.not_supported(code.name, "arc in machine coordinates", code.span, out);
+                    self.not_supported(code.name, MoveUnsupported::MachineArc, code.span, out);
                 }
                 self.rely_on_feed(block, out);
                 self.corner(words, block, src, out);
@@ -255,8 +256,8 @@ impl Lower {
             };
             if let Some(coord) = self.coord(given, row.quantity, src, out) {
                 if machine.is_some() && coord.distance == Fact::Known(Distance::Incremental) {
-                    let name = "incremental word in machine coordinates";
-                    self.not_supported(&src.text(given.span), name, given.span, out);
+                    let what = MoveUnsupported::MachineIncrementWord;
+                    self.not_supported(&src.text(given.span), what, given.span, out);
                 }
                 if let Some(stand) = self.stand.axes.get_mut(axis as usize) {
                     let absolute = coord.distance == Fact::Known(Distance::Absolute) && machine.is_none();
@@ -279,8 +280,8 @@ impl Lower {
             let Some((said, span)) = words.take_way(*letter) else { continue };
             let angle = words.get(*letter).map(|given| given.digits);
             if machine.is_some() || words.has_polar() {
-                let name = "way of a turning axis in machine coordinates, or beside polar words";
-                return self.not_supported(&src.text(span), name, span, out);
+                let what = MoveUnsupported::RotaryMachine;
+                return self.not_supported(&src.text(span), what, span, out);
             }
             if angle.is_some_and(|n| n.mantissa < 0) {
                 return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out);
@@ -296,8 +297,8 @@ impl Lower {
     /// A coordinate.
     fn coord(&mut self, given: Given, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Coord> {
         if given.way.is_some() {
-            let name = "way of a turning axis in anything but a line";
-            self.not_supported(&src.text(given.span), name, given.span, out);
+            let what = MoveUnsupported::RotaryNoLine;
+            self.not_supported(&src.text(given.span), what, given.span, out);
             return None;
         }
         let distance = match given.distance {

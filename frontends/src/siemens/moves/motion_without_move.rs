@@ -6,6 +6,7 @@
 
 use ncc_ir::program::{Move, Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::known::Know;
@@ -45,8 +46,8 @@ impl Lower {
         ) {
             // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be said.
             if motion != Motion::Traverse && std::mem::take(&mut self.motion_without_move) {
-                let name = "motion that no move has said, under a cycle, before control goes elsewhere";
-                self.not_supported(word_of(motion), name, at, out);
+                let what = MoveUnsupported::MotionUnderCycle;
+                self.not_supported(word_of(motion), what, at, out);
             }
             return None;
         }
@@ -56,9 +57,8 @@ impl Lower {
             Motion::Feed => Op::StraightFeed(nowhere),
             Motion::Arc(_) | Motion::Through | Motion::Tangent | Motion::Thread(_) => {
                 if std::mem::take(&mut self.motion_without_move) {
-                    let name =
-                        "motion that no move has said before control goes elsewhere or comes from there";
-                    self.not_supported(word_of(motion), name, at, out);
+                    let what = MoveUnsupported::MotionUnused;
+                    self.not_supported(word_of(motion), what, at, out);
                 }
                 return None;
             }

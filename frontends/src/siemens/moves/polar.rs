@@ -11,6 +11,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::PolarUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -53,18 +54,23 @@ impl Lower {
         out: &mut Batch,
     ) {
         if let Some(other) = words.codes.iter().find(|c| c.span != code.span).copied() {
-            return self.not_supported(code.name, "pole beside other codes", other.span, out);
+            return self.not_supported(code.name, PolarUnsupported::PoleBesideCodes, other.span, out);
         }
         let Some(plane) = self.known_plane(code.span, out) else { return };
         if from == PoleFrom::Pole && self.state.pole == Pole::Lost {
-            return self.not_supported(code.name, "pole from one that is not known", code.span, out);
+            return self.not_supported(code.name, PolarUnsupported::PoleFromUnknown, code.span, out);
         }
         let (first, second, _) = plane.axes();
         let mut along: [Option<Expr>; 3] = Default::default();
         for axis in [first, second] {
             let Some(given) = words.take(axis.letter()) else { continue };
             if given.distance.is_some() {
-                return self.not_supported(&src.text(given.span), "AC or IC of a pole", given.span, out);
+                return self.not_supported(
+                    &src.text(given.span),
+                    PolarUnsupported::PoleDistance,
+                    given.span,
+                    out,
+                );
             }
             along[axis as usize] = self.amount(given, Quantity::Length, src, out);
         }
@@ -80,18 +86,18 @@ impl Lower {
             [Some(radius), Some(angle)] if along.iter().all(Option::is_none) => {
                 if let Some(qualified) = [radius, angle].into_iter().find(|g| g.distance.is_some()) {
                     let text = src.text(qualified.span);
-                    return self.not_supported(&text, "AC or IC of a pole", qualified.span, out);
+                    return self.not_supported(&text, PolarUnsupported::PoleDistance, qualified.span, out);
                 }
                 at = None;
                 let radius = self.number(radius, Quantity::Length, src, out);
                 let angle = self.number(angle, Quantity::Angle, src, out);
                 let Some((radius, angle)) = radius.zip(angle) else { return };
                 if radius.mantissa < 0 {
-                    return self.not_supported(code.name, "negative polar radius", code.span, out);
+                    return self.not_supported(code.name, PolarUnsupported::NegativeRadius, code.span, out);
                 }
                 PoleWords::Polar { radius: Expr::Num(radius), angle: Expr::Num(angle) }
             }
-            _ => return self.not_supported(code.name, "pole by some of its words", code.span, out),
+            _ => return self.not_supported(code.name, PolarUnsupported::PoleIncomplete, code.span, out),
         };
         self.rely_on_frames(false, code.span, out);
         self.state.pole = Pole::Said(plane, at);
@@ -113,25 +119,25 @@ impl Lower {
         let Some(span) = radius.or(angle).map(|given| given.span) else {
             return Ok(None);
         };
-        let refuse = |lower: &mut Lower, name: &str, at: Span, out: &mut Batch| {
-            lower.not_supported(&src.text(at), name, at, out);
+        let refuse = |lower: &mut Lower, what: PolarUnsupported, at: Span, out: &mut Batch| {
+            lower.not_supported(&src.text(at), what, at, out);
             Err(())
         };
         if self.state.pole == Pole::Lost {
-            return refuse(self, "polar words about a pole that is not known", span, out);
+            return refuse(self, PolarUnsupported::UnknownPole, span, out);
         }
         if radius.is_some_and(|given| given.distance == Some(Distance::Incremental)) {
-            return refuse(self, "increment of a polar radius", span, out);
+            return refuse(self, PolarUnsupported::RadiusIncrement, span, out);
         }
         if radius.is_some_and(|given| given.digits.mantissa < 0) {
-            return refuse(self, "negative polar radius", span, out);
+            return refuse(self, PolarUnsupported::NegativeRadius, span, out);
         }
         let distance = match angle {
             Some(Given { distance: Some(distance), .. }) => distance,
             Some(given) => match self.distance(given.span, out) {
                 Fact::Known(Distance::Absolute) => Distance::Absolute,
                 Fact::Known(Distance::Incremental) => {
-                    return refuse(self, "polar angle under G91 without AC or IC", given.span, out);
+                    return refuse(self, PolarUnsupported::AngleUnderG91, given.span, out);
                 }
                 // G91, which leaves it open, may be in force.
                 Fact::Entry => {
@@ -159,16 +165,16 @@ impl Lower {
         out: &mut Batch,
     ) -> Result<PolarWords, ()> {
         let span = given.span;
-        let name = match () {
-            () if words.has_polar() => "angle of a line beside polar words",
-            () if given.distance.is_some() => "AC or IC of a line's angle",
+        let what = match () {
+            () if words.has_polar() => PolarUnsupported::AngleBesidePolar,
+            () if given.distance.is_some() => PolarUnsupported::LineAngleDistance,
             () => {
                 let value = self.amount(given, Quantity::Angle, src, out).ok_or(())?;
                 let angle = Coord { value, distance: Fact::Known(Distance::Absolute) };
                 return Ok(PolarWords { radius: None, angle: Some(angle), along: true, span });
             }
         };
-        self.not_supported(&src.text(span), name, span, out);
+        self.not_supported(&src.text(span), what, span, out);
         Err(())
     }
 
@@ -191,17 +197,17 @@ impl Lower {
             return self.push_along(angle, plane, span, block, op, out);
         }
         match ncc_ir::geometry::polar::end(&mut op) {
-            None => return self.not_supported(text, "polar words of this function", span, out),
+            None => return self.not_supported(text, PolarUnsupported::OfFunction, span, out),
             Some(to) if names(to) => {
-                let name = "polar words beside coordinates of the plane";
-                return self.not_supported(text, name, span, out);
+                let what = PolarUnsupported::BesideCoordinates;
+                return self.not_supported(text, what, span, out);
             }
             Some(_) => {}
         }
         if let Pole::Said(own, _) = self.state.pole
             && own != plane
         {
-            return self.not_supported(text, "polar words about a pole of another plane", span, out);
+            return self.not_supported(text, PolarUnsupported::PoleOfOtherPlane, span, out);
         }
         if self.state.pole == Pole::Unsaid {
             self.state.pole = Pole::Said(plane, Some([Num::int(0, Unit::Mm); 2]));
@@ -225,11 +231,11 @@ impl Lower {
         let (first, second, _) = plane.axes();
         let to = match &op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) => &m.to,
-            _ => return self.not_supported("ANG", "angle of anything but a line", span, out),
+            _ => return self.not_supported("ANG", PolarUnsupported::AngleOfNoLine, span, out),
         };
-        let name = match (to.get(first), to.get(second)) {
-            (None, None) => "line by its angle that the next block ends",
-            (Some(_), Some(_)) => "line by its angle with both of its coordinates",
+        let what = match (to.get(first), to.get(second)) {
+            (None, None) => PolarUnsupported::LineOfTwoBlocks,
+            (Some(_), Some(_)) => PolarUnsupported::LineOverdefined,
             (Some(_), None) | (None, Some(_)) => {
                 self.rely_on_frames(false, block, out);
                 self.stand.forget();
@@ -238,7 +244,7 @@ impl Lower {
                 return self.push(block, Op::Polar(Box::new(polar)), out);
             }
         };
-        self.not_supported("ANG", name, span, out);
+        self.not_supported("ANG", what, span, out);
     }
 
     /// The centre of an arc about the pole, if the text says where that is.
@@ -249,7 +255,7 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<Centre> {
         if polar.along {
-            self.not_supported("ANG", "angle of anything but a line", polar.span, out);
+            self.not_supported("ANG", PolarUnsupported::AngleOfNoLine, polar.span, out);
             return None;
         }
         let plane = self.known_plane(block, out)?;
@@ -259,7 +265,7 @@ impl Lower {
             Pole::Lost => None,
         };
         let Some(at) = at else {
-            self.not_supported("AP RP", "arc about a pole that is not said from zero", polar.span, out);
+            self.not_supported("AP RP", PolarUnsupported::ArcAboutPole, polar.span, out);
             return None;
         };
         let (first, second, _) = plane.axes();

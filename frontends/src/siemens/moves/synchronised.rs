@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, Pitch, Point, Synchronised};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -86,25 +87,25 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Option<(Axis, Point)> {
-        let name = match &self.state.cycle {
-            _ if other => Some("thread beside another motion or in machine coordinates"),
+        let what = match &self.state.cycle {
+            _ if other => Some(MoveUnsupported::ThreadBesideMotion),
             ModalCall::None | ModalCall::Refused => None,
             ModalCall::Active(_)
             | ModalCall::Subprogram(_)
             | ModalCall::Inherited { .. }
-            | ModalCall::Lost { .. } => Some("thread while a cycle or a subprogram may be modal"),
+            | ModalCall::Lost { .. } => Some(MoveUnsupported::ThreadInModal),
         };
         let to = self.point(false, None, words, src, out);
         let along: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| to.get(*axis).is_some()).collect();
-        let name = match (name, &along[..]) {
+        let what = match (what, &along[..]) {
             (None, [axis]) if !axis.is_rotary() => return Some((*axis, to)),
-            (Some(name), _) => name,
-            (None, _) => "thread along several axes, or round one",
+            (Some(what), _) => what,
+            (None, _) => MoveUnsupported::ThreadAxes,
         };
         for letter in LEADS {
             let _ = words.take(letter);
         }
-        self.not_supported(&src.text(block), name, block, out);
+        self.not_supported(&src.text(block), what, block, out);
         None
     }
 }

@@ -12,6 +12,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr as Value;
 use ncc_ir::program::{FrameSlot, Op, Point, Reference, ReferencePoint, Slot, Tilt, Toward};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::FrameUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -49,7 +50,7 @@ impl Lower {
     ) {
         let first = on && arguments.len() == 1 && number(arguments.first()) == Some(1);
         if !arguments.is_empty() && !first {
-            return self.not_supported(name, "transformation with parameters", span, out);
+            return self.not_supported(name, FrameUnsupported::TransformationParameters, span, out);
         }
         self.stand.forget();
         self.push(span, Op::UseToolCentrePoint(on), out);
@@ -65,7 +66,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         if !matches!(self.state.cycle, ModalCall::None) {
-            return self.not_supported(name, "swivelled plane while a cycle is in force", span, out);
+            return self.not_supported(name, FrameUnsupported::SwivelInCycle, span, out);
         }
         self.stand.forget();
         self.state.pole.lose();
@@ -78,18 +79,18 @@ impl Lower {
             return self.not_supported(name, what, span, out);
         }
         if !self.swivel_record(arguments.get(RECORD), src, out) {
-            return self.not_supported(name, "swivelled plane without kinematics", span, out);
+            return self.not_supported(name, FrameUnsupported::SwivelKinematics, span, out);
         }
         let about = number(arguments.get(MODE)).and_then(order_of);
         let Some(about) = about else {
-            return self.not_supported(name, "swivelled plane by angles of another kind", span, out);
+            return self.not_supported(name, FrameUnsupported::SwivelAngles, span, out);
         };
         let toward = match number(arguments.get(DIRECTION)) {
             Some(-1) => Some(Toward::Minus),
             Some(0) => None,
             Some(1) => Some(Toward::Plus),
             Some(_) | None => {
-                return self.not_supported(name, "swivelled plane without a stated direction", span, out);
+                return self.not_supported(name, FrameUnsupported::SwivelDirection, span, out);
             }
         };
         let optimised = match number(arguments.get(ADDED)).unwrap_or(0) {
@@ -99,11 +100,11 @@ impl Lower {
         };
         if optimised.is_some() && toward.is_some() {
             if optimised != toward {
-                let what = "swivelled plane whose status is about the other direction";
+                let what = FrameUnsupported::SwivelOtherStatus;
                 return self.not_supported(name, what, span, out);
             }
             if self.option("swivel_side", span, out) == "other" {
-                let what = "swivelled plane of which another side than the stated one is chosen";
+                let what = FrameUnsupported::SwivelOtherSide;
                 return self.not_supported(name, what, span, out);
             }
         }
@@ -113,11 +114,11 @@ impl Lower {
             Some(1) => &[&[Axis::Z]],
             Some(2) => &[&[Axis::Z], &[Axis::X, Axis::Y]],
             Some(_) => {
-                return self.not_supported(name, "swivelled plane that retracts along the tool", span, out);
+                return self.not_supported(name, FrameUnsupported::SwivelRetractTool, span, out);
             }
         };
         if !retracts.is_empty() && toward.is_none() {
-            return self.not_supported(name, "swivelled plane that retracts and turns no axis", span, out);
+            return self.not_supported(name, FrameUnsupported::SwivelRetractOnly, span, out);
         }
         let origin = ZERO.map(|place| self.swivel_value(arguments, place, Quantity::Length, src, out));
         let angles = ANGLES.map(|place| self.swivel_value(arguments, place, Quantity::Angle, src, out));
@@ -126,11 +127,11 @@ impl Lower {
             self.push(span, Op::ClearFrame(FrameSlot::Tilt), out);
         }
         if !self.tilt.starts() {
-            return self.not_supported(name, "swivelled plane where one may be in force already", span, out);
+            return self.not_supported(name, FrameUnsupported::SwivelAgain, span, out);
         }
         self.state.modes.tilt = Know::Said(true);
         if !retracts.is_empty() && self.option("swivel_retract", span, out) == "elsewhere" {
-            let what = "swivelled plane that retracts to another place than the machine's zero";
+            let what = FrameUnsupported::SwivelRetractElsewhere;
             return self.not_supported(name, what, span, out);
         }
         for axes in retracts {
@@ -189,7 +190,7 @@ impl Lower {
 }
 
 /// What of the arguments nobody here can say.
-fn refused(arguments: &[Option<Expr>]) -> Option<&'static str> {
+fn refused(arguments: &[Option<Expr>]) -> Option<FrameUnsupported> {
     let is_zero = |place: usize| match arguments.get(place) {
         None | Some(None) => true,
         Some(Some(Expr::Number(digits, _))) => digits.mantissa == 0,
@@ -197,16 +198,14 @@ fn refused(arguments: &[Option<Expr>]) -> Option<&'static str> {
     };
     let plane = matches!(number(arguments.get(PLANE)), Some(0 | 1)) || is_zero(PLANE);
     match () {
-        () if arguments.len() > PLANE + 1 || !plane => Some("swivelled plane of another working plane"),
+        () if arguments.len() > PLANE + 1 || !plane => Some(FrameUnsupported::SwivelPlane),
         () if !matches!(arguments.get(RETRACT), None | Some(None | Some(Expr::Number(..)))) => {
-            Some("swivelled plane that retracts by a computed value")
+            Some(FrameUnsupported::SwivelRetractComputed)
         }
         () if !is_zero(ADDED) && !matches!(number(arguments.get(ADDED)), Some(100_000 | 200_000)) => {
-            Some("swivelled plane that is added, or tracks the tool's tip")
+            Some(FrameUnsupported::SwivelAdded)
         }
-        () if !SECOND_SHIFT.iter().all(|place| is_zero(*place)) => {
-            Some("swivelled plane with a shift behind its turns")
-        }
+        () if !SECOND_SHIFT.iter().all(|place| is_zero(*place)) => Some(FrameUnsupported::SwivelShift),
         () => None,
     }
 }

@@ -15,6 +15,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr as Value, Many, Node, Var};
 use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CallUnsupported, Unsupported};
 
 use super::repeated_blocks::{NotRepeatable, Under};
 use crate::batch::Batch;
@@ -120,7 +121,7 @@ impl Lower {
             return self.call(&name, called.span, Handing::Written(arguments), [before, after], src, out);
         }
         if !before.is_empty() || !after.is_empty() {
-            return self.not_supported(&name, "call beside other words", head.span, out);
+            return self.not_supported(&name, CallUnsupported::BesideWords, head.span, out);
         }
         match row {
             None if name == "SETAL" => self.alarm(called, src, out),
@@ -143,12 +144,12 @@ impl Lower {
             return self.refuse_word("CALL", head.span, out);
         }
         let Some(text) = self.known_text(name, src) else {
-            return self.not_supported("CALL", "call by a text that is not known", head.span, out);
+            return self.not_supported("CALL", CallUnsupported::UnknownText, head.span, out);
         };
         let name = &*text;
         let plain = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
         if !plain || name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
-            return self.not_supported("CALL", "call by path", head.span, out);
+            return self.not_supported("CALL", CallUnsupported::ByPath, head.span, out);
         }
         self.call(name, head.span, Handing::Written(&[]), [&[], &[]], src, out);
     }
@@ -166,11 +167,11 @@ impl Lower {
             return self.refuse_word("EXTCALL", head.span, out);
         }
         let Some(text) = self.known_text(file, src) else {
-            return self.not_supported("EXTCALL", "call by a text that is not known", head.span, out);
+            return self.not_supported("EXTCALL", CallUnsupported::UnknownText, head.span, out);
         };
         let name = program_in_file(&text);
         if name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()) {
-            let what = "call of a file whose name is no name of a program";
+            let what = CallUnsupported::FileName;
             return self.not_supported("EXTCALL", what, head.span, out);
         }
         self.call(&name, head.span, Handing::Written(&[]), [&[], &[]], src, out);
@@ -192,14 +193,14 @@ impl Lower {
         match (dialect.call_row(&name), dialect.name_row(&name)) {
             (Some(row), _) if is_cycle(row.kind) => self.cycle(row, called, true, src, out),
             (None, Some(row)) => {
-                let refuse = row.refuse.as_deref().unwrap_or("modal call");
+                let refuse = row.refuse.as_deref().map_or(CallUnsupported::Modal.into(), Unsupported::named);
                 self.not_supported(&name, refuse, called.span, out);
                 self.state.cycle = ModalCall::Refused;
             }
-            (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
+            (Some(_), _) => self.not_supported(&name, CallUnsupported::ModalPattern, called.span, out),
             // A name begins with two letters, or an underline and one (PGsl, subprogram names); `L` alone has a number.
             (None, None) if is_word(&name) => {
-                self.not_supported("MCALL", "another word in its block", called.span, out);
+                self.not_supported("MCALL", CallUnsupported::ModalWord, called.span, out);
                 self.state.cycle = ModalCall::Refused;
             }
             (None, None) => self.call_modal_program(&name, called, src, out),
@@ -222,11 +223,11 @@ impl Lower {
             });
         }
         let refuse = if given.iter().flatten().any(|typed| !is_own(&typed.expr)) {
-            Some("call after each move with what others may change")
+            Some(CallUnsupported::ModalShared)
         } else if self.skipped() {
-            Some("call after each move that a switch may skip")
+            Some(CallUnsupported::ModalSkipped)
         } else if matches!(self.state.cycle, ModalCall::Inherited { .. } | ModalCall::Lost { .. }) {
-            Some("call after each move where a cycle of the caller may be in force")
+            Some(CallUnsupported::ModalInCycle)
         } else {
             None
         };
@@ -284,7 +285,7 @@ impl Lower {
                 self.now.refused = true;
                 return self.fault(Fault::UnknownCode { code: src.text(other.span) }, other.span, out);
             }
-            return self.not_supported(&src.text(at), "call beside other words", at, out);
+            return self.not_supported(&src.text(at), CallUnsupported::BesideWords, at, out);
         };
         if !(1..=MOST_TIMES).contains(&times) {
             return self.fault(Fault::OutOfRange { word: src.text(at) }, at, out);
@@ -295,8 +296,8 @@ impl Lower {
             ModalCall::Active(_) | ModalCall::Inherited { .. } => Under::Cycle { own_feed },
             ModalCall::Lost { .. } => Under::Either { own_feed },
             ModalCall::Subprogram(_) => {
-                let name = "call while a subprogram is called after each move";
-                return self.not_supported(&src.text(at), name, at, out);
+                let what = CallUnsupported::WhileModal;
+                return self.not_supported(&src.text(at), what, at, out);
             }
         };
         let drills = matches!(under, Under::Cycle { .. });
@@ -308,16 +309,16 @@ impl Lower {
                 None if matches!(self.state.cycle, ModalCall::Inherited { .. }) => {}
                 None => self.take_rapid(at, out),
                 Some(_) => {
-                    let name = "call under a cycle with another motion than G0 in force";
-                    return self.not_supported(&src.text(at), name, at, out);
+                    let what = CallUnsupported::UnderCycleMotion;
+                    return self.not_supported(&src.text(at), what, at, out);
                 }
             }
         } else {
             self.hand_motion_on(at, out);
         }
         if !self.repeated_blocks.call(name, &written, at, under) {
-            let name = "call under another cycle than where the subprogram was called before";
-            return self.not_supported(&src.text(at), name, at, out);
+            let what = CallUnsupported::UnderOtherCycle;
+            return self.not_supported(&src.text(at), what, at, out);
         }
         // What a subprogram finds in force that nothing has said is not what the text says.
         self.as_it_begins(out);
@@ -373,8 +374,8 @@ impl Lower {
     pub(in crate::siemens) fn leave(&mut self, at: Span, out: &mut Batch) {
         self.motion_goes_on(&[self.state.modes.motion], out);
         if self.state.cycle != self.entry && self.state.cycle != ModalCall::Refused {
-            let name = "cycle that its subprogram leaves in force or ends";
-            return self.not_supported("MCALL", name, at, out);
+            let what = CallUnsupported::CycleLeft;
+            return self.not_supported("MCALL", what, at, out);
         }
         // A caller's move that misses the feed of another way of counting is refused where it is executed.
         let unsaid = self.state.modes.feed == Know::Unsaid && !self.state.spent;
@@ -429,8 +430,8 @@ impl Lower {
                 return self.fault(Fault::LabelUnknown { name: to.unwrap_or(from) }, head.span, out);
             }
             Err(NotRepeatable::Differs) => {
-                let name = "repetition of blocks that find other modes in force than the first time";
-                return self.not_supported("REPEAT", name, head.span, out);
+                let what = CallUnsupported::RepeatDiffers;
+                return self.not_supported("REPEAT", what, head.span, out);
             }
         }
         out.whole = true;
@@ -453,7 +454,7 @@ impl Lower {
         for &attribute in attributes {
             let name = src.text(attribute).to_ascii_uppercase();
             let Some((_, own)) = ATTRIBUTES.iter().find(|(own, _)| *own == name) else {
-                self.not_supported(&name, "attribute of a subprogram", attribute, out);
+                self.not_supported(&name, CallUnsupported::Attribute, attribute, out);
                 continue;
             };
             match (own, &mut self.sub) {
@@ -461,7 +462,7 @@ impl Lower {
                 (Some(own), Some(procedure)) => procedure.attributes.push(*own),
                 // Of a program by itself the heading is not kept.
                 (Some(Attribute::GivesBack), None) => {
-                    self.not_supported(&name, "attribute of a subprogram", attribute, out);
+                    self.not_supported(&name, CallUnsupported::Attribute, attribute, out);
                 }
                 (Some(Attribute::RunsThrough | Attribute::NotShown), None) => {
                     out.report(Fault::AdviceLeftOut { kind: name.into() }, attribute);
@@ -540,7 +541,7 @@ impl Lower {
     }
 
     fn refuse_rapid(&mut self, at: Span, out: &mut Batch) {
-        self.not_supported("MCALL", "position under a cycle that G1 on some way may reach", at, out);
+        self.not_supported("MCALL", CallUnsupported::FirstPosition, at, out);
     }
 }
 

@@ -19,6 +19,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Node};
 use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CallUnsupported, FlowUnsupported};
 
 use super::labels::{InPlace, Label, Pending, marked, resolve};
 use super::open_structures::Flow;
@@ -195,7 +196,7 @@ impl Lower {
     fn jump(&mut self, jump: &Jump, src: Source, out: &mut Batch) -> Option<Op> {
         let name: Text = match &jump.target {
             None if self.sub.is_some() || self.unit == Some(unit::Kind::Sub) => {
-                self.not_supported("GOTOS", "jump to the start of a subprogram", jump.span, out);
+                self.not_supported("GOTOS", CallUnsupported::StartOfSub, jump.span, out);
                 return None;
             }
             None => {
@@ -216,7 +217,7 @@ impl Lower {
             }
             Some(Target::Named(other)) => {
                 let span = other.span();
-                self.not_supported(&src.text(span), "jump that is computed", span, out);
+                self.not_supported(&src.text(span), FlowUnsupported::Computed, span, out);
                 return None;
             }
         };
@@ -283,8 +284,8 @@ impl Lower {
         (self.flow.over, self.flow.has_end) = (false, false);
         let mut faulty = false;
         for open in open {
-            let (code, name) = (open.what.word().into(), "structure without its end".into());
-            out.report(Fault::NotSupported { code, name }, open.head);
+            let (code, what) = (open.what.word().into(), FlowUnsupported::Unclosed.into());
+            out.report(Fault::NotSupported { code, what }, open.head);
             faulty = true;
         }
         if jumps.is_empty() {

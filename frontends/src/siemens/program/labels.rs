@@ -9,6 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::FlowUnsupported;
 
 use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::Direction;
@@ -62,15 +63,13 @@ pub(in crate::siemens) fn resolve(
                 None
             }
             Some(to) => match &labels[to].found {
-                None => Some("jump far back, to a block that nothing was known to go to"),
-                Some(at) if *at != jump.found => {
-                    Some("jump to where another modal cycle or rounding is in force")
-                }
+                None => Some(FlowUnsupported::FarBack),
+                Some(at) if *at != jump.found => Some(FlowUnsupported::OtherModal),
                 Some(_) => None,
             },
         };
         if let Some(refuse) = refuse {
-            let fault = Fault::NotSupported { code: jump.name.clone(), name: refuse.into() };
+            let fault = Fault::NotSupported { code: jump.name.clone(), what: refuse.into() };
             reported.push(Diagnostic::new(fault, jump.span));
         }
         found.insert(marked(&jump.name, jump.span), to.map(|to| names[to].clone()));

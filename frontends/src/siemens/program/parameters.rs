@@ -21,6 +21,7 @@ use ncc_ir::expr::{Element, Expr, Many, Node, Target, Var};
 use ncc_ir::program::{Attribute, Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::unsupported::CallUnsupported;
 use ncc_passes::flow::restored_modes;
 
 use super::calls::Handing;
@@ -80,18 +81,19 @@ impl Lower {
             let alone = self.sub.is_none();
             let by_value = !declared.place.index.is_empty() && !parameter.by_reference;
             if kind == Kind::Text || by_value {
-                let name = if by_value { "array as a parameter without VAR" } else { "text as a parameter" };
-                self.not_supported(&src.text(at), name, at, out);
+                let what =
+                    if by_value { CallUnsupported::ArrayByValue } else { CallUnsupported::TextParameter };
+                self.not_supported(&src.text(at), what, at, out);
                 continue;
             }
             let otherwise = match &declared.initial {
                 _ if alone && (parameter.by_reference || declared.initial.is_some()) => {
-                    let name = "VAR, or a first value, in a subprogram without its main program";
-                    self.not_supported("PROC", name, at, out);
+                    let what = CallUnsupported::SubAlone;
+                    self.not_supported("PROC", what, at, out);
                     None
                 }
                 Some(_) if parameter.by_reference => {
-                    self.not_supported("VAR", "first value of the caller's own variable", at, out);
+                    self.not_supported("VAR", CallUnsupported::DefaultOfReference, at, out);
                     None
                 }
                 None => Some(Expr::int(0)),
@@ -100,7 +102,7 @@ impl Lower {
                     typed.and_then(|typed| self.converted(typed, kind, at, out))
                 }
                 Some(_) => {
-                    self.not_supported(&src.text(at), "first value in another form", at, out);
+                    self.not_supported(&src.text(at), CallUnsupported::DefaultForm, at, out);
                     None
                 }
             };
@@ -182,7 +184,7 @@ impl Lower {
         let mut found = Vec::with_capacity(sizes.len());
         for (at, size) in self.indices(place, src, out)?.iter().zip(sizes) {
             let Some(at) = at.literal() else {
-                let what = "computed index of an array that is the caller's own";
+                let what = CallUnsupported::ArrayIndexComputed;
                 self.not_supported(&src.text(place.span), what, place.span, out);
                 return None;
             };
@@ -282,8 +284,8 @@ impl Lower {
                 if !self.repeated_blocks.has_met(&call.name) {
                     continue;
                 }
-                let name = "call with more arguments than its subprogram has parameters".into();
-                out.report(Fault::NotSupported { code: call.name, name }, call.at);
+                let what = CallUnsupported::MoreArguments.into();
+                out.report(Fault::NotSupported { code: call.name, what }, call.at);
                 continue;
             }
             let mut given = call.given.into_iter();
@@ -291,8 +293,8 @@ impl Lower {
             let mut back: Vec<(Target, Var)> = Vec::new();
             for parameter in takes {
                 let value = given.next().flatten();
-                let refuse = |name: &str, out: &mut Batch| {
-                    out.report(Fault::NotSupported { code: "VAR".into(), name: name.into() }, call.at);
+                let refuse = |what: CallUnsupported, out: &mut Batch| {
+                    out.report(Fault::not_supported("VAR", what), call.at);
                 };
                 let Some(reference) = &parameter.reference else {
                     arguments.push(match value {
@@ -301,15 +303,15 @@ impl Lower {
                             self.converted(value, parameter.kind, call.at, out).unwrap_or(Expr::int(0))
                         }
                         Some(Argument::Array(..)) => {
-                            let name = "array, given to a parameter that is none".into();
-                            out.report(Fault::NotSupported { code: call.name.clone(), name }, call.at);
+                            let what = CallUnsupported::ArrayToOne.into();
+                            out.report(Fault::NotSupported { code: call.name.clone(), what }, call.at);
                             Expr::int(0)
                         }
                     });
                     continue;
                 };
                 if call.modal {
-                    refuse("caller's own variable in a call after each move", out);
+                    refuse(CallUnsupported::VarInModal, out);
                 }
                 let (sizes, values) = match value {
                     Some(Argument::One(value)) => (Box::default(), vec![value]),
@@ -329,20 +331,20 @@ impl Lower {
                 let targets = targets.filter(|all| sizes == parameter.sizes && all.len() == places.len());
                 match targets {
                     Some(all) if all.iter().any(|var| back.iter().any(|(other, _)| other == var)) => {
-                        refuse("one variable, given to two parameters", out);
+                        refuse(CallUnsupported::VarTwice, out);
                     }
                     Some(all) => back.extend(all.into_iter().zip(places.iter().cloned())),
                     None if parameter.sizes.is_empty() => {
-                        refuse("parameter that is given no variable of its type", out);
+                        refuse(CallUnsupported::VarType, out);
                     }
-                    None => refuse("parameter that is given no array of its type and sizes", out),
+                    None => refuse(CallUnsupported::VarArray, out),
                 }
                 let mut values = values.into_iter();
                 arguments
                     .extend(places.iter().map(|_| values.next().map_or(Expr::int(0), |value| value.expr)));
             }
-            if let Some(name) = refused(&call.name, &back, out) {
-                out.report(Fault::NotSupported { code: "VAR".into(), name: name.into() }, call.at);
+            if let Some(what) = refused(&call.name, &back, out) {
+                out.report(Fault::not_supported("VAR", what), call.at);
             }
             ready.push(Ready { at: call.at, arguments, back });
         }
@@ -368,7 +370,7 @@ fn variable(value: &Typed) -> Option<Target> {
 }
 
 /// Why a call cannot give its caller's own variables; `None` if it can.
-fn refused(name: &Text, back: &[(Target, Var)], out: &Batch) -> Option<&'static str> {
+fn refused(name: &Text, back: &[(Target, Var)], out: &Batch) -> Option<CallUnsupported> {
     if back.is_empty() {
         return None;
     }
@@ -387,7 +389,7 @@ fn refused(name: &Text, back: &[(Target, Var)], out: &Batch) -> Option<&'static 
         }
     }
     if within.contains(name) {
-        return Some("parameter of a subprogram that calls itself");
+        return Some(CallUnsupported::VarRecursive);
     }
     let mut found = false;
     for procedure in out.procedures.iter().filter(|p| p.name == *name || within.contains(&p.name)) {
@@ -408,7 +410,7 @@ fn refused(name: &Text, back: &[(Target, Var)], out: &Batch) -> Option<&'static 
         let mut body = procedure.body.clone();
         ncc_passes::values::variables::expressions(&mut body, &mut |_, value| reads(value, &mut one));
     }
-    found.then_some("R parameter that the subprogram uses by its own name too")
+    found.then_some(CallUnsupported::VarUsed)
 }
 
 /// Shows every statement.
@@ -434,8 +436,8 @@ fn give(body: &mut Vec<Stmt>, ready: &[Ready], diags: &mut Vec<Diagnostic>) {
                 };
                 call.arguments.clone_from(arguments);
                 if !back.is_empty() && call.times > 1 {
-                    let name = "call that is made several times with such a parameter".into();
-                    diags.push(Diagnostic::new(Fault::NotSupported { code: "VAR".into(), name }, stmt.span));
+                    let what = CallUnsupported::VarRepeated.into();
+                    diags.push(Diagnostic::new(Fault::NotSupported { code: "VAR".into(), what }, stmt.span));
                 }
                 for (var, kept) in back {
                     let value = Expr::Node(Box::new(Node::Var(kept.clone())));

@@ -11,6 +11,7 @@ use ncc_ir::computed::computed_code::{computed_code, of_number};
 use ncc_ir::expr::{Expr, Function, Node};
 use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TableUnsupported;
 
 use super::control::{axis_of, table_entry};
 use crate::batch::Batch;
@@ -50,8 +51,8 @@ impl Lower {
             match self.whole_index(other, src, out) {
                 Some(other) if other == number => {}
                 Some(_) => {
-                    let name = "places of the control's tables by two computed numbers in one assignment";
-                    self.not_supported(PLACE, name, span, out);
+                    let what = TableUnsupported::TwoComputed;
+                    self.not_supported(PLACE, what, span, out);
                     return true;
                 }
                 None => return true,
@@ -83,12 +84,7 @@ impl Lower {
         }
         self.worth = None;
         if cases.len() < count as usize && !self.now.failed && !self.now.refused {
-            self.not_supported(
-                PLACE,
-                "place of the control's tables, for something else than a value",
-                span,
-                out,
-            );
+            self.not_supported(PLACE, TableUnsupported::NoValue, span, out);
         }
         self.now.mark = mark;
         if let Some(first) = first {

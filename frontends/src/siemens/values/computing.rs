@@ -19,6 +19,7 @@ use ncc_ir::expr::{Element, Expr, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Op, Type as Stored};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};
 use super::typed::{Kind, Typed};
@@ -72,7 +73,7 @@ impl Lower {
         }
         let kept = self.kept(place, src, out)?;
         if kept.kind == Kind::Text {
-            self.not_supported(&src.text(place.span), "text as a value", place.span, out);
+            self.not_supported(&src.text(place.span), ValueUnsupported::Text, place.span, out);
             return None;
         }
         let node = match kept.target {
@@ -89,7 +90,7 @@ impl Lower {
             return self.r(place, src, out);
         }
         let Address::Name(name) = place.address else {
-            self.not_supported(&src.text(span), "axis or address as a value", span, out);
+            self.not_supported(&src.text(span), ValueUnsupported::Address, span, out);
             return None;
         };
         let name = src.text(name).to_ascii_uppercase();
@@ -104,12 +105,12 @@ impl Lower {
         }
         let Some(variable) = self.variables.get(&*name).cloned() else {
             let refuse = self.settings.dialect.name_row(&name).and_then(|row| row.refuse.as_deref());
-            let what = refuse.unwrap_or("variable that the program does not define");
+            let what = refuse.map_or(ValueUnsupported::Undefined.into(), Unsupported::named);
             self.not_supported(&name, what, span, out);
             return None;
         };
         if variable.sizes.len() != place.index.len() {
-            let what = "array with another number of indices than it is defined with";
+            let what = ValueUnsupported::Indices;
             self.not_supported(&src.text(span), what, span, out);
             return None;
         }
@@ -149,7 +150,7 @@ impl Lower {
                 }
             }
             _ => {
-                self.not_supported(&src.text(span), "R parameter without its number", span, out);
+                self.not_supported(&src.text(span), ValueUnsupported::RWithoutNumber, span, out);
                 return None;
             }
         };
@@ -170,7 +171,7 @@ impl Lower {
         let mut at = Vec::with_capacity(place.index.len());
         for index in &place.index {
             let Some(index) = index else {
-                self.not_supported(&src.text(place.span), "index that is left out", place.span, out);
+                self.not_supported(&src.text(place.span), ValueUnsupported::IndexLeftOut, place.span, out);
                 return None;
             };
             let value = self.formula(index, src, out)?;
@@ -211,7 +212,7 @@ impl Lower {
             return self.assign_several(place, several, span, src, out);
         }
         let Value::Expr(value) = value else {
-            return self.not_supported(&src.text(span), "value of a variable in another form", span, out);
+            return self.not_supported(&src.text(span), ValueUnsupported::Form, span, out);
         };
         let value = self.formula(value, src, out);
         let Some(kept) = self.kept(place, src, out) else {
@@ -263,11 +264,11 @@ impl Lower {
                     Ok::<(), std::convert::Infallible>(())
                 })
                 .unwrap_or_else(|never| match never {});
-                "assignment to what the arguments of the modal cycle were computed from"
+                ValueUnsupported::SetInCycle
             }
             ModalCall::Subprogram(after) => {
                 after.given.iter().flatten().for_each(|typed| one(&typed.expr));
-                "assignment to what is handed over after each move"
+                ValueUnsupported::SetInModal
             }
             ModalCall::None | ModalCall::Inherited { .. } | ModalCall::Lost { .. } | ModalCall::Refused => {
                 return true;
@@ -281,18 +282,18 @@ impl Lower {
 
     /// `FIELD[0]=SET(1,2,3)`, `FIELD[0]=REP(0)`: from an element on.
     fn assign_several(&mut self, place: &Place, several: Several, span: Span, src: Source, out: &mut Batch) {
-        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
-            lower.not_supported(&src.text(span), name, span, out);
+        let refuse = |lower: &mut Lower, what: ValueUnsupported, out: &mut Batch| {
+            lower.not_supported(&src.text(span), what, span, out);
         };
         let Address::Name(name) = place.address else {
-            return refuse(self, "several values for one variable", out);
+            return refuse(self, ValueUnsupported::SeveralForOne, out);
         };
         let name = src.text(name).to_ascii_uppercase();
         let Some(variable) = self.variables.get(&*name).cloned().filter(|v| !v.sizes.is_empty()) else {
-            return refuse(self, "several values for what is no array", out);
+            return refuse(self, ValueUnsupported::SeveralForNoArray, out);
         };
         if place.index.len() != variable.sizes.len() {
-            return refuse(self, "array with another number of indices than it is defined with", out);
+            return refuse(self, ValueUnsupported::Indices, out);
         }
         let Some(at) = self.indices(place, src, out) else { return };
         let mut first = 0u32;
@@ -301,7 +302,7 @@ impl Lower {
             match whole {
                 Some(at) if at < *size => first = first * size + at,
                 Some(_) => return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out),
-                None => return refuse(self, "several values from an element that is computed", out),
+                None => return refuse(self, ValueUnsupported::SeveralComputed, out),
             }
         }
         let total: u32 = variable.sizes.iter().product();
@@ -350,7 +351,7 @@ impl Lower {
             return Some(found);
         }
         let (Some(Some(value)), true) = (values.first(), values.len() <= 2) else {
-            self.not_supported(&src.text(span), "REP without its value", span, out);
+            self.not_supported(&src.text(span), ValueUnsupported::RepWithoutValue, span, out);
             return None;
         };
         let typed = self.formula(value, src, out)?;
@@ -364,7 +365,7 @@ impl Lower {
                 }
             }
             Some(Some(_)) => {
-                self.not_supported(&src.text(span), "REP with a number that is computed", span, out);
+                self.not_supported(&src.text(span), ValueUnsupported::RepComputed, span, out);
                 return None;
             }
         };
@@ -410,15 +411,15 @@ impl Lower {
                 let feed = self.feed_unit(given.span, out)?;
                 let lengths = self.units(given.span, out);
                 if feed != Unit::Entry && (lengths == Fact::Entry || feed != unit_of(lengths)) {
-                    let name = "computed feed that may count other units than lengths";
-                    self.not_supported(&src.text(given.span), name, given.span, out);
+                    let what = ValueUnsupported::FeedUnit;
+                    self.not_supported(&src.text(given.span), what, given.span, out);
                     return None;
                 }
             }
             Quantity::Integer => return Some(self.whole_number(typed, given.span, out)),
             Quantity::Angle | Quantity::Seconds | Quantity::Speed | Quantity::Factor => {}
             Quantity::Milliseconds => {
-                self.not_supported(&src.text(given.span), "computed value of this word", given.span, out);
+                self.not_supported(&src.text(given.span), CodeUnsupported::ComputedWord, given.span, out);
                 return None;
             }
         }
@@ -438,8 +439,8 @@ impl Lower {
         self.now.set = set;
         if found {
             let at = self.now.span;
-            let name = "word that reads a variable which its own block sets";
-            self.not_supported(&src.text(at), name, at, out);
+            let what = ValueUnsupported::ReadsOwn;
+            self.not_supported(&src.text(at), what, at, out);
         }
     }
 }

@@ -11,6 +11,7 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Node, Var};
 use ncc_ir::program::{Data, DataMode, Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{TableUnsupported, ValueUnsupported};
 
 use super::typed::{Kind, Typed};
 use crate::batch::Batch;
@@ -42,7 +43,7 @@ impl Lower {
         let counted = matches!(system, System::Tool | System::WorkOffsetNumber);
         let kind = if counted { Kind::Int } else { Kind::Real };
         if !counted && self.units(span, out).known() == Some(Units::Inch) {
-            self.not_supported(&name, "position of the control where lengths count in inches", span, out);
+            self.not_supported(&name, ValueUnsupported::InInches, span, out);
             return None;
         }
         if system.is_place() {
@@ -62,15 +63,15 @@ impl Lower {
             out.whole = true;
             return Some(Typed::new(Node::Var(Var::Common(name.into())), Kind::Real));
         }
-        self.not_supported(&text, "variable of the control", place.span, out);
+        self.not_supported(&text, ValueUnsupported::Control, place.span, out);
         None
     }
 
     /// What is to be in place before control divides, or anything moves.
     pub(in crate::siemens) fn no_stale_offset(&mut self, at: Span, out: &mut Batch) {
         if std::mem::take(&mut self.stale) {
-            let name = "work offset that may be in force, and is not called up again with its new value";
-            self.not_supported("$P_UIFR", name, at, out);
+            let what = TableUnsupported::OffsetNotCalled;
+            self.not_supported("$P_UIFR", what, at, out);
         }
     }
 
@@ -107,20 +108,20 @@ impl Lower {
             Some((row, table_entry(&row.name, u32::from(row.count), &name, place, self.worth, src)?))
         });
         let (Some((row, (Some(entry), axis))), Value::Expr(_)) = (found.next(), value) else {
-            return self.not_supported(&name, "variable of the control that is set", span, out);
+            return self.not_supported(&name, ValueUnsupported::ControlSet, span, out);
         };
         if self.state.cycle != ModalCall::None {
-            let name = "value of the control's tables while a cycle is in force";
-            return self.not_supported(&src.text(span), name, span, out);
+            let what = TableUnsupported::TableInCycle;
+            return self.not_supported(&src.text(span), what, span, out);
         }
         if self.state.modes.units.value() == Some(Units::Inch) {
-            let name = "value of the control's tables where lengths count in inches";
-            return self.not_supported(&src.text(span), name, span, out);
+            let what = TableUnsupported::TableInInches;
+            return self.not_supported(&src.text(span), what, span, out);
         }
         let (axis, offset) = match (axis, u16::try_from(entry), row.values.first()) {
             (Some(axis), Ok(offset), None) => (axis, offset),
             (None, _, Some(word)) => return self.set_tool(entry, word.of.into(), value, span, src, out),
-            _ => return self.not_supported(&name, "variable of the control that is set", span, out),
+            _ => return self.not_supported(&name, ValueUnsupported::ControlSet, span, out),
         };
         let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
         let Some(given) = self.constant(value, span, src, out) else { return };

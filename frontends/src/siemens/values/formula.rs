@@ -13,6 +13,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{Unsupported, ValueUnsupported};
 
 use super::typed::{Kind, Typed};
 use crate::batch::Batch;
@@ -63,8 +64,8 @@ impl Lower {
 
     fn meaning(&mut self, tree: &Tree, depth: u32, src: Source, out: &mut Batch) -> Option<Typed> {
         if depth > DEEPEST {
-            let name = "expression of more than 64 levels";
-            self.not_supported(&src.text(tree.span()), name, tree.span(), out);
+            let what = ValueUnsupported::TooDeep;
+            self.not_supported(&src.text(tree.span()), what, tree.span(), out);
             return None;
         }
         let one = |mantissa| Num { mantissa, scale: 0, point: false, unit: Unit::One };
@@ -81,11 +82,11 @@ impl Lower {
             }
             Tree::Bits(bits, _) => Typed::literal(one(*bits), Kind::Int),
             Tree::Character(span) => {
-                self.not_supported(&src.text(*span), "character as a value", *span, out);
+                self.not_supported(&src.text(*span), ValueUnsupported::CharacterValue, *span, out);
                 return None;
             }
             Tree::Text(span) => {
-                self.not_supported(&src.text(*span), "text as a value", *span, out);
+                self.not_supported(&src.text(*span), ValueUnsupported::Text, *span, out);
                 return None;
             }
             Tree::Place(place) => self.read(place, src, out)?,
@@ -94,7 +95,7 @@ impl Lower {
                 self.function(*name, arguments, *span, depth, src, out)?
             }
             Tree::Unary(Sign::Show, _, span) => {
-                self.not_supported(&src.text(*span), "text as a value", *span, out);
+                self.not_supported(&src.text(*span), ValueUnsupported::Text, *span, out);
                 return None;
             }
             Tree::Unary(sign, operand, _) => {
@@ -119,8 +120,12 @@ impl Lower {
                 let (a, b) = &**operands;
                 let span = tree.span();
                 if matches!(operator, Operator::Join | Operator::Chain) {
-                    let name = if *operator == Operator::Join { "texts joined" } else { "frames chained" };
-                    self.not_supported(&src.text(span), name, span, out);
+                    let what = if *operator == Operator::Join {
+                        ValueUnsupported::TextsJoined
+                    } else {
+                        ValueUnsupported::FramesChained
+                    };
+                    self.not_supported(&src.text(span), what, span, out);
                     return None;
                 }
                 if matches!(operator, Operator::Equal | Operator::NotEqual)
@@ -226,14 +231,14 @@ impl Lower {
             "BOUND" => 3,
             _ => {
                 let refuse = self.settings.dialect.name_row(&written).and_then(|row| row.refuse.as_deref());
-                let what = refuse.unwrap_or("function of the language");
+                let what = refuse.map_or(ValueUnsupported::UnknownFunction.into(), Unsupported::named);
                 self.not_supported(&written, what, span, out);
                 return None;
             }
         };
         if arguments.len() != count || arguments.iter().any(Option::is_none) {
-            let name = "function of another number of arguments";
-            self.not_supported(&src.text(span), name, span, out);
+            let what = ValueUnsupported::FunctionArguments;
+            self.not_supported(&src.text(span), what, span, out);
             return None;
         }
         let mut given = Vec::with_capacity(count);

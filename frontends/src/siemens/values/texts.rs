@@ -9,6 +9,7 @@
 
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::ValueUnsupported;
 
 use super::typed::Kind;
 use super::variables::Variable;
@@ -39,15 +40,15 @@ impl Lower {
             Value::Qualified(..) | Value::List(_) => None,
         };
         let Some(text) = text else {
-            return self.not_supported(&src.text(span), "text that is put together", span, out);
+            return self.not_supported(&src.text(span), ValueUnsupported::TextJoined, span, out);
         };
         self.now.heading = true;
         let skipped = self.skipped();
         let Some(Variable { text: of, .. }) = self.variables.get_mut(name) else { return };
         let refuse = if of.relied.get() {
-            Some("text that is changed behind blocks that have used it and may come again")
+            Some(ValueUnsupported::TextChanged)
         } else if of.longest.is_some_and(|longest| text.chars().count() > longest) {
-            Some("text that is longer than its variable")
+            Some(ValueUnsupported::TextLong)
         } else {
             None
         };
@@ -114,8 +115,8 @@ impl Lower {
         let refuse = match known {
             (Some(a), Some(b)) if a == b => return Some(Some(true)),
             (Some(a), Some(b)) if !a.eq_ignore_ascii_case(&b) => return Some(Some(false)),
-            (Some(_), Some(_)) => "comparison of texts that differ by small and capital letters alone",
-            _ => "comparison of texts that are not known here",
+            (Some(_), Some(_)) => ValueUnsupported::TextCase,
+            _ => ValueUnsupported::TextsUnknown,
         };
         self.not_supported(&src.text(span), refuse, span, out);
         Some(None)

@@ -6,6 +6,7 @@ use ncc_dialects::Statement;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CallUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -164,8 +165,8 @@ impl Lower {
     }
 
     pub(in crate::word) fn endless(&mut self, at: Span, code: Box<str>, out: &mut Batch) {
-        let name = "return in the main program: endless repetition".into();
-        self.fault(Fault::NotSupported { code, name }, at, out);
+        let what = CallUnsupported::MainReturn.into();
+        self.fault(Fault::NotSupported { code, what }, at, out);
     }
 
     /// What was taken for the return of a subprogram has the main program begin anew.
@@ -182,9 +183,9 @@ impl Lower {
     pub(in crate::word) fn begin_again(&mut self, code: &Code, out: &mut Batch) {
         let name = code.row.code.as_str();
         if self.sub.is_some() {
-            let name = "a main program's beginning anew, in a subprogram".into();
+            let what = CallUnsupported::BeginAgainInSub.into();
             return self.fault(
-                Fault::NotSupported { code: code.row.code.as_str().into(), name },
+                Fault::NotSupported { code: code.row.code.as_str().into(), what },
                 code.span,
                 out,
             );
@@ -220,8 +221,8 @@ impl Lower {
             (out.subprogram, out.whole) = (true, true);
         }
         if self.in_o_sub() {
-            let name = "return of a numbered program in a subprogram of O words".into();
-            let fault = Fault::NotSupported { code: code.row.code.as_str().into(), name };
+            let what = CallUnsupported::NumberedInOSub.into();
+            let fault = Fault::NotSupported { code: code.row.code.as_str().into(), what };
             return self.fault(fault, code.span, out);
         }
         if self.within_modal(code.span, out) {

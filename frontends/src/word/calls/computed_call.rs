@@ -9,6 +9,7 @@ use ncc_ir::computed::computed_call::{of_number, so_often};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Call, Op, Stmt, Text};
+use ncc_ir::unsupported::CallUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -54,8 +55,8 @@ impl Lower {
         };
         if *name == *COMPUTED && times.is_some() {
             // The called program may change the variable of its number.
-            let name = "call several times of a program whose number is computed".into();
-            return self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, span, out);
+            let what = CallUnsupported::ComputedTimes.into();
+            return self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, span, out);
         }
         out.whole = true;
         self.computes.calls_of |= *name == *COMPUTED;

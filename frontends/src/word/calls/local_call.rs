@@ -9,6 +9,7 @@ use ncc_ir::computed::computed_call::so_often;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CallUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -17,14 +18,14 @@ use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
 use crate::word::macros::computes::{Computes, LocalCall, label};
 
-const WITHIN: &str = "call of a block of a subprogram";
-const COMPUTED: &str = "call of a block whose number is computed";
-const BESIDE: &str = "call of a block, beside jumps to computed numbers";
-const NOT_THERE: &str = "call of a block that is not in the program";
-const TWICE: &str = "call of a block whose number several have";
-const RUN_INTO: &str = "call of a block that the program also runs into";
-const NO_RETURN: &str = "call of blocks that do not end with a return";
-const JUMPED_INTO: &str = "call of blocks into which the program also jumps";
+const WITHIN: CallUnsupported = CallUnsupported::BlocksInSub;
+const COMPUTED: CallUnsupported = CallUnsupported::BlocksComputed;
+const BESIDE: CallUnsupported = CallUnsupported::BlocksBesideJumps;
+const NOT_THERE: CallUnsupported = CallUnsupported::BlocksMissing;
+const TWICE: CallUnsupported = CallUnsupported::BlocksTwice;
+const RUN_INTO: CallUnsupported = CallUnsupported::BlocksRunInto;
+const NO_RETURN: CallUnsupported = CallUnsupported::BlocksNoReturn;
+const JUMPED_INTO: CallUnsupported = CallUnsupported::BlocksJumpedInto;
 
 /// Whether a text has a word that calls a block: a code of that meaning whose row has `blocks`.
 pub(in crate::word) fn has_local_calls(text: &[u8], dialect: &Dialect) -> bool {
@@ -107,8 +108,8 @@ impl Lower {
     }
 }
 
-fn refused(code: &str, why: &str) -> Fault {
-    Fault::NotSupported { code: code.into(), name: why.into() }
+fn refused(code: &str, what: CallUnsupported) -> Fault {
+    Fault::not_supported(code, what)
 }
 
 impl Computes {
@@ -126,14 +127,14 @@ impl Computes {
                 }
                 out.procedures.splice(0..0, cut);
             }
-            Err((code, why, at)) => {
+            Err((code, what, at)) => {
                 leave_out(&mut out.stmts, &self.local_calls);
-                return out.report(refused(code, why), at);
+                return out.report(refused(code, what), at);
             }
         }
         // None of a called block's: the main program would begin anew.
         if let Some(left) = out.stmts.iter().find(|stmt| stmt.op == Op::Return) {
-            out.report(refused("M99", "return in the main program: endless repetition"), left.span);
+            out.report(refused("M99", CallUnsupported::MainReturn), left.span);
         }
     }
 
@@ -143,7 +144,7 @@ impl Computes {
     fn called_blocks(
         &self,
         body: &[Stmt],
-    ) -> Result<Vec<(u32, usize, usize)>, (&'static str, &'static str, Span)> {
+    ) -> Result<Vec<(u32, usize, usize)>, (&'static str, CallUnsupported, Span)> {
         let mut starts: Vec<(usize, LocalCall)> = Vec::new();
         for &call in &self.local_calls {
             let (number, code, at) = call;

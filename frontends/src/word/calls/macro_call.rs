@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Call, Op};
+use ncc_ir::unsupported::{CallUnsupported, CodeUnsupported};
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -160,9 +161,8 @@ impl Lower {
         self.found_variables(out);
         let (name, times, arguments) = self.handed_over(code, Some(code.at), block, src, out);
         if times > 1 && !self.settings.dialect.formula.arguments_again {
-            let (code, name) =
-                (code.row.code.as_str().into(), "macro call that is made several times".into());
-            return self.fault(Fault::NotSupported { code, name }, block.span, out);
+            let fault = Fault::not_supported(code.row.code.as_str(), CallUnsupported::MacroTimes);
+            return self.fault(fault, block.span, out);
         }
         let Some(name) = name.filter(|name| *name > 0) else {
             if !self.now.failed {
@@ -218,8 +218,8 @@ impl Lower {
                 Some(Expr::Num(Num { mantissa: digits.mantissa, scale: 0, point: false, unit: Unit::One }))
             }
             Value::Number(_) if b"EF".contains(&word.letter) => {
-                let name = "argument without a decimal point, of an address whose increment is the machine's";
-                let fault = Fault::NotSupported { code: src.text(word.span), name: name.into() };
+                let what = CodeUnsupported::IncrementUnit;
+                let fault = Fault::NotSupported { code: src.text(word.span), what: what.into() };
                 self.refuse(fault, word.span, out)
             }
             Value::Number(_) => self.number(word, Quantity::Length, src, out).map(plain),

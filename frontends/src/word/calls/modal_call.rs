@@ -15,6 +15,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CallUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -34,14 +35,20 @@ impl Lower {
         self.computes.at_moves.as_ref().map_or(0, |calls| calls.which)
     }
 
-    pub(in crate::word) fn refuse_modal(&mut self, code: &str, name: &str, at: Span, out: &mut Batch) {
-        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, at, out);
+    pub(in crate::word) fn refuse_modal(
+        &mut self,
+        code: &str,
+        what: CallUnsupported,
+        at: Span,
+        out: &mut Batch,
+    ) {
+        self.fault(Fault::not_supported(code, what), at, out);
     }
 
     /// The same, by the code that has said the calls.
-    pub(in crate::word) fn refuse_under(&mut self, name: &str, at: Span, out: &mut Batch) {
+    pub(in crate::word) fn refuse_under(&mut self, what: CallUnsupported, at: Span, out: &mut Batch) {
         let code = self.computes.reach.code.clone();
-        self.refuse_modal(&code, name, at, out);
+        self.refuse_modal(&code, what, at, out);
     }
 
     /// The block that says the call; it makes none itself.
@@ -52,12 +59,12 @@ impl Lower {
         block: &Block,
         out: &mut Batch,
     ) {
-        let name = if self.computes.at_moves.is_some() {
-            "modal macro call within another"
+        let what = if self.computes.at_moves.is_some() {
+            CallUnsupported::ModalInModal
         } else if block.skip != 0 {
-            "modal macro call that can be skipped"
+            CallUnsupported::ModalMacroSkipped
         } else if !call.arguments.iter().all(stays) {
-            "modal call with an argument of shared variables"
+            CallUnsupported::ModalArgument
         } else if self.now.failed {
             return;
         } else {
@@ -76,7 +83,7 @@ impl Lower {
             self.computes.at_moves = Some(AtMoves { call, which, computed, by_words: None });
             return;
         };
-        self.refuse_modal(&code.row.code, name, code.span, out);
+        self.refuse_modal(&code.row.code, what, code.span, out);
     }
 
     /// The block behind which every block is a call, and is one itself where the control has it so.
@@ -103,7 +110,7 @@ impl Lower {
     pub(in crate::word) fn by_words(&mut self, block: &Block, src: Source, out: &mut Batch) -> Option<Code> {
         let code = self.computes.at_moves.as_ref()?.by_words?;
         if block.statement.is_some() || block.decision.is_some() {
-            self.refuse_under("statement where words are arguments", block.span, out);
+            self.refuse_under(CallUnsupported::ArgumentStatement, block.span, out);
             return None;
         }
         let number = self.settings.dialect.block.number.map_or(0, |c| c as u8);
@@ -117,15 +124,15 @@ impl Lower {
             // One that moves an axis is refused as such.
             let axis = words().any(|word| b"XYZABC".contains(&word.letter));
             if words().count() > 1 && !axis {
-                self.refuse_under("end of the calls in a block with other words", block.span, out);
+                self.refuse_under(CallUnsupported::ArgumentEnd, block.span, out);
             }
             return None;
         }
         words().next()?;
         // Of a function no source of this control says that it is an argument, and not what it always is.
         if let Some(other) = words().find(|word| b"GMSTPLO".contains(&word.letter)) {
-            let name = format!("{} where words are arguments", src.text(other.span));
-            self.refuse_under(&name, other.span, out);
+            let what = CallUnsupported::ArgumentWord { word: src.text(other.span) };
+            self.refuse_under(what, other.span, out);
             return None;
         }
         Some(code)
@@ -147,21 +154,11 @@ impl Lower {
             return;
         }
         if self.now.skip.is_some() {
-            return self.refuse_modal(
-                &code.row.code,
-                "end of a modal macro call that can be skipped",
-                code.span,
-                out,
-            );
+            return self.refuse_modal(&code.row.code, CallUnsupported::ModalEndSkipped, code.span, out);
         }
         if self.has_axis_word(words) {
             // Whether the block's own move is one of those behind which it is called, no manual says.
-            return self.refuse_modal(
-                &code.row.code,
-                "end of a modal call in a block that moves",
-                code.span,
-                out,
-            );
+            return self.refuse_modal(&code.row.code, CallUnsupported::ModalEndMoves, code.span, out);
         }
         self.computes.at_moves = None;
     }
@@ -200,8 +197,8 @@ impl Lower {
             )
         });
         if other {
-            let name = "cycle, corner or machine point under a modal macro call";
-            return self.refuse_under(name, block.span, out);
+            let what = CallUnsupported::ModalOther;
+            return self.refuse_under(what, block.span, out);
         }
         if !moves {
             return;
@@ -226,7 +223,7 @@ impl Lower {
     pub(in crate::word) fn within_modal(&mut self, at: Span, out: &mut Batch) -> bool {
         let within = self.computes.at_moves.is_some();
         if within {
-            self.refuse_under("call or return under a modal macro call", at, out);
+            self.refuse_under(CallUnsupported::ModalFlow, at, out);
         }
         within
     }
@@ -234,8 +231,8 @@ impl Lower {
     /// A variable is set.
     pub(in crate::word) fn argument_changes(&mut self, at: Span, out: &mut Batch) {
         if self.computes.at_moves.as_ref().is_some_and(|calls| calls.computed) {
-            let name = "assignment under a modal call with variables";
-            self.refuse_under(name, at, out);
+            let what = CallUnsupported::ModalAssignment;
+            self.refuse_under(what, at, out);
         }
     }
 
@@ -255,7 +252,7 @@ impl Lower {
                 None => Some(&all),
             };
             if calls.is_some_and(|calls| calls.iter().any(|calls| *calls != from)) {
-                self.refuse_under("jump over the beginning or end of a modal call", at, out);
+                self.refuse_under(CallUnsupported::ModalJump, at, out);
             }
         }
     }
@@ -271,8 +268,8 @@ impl Computes {
             while let Some(name) = known.get(next).copied() {
                 next += 1;
                 if self.reach.called.iter().any(|(own, ..)| own == name) {
-                    let name = "modal macro call within another".into();
-                    out.report(Fault::NotSupported { code: self.reach.code.clone(), name }, *at);
+                    let what = CallUnsupported::ModalInModal.into();
+                    out.report(Fault::NotSupported { code: self.reach.code.clone(), what }, *at);
                     break;
                 }
                 let bodies = out.procedures.iter().filter(|procedure| procedure.name == *name);

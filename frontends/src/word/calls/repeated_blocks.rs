@@ -12,6 +12,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CallUnsupported;
 
 use super::repetition::Repetition;
 use crate::batch::{Batch, refused};
@@ -119,15 +120,15 @@ impl Reader {
     }
 
     fn repeated(&mut self, asked: Repetition, out: &mut Batch) -> Result<(), (Fault, Span)> {
-        let refuse = |name: &str| {
-            let fault = Fault::NotSupported { code: "H".into(), name: name.into() };
+        let refuse = |what: CallUnsupported| {
+            let fault = Fault::not_supported("H", what);
             Err((fault, asked.first.1))
         };
         if self.kept.busy {
-            return refuse("repetition within repeated blocks");
+            return refuse(CallUnsupported::RepeatInRepeat);
         }
         if self.lower.sub.is_some() {
-            return refuse("repetition in a subprogram");
+            return refuse(CallUnsupported::RepeatInSub);
         }
         let body = &self.lower.target(out)[..asked.at];
         let first = block_of(body, asked.first)?;
@@ -138,12 +139,12 @@ impl Reader {
         let end = last + 1 + body[last + 1..].iter().take_while(|stmt| stmt.joined).count();
         let blocks = &body[first..end];
         if blocks.iter().any(|stmt| matches!(stmt.op, Op::RepeatBlocks(_))) {
-            return refuse("repetition within repeated blocks");
+            return refuse(CallUnsupported::RepeatInRepeat);
         }
         let span = blocks.iter().fold(blocks[0].span, |span, stmt| span.to(stmt.span));
         let said: Vec<Stmt> = blocks.iter().filter(|stmt| !is_label(stmt)).cloned().collect();
         if !self.same_again(&said, span, asked.times, out) {
-            return refuse("repetition of blocks that find other modes in force than the first time");
+            return refuse(CallUnsupported::RepeatModes);
         }
         let body = self.lower.target(out);
         let second = put_label(body, last, asked.last.0);
@@ -231,8 +232,8 @@ fn block_of(body: &[Stmt], (number, at): (u32, Span)) -> Result<usize, (Fault, S
         (Some(place), None) => Ok(place),
         (None, _) => Err((Fault::LabelUnknown { name: format!("N{number}").into() }, at)),
         (Some(_), Some(_)) => {
-            let name = "repetition by a block number that stands twice".into();
-            Err((Fault::NotSupported { code: format!("N{number}").into(), name }, at))
+            let what = CallUnsupported::RepeatNumberTwice.into();
+            Err((Fault::NotSupported { code: format!("N{number}").into(), what }, at))
         }
     }
 }

@@ -10,6 +10,7 @@ use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CallUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -77,13 +78,13 @@ impl Lower {
     }
 }
 
-const SEVERAL: &str = "return to a block of the caller, of a subprogram that may go back in another way";
+const SEVERAL: CallUnsupported = CallUnsupported::ReturnSeveral;
 
-const AGAIN: &str = "return to a block of the caller, of a subprogram that one word calls several times";
+const AGAIN: CallUnsupported = CallUnsupported::ReturnAgain;
 
-const COMPUTED: &str = "return to a block of the caller, beside calls of a number that is computed";
+const COMPUTED: CallUnsupported = CallUnsupported::ReturnComputed;
 
-const ELSEWHERE: &str = "return to a block of a caller that is not in the text";
+const ELSEWHERE: CallUnsupported = CallUnsupported::ReturnElsewhere;
 
 impl Computes {
     /// The text is over: what calls a subprogram that goes back to a block goes on there.
@@ -92,7 +93,7 @@ impl Computes {
         for return_to in &self.returns {
             let Some(block) = return_to.block else { continue };
             let mut all = self.returns.iter().filter(|other| other.own == return_to.own);
-            let why = if all.any(|other| other.block != Some(block)) {
+            let what = if all.any(|other| other.block != Some(block)) {
                 SEVERAL
             } else if self.calls_of {
                 COMPUTED
@@ -102,7 +103,7 @@ impl Computes {
             } else {
                 ELSEWHERE
             };
-            out.report(refused(return_to.code, why), return_to.at);
+            out.report(refused(return_to.code, what), return_to.at);
         }
         if to.is_empty() {
             return;
@@ -116,8 +117,8 @@ impl Computes {
     }
 }
 
-fn refused(code: &str, why: &str) -> Fault {
-    Fault::NotSupported { code: code.into(), name: why.into() }
+fn refused(code: &str, what: CallUnsupported) -> Fault {
+    Fault::not_supported(code, what)
 }
 
 fn is_called(out: &Batch, name: &Text) -> bool {

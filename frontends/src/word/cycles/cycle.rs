@@ -10,6 +10,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{Cycle, CycleKind};
 use ncc_ir::program::{Coord, Move, Op};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CycleUnsupported;
 
 use super::kind::{Pecks, kind_of};
 use crate::batch::Batch;
@@ -53,8 +54,8 @@ impl Lower {
                 && self.settings.dialect.numbers(Quantity::Feed).bare == Bare::Increments
                 && !self.calculator
             {
-                let name = "feed per turn, or by time, without a decimal point".into();
-                return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+                let what = CycleUnsupported::FeedPerTurnPoint.into();
+                return self.fault(Fault::NotSupported { code: src.text(word.span), what }, word.span, out);
             }
         }
         if mode == FeedMode::InverseTime {
@@ -109,14 +110,13 @@ impl Lower {
             return;
         };
         let row = &dialect.cycle[index];
-        let refuse =
-            |name: &str| Fault::NotSupported { code: code.row.code.as_str().into(), name: name.into() };
+        let refuse = |what: CycleUnsupported| Fault::not_supported(code.row.code.as_str(), what);
         if dwell {
-            self.fault(refuse("cycle and dwell in one block"), code.span, out);
+            self.fault(refuse(CycleUnsupported::WithDwell), code.span, out);
         }
         if self.drills_scaled() {
             // Which of a cycle's distances are scaled is the control's own.
-            self.fault(refuse("cycle while factors, or a mirror of its axis, are in force"), code.span, out);
+            self.fault(refuse(CycleUnsupported::UnderScale), code.span, out);
         }
         if !row.sure {
             self.assume_row(code.row, &code.meaning.to_string(), code.span, out);
@@ -124,11 +124,11 @@ impl Lower {
         let plane = self.plane(code.span, out);
         let depth_letter = self.depth_letter(row, plane);
         if depth_letter.is_none() {
-            self.fault(refuse("cycle along another axis"), code.span, out);
+            self.fault(refuse(CycleUnsupported::OtherAxis), code.span, out);
         }
         let distance = self.distance(code.span, out);
         if self.incremental_unknown(distance) {
-            self.fault(refuse("cycle with incremental words"), code.span, out);
+            self.fault(refuse(CycleUnsupported::Increments), code.span, out);
         }
         let kept = match &self.state.cycle {
             CycleState::Active(active)
@@ -148,9 +148,13 @@ impl Lower {
         let peck = dialect.cycle.iter().find_map(|other| other.peck);
         let peck = peck.filter(|_| row.peck.is_none() && row.shift.is_none());
         if let Some(word) = peck.and_then(|letter| words.take(letter as u8)) {
-            let name = if row.kind.starts_with("tap") { "peck tapping" } else { "pecks in this cycle" };
+            let what = if row.kind.starts_with("tap") {
+                CycleUnsupported::PeckTapping
+            } else {
+                CycleUnsupported::PecksHere
+            };
             let code_text = format!("{} {}", row.code, src.text(word.span)).into();
-            self.fault(Fault::NotSupported { code: code_text, name: name.into() }, word.span, out);
+            self.fault(Fault::NotSupported { code: code_text, what: what.into() }, word.span, out);
         }
         let depth_letter = depth_letter.unwrap_or(row.depth);
         let given = self.cycle_words(row, depth_letter, distance, words, src, out);
@@ -224,8 +228,8 @@ impl Lower {
         if has_hole_word {
             let distance = self.distance(block, out);
             if self.incremental_unknown(distance) {
-                let name = "cycle with incremental words".into();
-                self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
+                let what = CycleUnsupported::Increments.into();
+                self.fault(Fault::NotSupported { code: row.code.as_str().into(), what }, block, out);
             }
             self.check_rotary(row, block, words, out);
             if let (CycleState::Active(active), true) = (&mut self.state.cycle, dialect.cycles.measured_anew)
@@ -332,8 +336,8 @@ impl Lower {
         let mark = self.now.mark;
         if self.target(out).iter().skip(mark).any(|stmt| stmt.op == Op::ExactStop) {
             // Of which ways of the cycle it would be the end, no source tells.
-            let name = "exact stop in a block of a cycle".into();
-            self.fault(Fault::NotSupported { code: src.text(block), name }, block, out);
+            let what = CycleUnsupported::ExactStop.into();
+            self.fault(Fault::NotSupported { code: src.text(block), what }, block, out);
         }
         let to = self.point(Some(depth_letter as u8), block, words, src, out);
         // How the tool comes to a hole elsewhere is open in some dictionaries: it is told.
@@ -388,8 +392,8 @@ impl Lower {
     /// A cycle cannot turn rotary axes on some controls.
     fn check_rotary(&mut self, row: &CycleRow, block: Span, words: &Words, out: &mut Batch) {
         if self.settings.dialect.cycles.no_rotary && words.has_any(self.roles.rotary) {
-            let name = "rotary axis in a canned cycle".into();
-            self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
+            let what = CycleUnsupported::RotaryAxis.into();
+            self.fault(Fault::NotSupported { code: row.code.as_str().into(), what }, block, out);
         }
     }
 
@@ -447,9 +451,9 @@ impl Lower {
         let word = found.iter().flatten().next()?;
         let code = || row.code.as_str().into();
         if let [None, None, Some(least)] = &found {
-            let name = "way out of the hole after several pecks".into();
+            let what = CycleUnsupported::RetractAfterPecks.into();
             let code = format!("{} {}", row.code, src.text(least.span)).into();
-            return self.refuse(Fault::NotSupported { code, name }, least.span, out);
+            return self.refuse(Fault::NotSupported { code, what }, least.span, out);
         }
         if let Some(missing) =
             letters.iter().zip(&found).find_map(|(letter, word)| word.is_none().then_some(letter))
@@ -479,8 +483,8 @@ impl Lower {
     ) -> Option<Pecks> {
         match (peck, shrinking.filter(|_| row.shrinking.is_some())) {
             (Some(_), Some(_)) => {
-                let name = "decreasing pecks beside pecks of one depth".into();
-                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
+                let what = CycleUnsupported::TwoPecks.into();
+                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), what }, at, out)
             }
             (Some(peck), None) => Some(Pecks { peck, shrinking: None }),
             (None, Some([first, less, peck])) => {

@@ -5,6 +5,7 @@ use ncc_dialects::{CycleRow, LEFT_OUT, TAP_DWELL};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CycleUnsupported;
 
 use crate::batch::Batch;
 use crate::common::known::Know;
@@ -87,6 +88,6 @@ impl Lower {
 }
 
 fn left_open(code: &str) -> Fault {
-    let name = "dwell that another cycle left in force, on some way to here".into();
-    Fault::NotSupported { code: code.into(), name }
+    let what = CycleUnsupported::DwellOfBefore.into();
+    Fault::NotSupported { code: code.into(), what }
 }

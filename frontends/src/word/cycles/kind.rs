@@ -8,6 +8,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::Pitch;
 use ncc_ir::program::cycle::{BoreStop, Clearance, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CycleUnsupported;
 
 use crate::batch::Batch;
 use crate::word::lower::Lower;
@@ -105,8 +106,9 @@ impl Lower {
         match self.option(&asked.option, at, out) {
             DWELLS => Some(dwell),
             DWELL_REFUSED => {
-                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
-                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
+                let option = asked.option.as_str().into();
+                let what = CycleUnsupported::DwellByOption { letter: asked.letter, option };
+                self.refuse(Fault::not_supported(row.code.as_str(), what), at, out)
             }
             _ => None,
         }

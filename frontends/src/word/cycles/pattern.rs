@@ -11,6 +11,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{Along, First, Pattern, Row};
 use ncc_ir::program::{Coord, Op};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::CycleUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -37,8 +38,8 @@ impl Lower {
         }
         let distance = self.distance(code.span, out);
         if self.incremental_unknown(distance) {
-            let name = "pattern with incremental words".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = CycleUnsupported::PatternIncrements.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
         let pattern = match row {
             PatternRow::Circle { first, centre, step, count, .. } => {

@@ -3,6 +3,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TextUnsupported;
 
 use super::super::text::block::Block;
 use super::Lower;
@@ -33,8 +34,8 @@ impl Lower {
             }
             if bytes.contains(&b'#') {
                 let code = format!("{}{name}", rules.open).into();
-                let name = "the value of a parameter in a message".into();
-                return self.fault(Fault::NotSupported { code, name }, span, out);
+                let what = TextUnsupported::ParameterInMessage.into();
+                return self.fault(Fault::NotSupported { code, what }, span, out);
             }
             let text = decode(&bytes[at..]);
             self.now.message = true;
@@ -49,7 +50,7 @@ impl Lower {
         }
         if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
             let code = format!("{}{name}", rules.open).into();
-            self.fault(Fault::NotSupported { code, name: "comment that does something".into() }, span, out);
+            self.fault(Fault::NotSupported { code, what: TextUnsupported::ActiveComment.into() }, span, out);
         }
     }
 }

@@ -15,6 +15,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
 use ncc_ir::program::{Move, Op, Point, Text};
+use ncc_ir::unsupported::CodeUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -106,8 +107,8 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<&'static str> {
         let Value::Computed(place) = word.value else { return None };
-        let refused = |lower: &mut Lower, name: &str, out: &mut Batch| {
-            lower.fault(Fault::NotSupported { code: src.text(word.span), name: name.into() }, word.span, out);
+        let refused = |lower: &mut Lower, what: CodeUnsupported, out: &mut Batch| {
+            lower.fault(Fault::not_supported(src.text(word.span), what), word.span, out);
             None
         };
         let number = block.exprs[usize::from(place)].clone();
@@ -125,13 +126,13 @@ impl Lower {
         let Some(own) = group.first().map(|(_, _, own)| *own) else { return refused(self, ANY, out) };
         let same = |code: &Code| group.iter().any(|(_, _, group)| **group == *code.row.group);
         if codes.iter().any(same) || group.iter().any(|(_, _, group)| computed.contains(group)) {
-            return refused(self, "code of a variable beside one of its group", out);
+            return refused(self, CodeUnsupported::VariableInGroup, out);
         }
         let number = self.value(&number, word.span, out);
         out.whole = true;
         self.leave_motion(None, out);
         if !self.forget_group(&group) {
-            return refused(self, "code of a variable while a cycle is in force", out);
+            return refused(self, CodeUnsupported::VariableInCycle, out);
         }
         self.computes.saved.back.push((word.span, told));
         let group = group.into_iter().map(|(code, op, _)| (code, op)).collect();

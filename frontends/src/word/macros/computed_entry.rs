@@ -14,6 +14,7 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::Op;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TableUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -116,12 +117,12 @@ impl Lower {
         }
         self.within(value, &mut all);
         let first = all.first()?.clone();
-        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
-            lower.fault(Fault::NotSupported { code: PLACE.into(), name: name.into() }, block.span, out);
+        let refuse = |lower: &mut Lower, what: TableUnsupported, out: &mut Batch| {
+            lower.fault(Fault::not_supported(PLACE, what), block.span, out);
             Some(Vec::new())
         };
         if all.iter().any(|number| number.of != first.of) {
-            return refuse(self, "places of the control's tables by two computed numbers in one block", out);
+            return refuse(self, TableUnsupported::TwoComputedHere, out);
         }
         self.leave_motion(None, out);
         let of = first.of.clone().map(|var| Expr::Node(Box::new(Node::Var(var))))?;
@@ -147,11 +148,7 @@ impl Lower {
             match (ops.pop(), ops.is_empty()) {
                 (Some(op @ (Op::Assign(..) | Op::SetData(_))), true) => cases.push((worth, op)),
                 _ => {
-                    return refuse(
-                        self,
-                        "place of the control's tables, for something else than a value",
-                        out,
-                    );
+                    return refuse(self, TableUnsupported::NoValue, out);
                 }
             }
         }
@@ -172,17 +169,14 @@ impl Lower {
         let first = all.first()?.clone();
         let mut of = first.of.clone().map(|var| Expr::Node(Box::new(Node::Var(var))))?;
         let worths = self.worths(&all);
-        let name = match () {
-            () if !alone => "place of the control's tables by a computed number beside other words",
-            () if all.iter().any(|number| number.of != first.of) => {
-                "places of the control's tables by two computed numbers in one block"
-            }
-            () if worths.is_empty() => ANY_PLACE,
-            () => "",
+        let refused = match () {
+            () if !alone => Some(TableUnsupported::BesideWords),
+            () if all.iter().any(|number| number.of != first.of) => Some(TableUnsupported::TwoComputedHere),
+            () if worths.is_empty() => Some(ANY_PLACE),
+            () => None,
         };
-        if !name.is_empty() {
-            let fault = Fault::NotSupported { code: PLACE.into(), name: name.into() };
-            self.fault(fault, set.span, out);
+        if let Some(what) = refused {
+            self.fault(Fault::not_supported(PLACE, what), set.span, out);
             return None;
         }
         let to = self.target_of(&set.to, set.span, out)?;
@@ -246,8 +240,8 @@ impl Lower {
     /// Refuses such a place anywhere but in an assignment.
     pub(in crate::word) fn no_place_here(&mut self, element: &Element, at: Span, out: &mut Batch) {
         if self.of_the_control(element).is_some() {
-            let name = "place of the control's tables by a computed number, in a word or a condition";
-            self.fault(Fault::NotSupported { code: PLACE.into(), name: name.into() }, at, out);
+            let what = TableUnsupported::InWord;
+            self.fault(Fault::NotSupported { code: PLACE.into(), what: what.into() }, at, out);
         }
     }
 

@@ -14,6 +14,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CallUnsupported, FlowUnsupported, ValueUnsupported};
 
 use super::computes::{OpenLoop, label};
 use super::formula::{Statement, To};
@@ -178,9 +179,9 @@ impl Lower {
             Statement::Do(condition, number) => {
                 let twice = self.computes.loops.iter().any(|open| open.number == *number);
                 if !(1..=3).contains(number) || twice || self.computes.loops.len() >= MOST_LOOPS {
-                    let name = if twice { "loop within one of its number" } else { "loop of another number" };
+                    let what = if twice { FlowUnsupported::LoopTwice } else { FlowUnsupported::LoopNumber };
                     let code = format!("DO{number}").into();
-                    self.fault(Fault::NotSupported { code, name: name.into() }, span, out);
+                    self.fault(Fault::NotSupported { code, what: what.into() }, span, out);
                 }
                 let condition = condition.as_ref().map(|c| self.value(c, span, out));
                 self.now.silent = true;
@@ -202,8 +203,8 @@ impl Lower {
     ) -> bool {
         let passed = &self.computes.passed;
         if self.computes.unnamed || to.map_or(!passed.is_empty(), |to| passed.contains(&to)) {
-            let name = "jump in a text whose first part has numbered blocks, and is long".into();
-            self.fault(Fault::NotSupported { code: code.into(), name }, span, out);
+            let what = FlowUnsupported::LongText.into();
+            self.fault(Fault::NotSupported { code: code.into(), what }, span, out);
             return false;
         }
         let calls = self.active_calls();
@@ -225,19 +226,23 @@ impl Lower {
             found
         else {
             let code = format!("END{number}").into();
-            return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);
+            return self.fault(
+                Fault::NotSupported { code, what: FlowUnsupported::EndOfNoLoop.into() },
+                span,
+                out,
+            );
         };
         let code = format!("END{number}").into();
         if own != number {
-            let name = format!("end of a loop within the loop {own}").into();
-            return self.fault(Fault::NotSupported { code, name }, span, out);
+            let what = FlowUnsupported::EndOfOther { own }.into();
+            return self.fault(Fault::NotSupported { code, what }, span, out);
         }
         if calls != self.active_calls() {
-            return self.refuse_under("modal call that begins or ends within a loop", span, out);
+            return self.refuse_under(CallUnsupported::ModalLoop, span, out);
         }
         if skip.is_some() || self.now.skip.is_some() {
-            let name = "loop whose head or end can be skipped".into();
-            return self.fault(Fault::NotSupported { code, name }, span, out);
+            let what = FlowUnsupported::LoopSkipped.into();
+            return self.fault(Fault::NotSupported { code, what }, span, out);
         }
         self.leave_motion(None, out);
         let stmts = self.target(out);
@@ -263,7 +268,7 @@ impl Lower {
         self.calls_over(out);
         for open in std::mem::take(&mut self.computes.loops) {
             let code = format!("DO{}", open.number).into();
-            out.report(Fault::NotSupported { code, name: "loop without its end".into() }, open.block);
+            out.report(Fault::NotSupported { code, what: FlowUnsupported::LoopUnclosed.into() }, open.block);
             self.now.failed = true;
         }
     }
@@ -351,9 +356,8 @@ impl Lower {
                 || active.peck.as_ref().is_some_and(reads))
         {
             if self.state.cycle_feed.is_some() {
-                let name =
-                    "assignment between the call-up of a cycle with variables and its first hole".into();
-                self.fault(Fault::NotSupported { code: "#".into(), name }, span, out);
+                let what = ValueUnsupported::CycleUnset.into();
+                self.fault(Fault::NotSupported { code: "#".into(), what }, span, out);
             }
             self.state.cycle = CycleState::Lost;
         }

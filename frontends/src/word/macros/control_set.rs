@@ -12,6 +12,7 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Var};
 use ncc_ir::program::{Alarm, Data, DataMode, Op, Text, ToolValue};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{TableUnsupported, TextUnsupported, Unsupported, ValueUnsupported};
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -68,9 +69,9 @@ impl Lower {
                 text.map(Op::Message).into_iter().chain([Op::ProgramStop]).collect()
             }
             _ => {
-                let told = row.and_then(|row| row.refuse.clone());
-                let told = told.unwrap_or_else(|| "variable of the control's own that is set".into());
-                let fault = Fault::NotSupported { code: name.into(), name: told.into() };
+                let told = row.and_then(|row| row.refuse.as_deref());
+                let what = told.map_or(ValueUnsupported::ControlOwnSet.into(), Unsupported::named);
+                let fault = Fault::NotSupported { code: name.into(), what };
                 self.fault(fault, block.span, out);
                 Vec::new()
             }
@@ -103,9 +104,9 @@ impl Lower {
             let stated = asked.and_then(|asked| self.stated_at_start(&asked, at, out));
             return Some(stated.map_or(value, |stated| Expr::int(i64::from(stated))));
         }
-        let told =
-            found.and_then(|(row, _)| row.refuse.as_deref()).unwrap_or("variable of the control's own");
-        self.refuse(Fault::NotSupported { code: name.into(), name: told.into() }, at, out)
+        let told = found.and_then(|(row, _)| row.refuse.as_deref());
+        let what = told.map_or(ValueUnsupported::ControlOwn.into(), Unsupported::named);
+        self.refuse(Fault::NotSupported { code: name.into(), what }, at, out)
     }
 
     /// What is taken for granted where a variable of the control's own is used.
@@ -132,8 +133,8 @@ impl Lower {
     /// No data goes in while a cycle is in force.
     fn check_no_cycle(&mut self, at: Span, out: &mut Batch) {
         if let CycleState::Active(_) = self.state.cycle {
-            let name = "data input while a cycle is in force".into();
-            self.fault(Fault::NotSupported { code: "#".into(), name }, at, out);
+            let what = TableUnsupported::InCycle.into();
+            self.fault(Fault::NotSupported { code: "#".into(), what }, at, out);
         }
     }
 
@@ -169,8 +170,8 @@ impl Lower {
             }
             [_, more, ..] => {
                 let code = src.text(*more);
-                let name = "second comment in a block whose comment is a text for the operator".into();
-                self.refuse(Fault::NotSupported { code, name }, *more, out)
+                let what = TextUnsupported::SecondComment.into();
+                self.refuse(Fault::NotSupported { code, what }, *more, out)
             }
         }
     }

@@ -9,6 +9,7 @@ use ncc_dialects::Statement as Says;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Output, Piece};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::TextUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -44,9 +45,8 @@ impl Lower {
             return self.leave_output_out(span, src, out);
         }
         if !fits {
-            let name =
-                if known { "value of more digits than the control writes" } else { "text for a device" };
-            let fault = Fault::NotSupported { code: src.text(span), name: name.into() };
+            let what = if known { TextUnsupported::TooManyDigits } else { TextUnsupported::DeviceText };
+            let fault = Fault::NotSupported { code: src.text(span), what: what.into() };
             return self.fault(fault, span, out);
         }
         // What is in force may be asked.
@@ -58,7 +58,8 @@ impl Lower {
     fn leave_output_out(&mut self, span: Span, src: Source, out: &mut Batch) {
         let known = self.settings.dialect.formula.statements.contains(&Says::Output);
         if !known {
-            let fault = Fault::NotSupported { code: src.text(span), name: "text for a device".into() };
+            let fault =
+                Fault::NotSupported { code: src.text(span), what: TextUnsupported::DeviceText.into() };
             return self.fault(fault, span, out);
         }
         out.report(Fault::OutputDropped, span);

@@ -12,6 +12,7 @@ use ncc_ir::compensated::kind::CompensationRefusal;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -65,11 +66,10 @@ impl Lower {
             None => match &self.state.radius_entry {
                 Know::Said(entry) | Know::Taken(entry) => CutterRadius::Entry(entry.clone()),
                 Know::Lost => {
-                    let name =
-                        format!("{} of a block before, of which entry is not known here", char::from(letter));
+                    let what = MoveUnsupported::RadiusEntryOfBefore { letter: char::from(letter) };
                     let code_text = code.row.code.as_str().into();
                     return self.fault(
-                        Fault::NotSupported { code: code_text, name: name.into() },
+                        Fault::NotSupported { code: code_text, what: what.into() },
                         code.span,
                         out,
                     );
@@ -110,8 +110,8 @@ impl Lower {
     fn names_radius(&mut self, word: &Word, src: Source, out: &mut Batch) {
         self.radius.named = true;
         if self.radius.none_named {
-            let name = "entry of a radius, behind compensation that was taken for one without".into();
-            self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+            let what = MoveUnsupported::RadiusAfterNone.into();
+            self.fault(Fault::NotSupported { code: src.text(word.span), what }, word.span, out);
         }
     }
 
@@ -167,8 +167,8 @@ impl Lower {
         // At the start of a program it is off.
         let off = matches!(self.state.compensated, Know::Unsaid | Know::Said(false));
         if !off {
-            let name = "another radius where cutter radius compensation may be on".into();
-            return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+            let what = MoveUnsupported::RadiusInCompensation.into();
+            return self.fault(Fault::NotSupported { code: src.text(word.span), what }, word.span, out);
         }
         self.names_radius(&word, src, out);
         let _ = words.take(letter);

@@ -7,6 +7,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::Op;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -21,15 +22,15 @@ impl Lower {
         let letter = char::from(word.letter.to_ascii_uppercase());
         let known = self.settings.dialect.corner.words().any(|(_, own)| own.comma && own.letter == letter);
         if !known {
-            let name = match letter {
-                'R' => "corner rounding",
-                'C' => "chamfer",
-                'A' => "line by its angle",
-                _ => "comma word",
+            let what = match letter {
+                'R' => MoveUnsupported::CommaRounding,
+                'C' => MoveUnsupported::CommaChamfer,
+                'A' => MoveUnsupported::CommaAngle,
+                _ => MoveUnsupported::CommaWord,
             };
             self.now.refused = true;
             let code = src.text(word.span);
-            return self.fault(Fault::NotSupported { code, name: name.into() }, word.span, out);
+            return self.fault(Fault::NotSupported { code, what: what.into() }, word.span, out);
         }
         if let Some(other) = self.now.corner {
             let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(word.span) };
@@ -47,9 +48,9 @@ impl Lower {
         let word = self.now.corner.take().or_else(|| words.take(plain()?));
         let Some(word) = word else { return };
         if matches!(self.state.words, AxisWords::Polar { .. }) {
-            let name = "corner beside a point by radius and angle".into();
+            let what = MoveUnsupported::CornerPolar.into();
             let code = src.text(word.span);
-            return self.fault(Fault::NotSupported { code, name }, word.span, out);
+            return self.fault(Fault::NotSupported { code, what }, word.span, out);
         }
         let Some(size) = self.amount(&word, Quantity::Length, words, src, out) else { return };
         // What is computed is positive where the control's word of a corner is: execution holds it to that.

@@ -8,6 +8,7 @@ use ncc_ir::canon::Distance;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Detour, Move, Op};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -27,17 +28,15 @@ impl Lower {
     ) {
         let Meaning::Detour(detour) = code.meaning else { return };
         let text = || code.row.code.as_str().into();
-        let name = "a rapid move while a cycle is in force".into();
-        self.without_cycle(Fault::NotSupported { code: text(), name }, code.span, out);
+        let what = MoveUnsupported::DetourInCycle.into();
+        self.without_cycle(Fault::NotSupported { code: text(), what }, code.span, out);
         let why = match () {
-            () if self.state.compensated.value() == Some(true) => {
-                Some("a rapid move under cutter radius compensation")
-            }
-            () if self.state.thread.is_some() => Some("a rapid move while a thread's code is in force"),
+            () if self.state.compensated.value() == Some(true) => Some(MoveUnsupported::DetourCompensated),
+            () if self.state.thread.is_some() => Some(MoveUnsupported::DetourInThread),
             () => None,
         };
-        if let Some(name) = why {
-            self.fault(Fault::NotSupported { code: text(), name: name.into() }, code.span, out);
+        if let Some(what) = why {
+            self.fault(Fault::NotSupported { code: text(), what: what.into() }, code.span, out);
         }
         let to = self.point(None, block, words, src, out);
         if to.is_empty() {
@@ -46,8 +45,8 @@ impl Lower {
         }
         if detour == Detour::Intermediate && self.state.modes.distance.value() == Some(Distance::Incremental)
         {
-            let name = "incremental words of a return by the intermediate point".into();
-            return self.fault(Fault::NotSupported { code: text(), name }, code.span, out);
+            let what = MoveUnsupported::IntermediateIncrement.into();
+            return self.fault(Fault::NotSupported { code: text(), what }, code.span, out);
         }
         self.push(code.span, Op::Detour(detour), out);
         self.push(block, Op::StraightTraverse(Move { to, said: true }), out);

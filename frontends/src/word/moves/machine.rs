@@ -9,6 +9,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -27,8 +28,8 @@ impl Lower {
         out: &mut Batch,
     ) {
         let text = || code.row.code.as_str().into();
-        let name = "move of the machine while a cycle is in force".into();
-        self.without_cycle(Fault::NotSupported { code: text(), name }, code.span, out);
+        let what = MoveUnsupported::MachineInCycle.into();
+        self.without_cycle(Fault::NotSupported { code: text(), what }, code.span, out);
         self.check_shut(code, out);
         let number = match code.row.words.chars().next() {
             Some(letter) => match words.take(letter as u8) {
@@ -81,15 +82,14 @@ impl Lower {
             let left_out = format!("{} without an axis", code.row.code).into();
             return out.report(Fault::CodeLeftOut { code: left_out }, code.span);
         }
-        let mut refuse = |name: &str| {
-            let code_text = code.row.code.as_str().into();
-            self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
+        let mut refuse = |what: MoveUnsupported| {
+            self.fault(Fault::not_supported(code.row.code.as_str(), what), code.span, out);
         };
         if to.is_empty() {
-            return refuse("machine coordinates without an axis word");
+            return refuse(MoveUnsupported::MachineNoAxis);
         }
         if to.axes.iter().flatten().any(|word| word.distance == Fact::Known(Distance::Incremental)) {
-            return refuse("incremental word in machine coordinates");
+            return refuse(MoveUnsupported::MachineIncrement);
         }
         // Where such a move is always a rapid, none need have been said before.
         let motion = match rapid && !said {
@@ -102,16 +102,16 @@ impl Lower {
         let feeds = match motion {
             Some(Motion::Feed) if rapid && said => {
                 let code_text = code.row.code.as_str().into();
-                let name = "machine coordinates at feed".into();
-                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                let what = MoveUnsupported::MachineFeed.into();
+                return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
             }
             _ if rapid => false,
             Some(Motion::Traverse) => false,
             Some(Motion::Feed) => true,
             Some(Motion::Arc(_) | Motion::Cycle) | None => {
                 let code_text = code.row.code.as_str().into();
-                let name = "machine coordinates without G00 or G01 in force".into();
-                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                let what = MoveUnsupported::MachineNoMotion.into();
+                return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
             }
         };
         if feeds {
@@ -160,8 +160,8 @@ impl Lower {
             (point, _) => point,
         };
         if point == ReferencePoint::Home && self.option("reference_point", code.span, out) == "elsewhere" {
-            let name = "reference point that is not the machine's zero".into();
-            return self.fault(Fault::NotSupported { code: code_text(), name }, code.span, out);
+            let what = MoveUnsupported::ReferenceElsewhere.into();
+            return self.fault(Fault::NotSupported { code: code_text(), what }, code.span, out);
         }
         // A point whose place is stated is that place, which every control has words for.
         let stated = match point {

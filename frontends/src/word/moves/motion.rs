@@ -8,6 +8,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Function, Node, Unary};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Turns};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -90,8 +91,8 @@ impl Lower {
             return self.by_detour(code, block, words, src, out);
         }
         if let (Some(code), Some(_)) = (machine, self.state.thread) {
-            let name = "machine coordinates while a thread's code is in force".into();
-            return self.fault(Fault::NotSupported { code: src.text(code.span), name }, code.span, out);
+            let what = MoveUnsupported::MachineInThread.into();
+            return self.fault(Fault::NotSupported { code: src.text(code.span), what }, code.span, out);
         }
         if let Some(code) = machine.or(reference) {
             let other = cycle.or(pattern).or(machine.and(reference));
@@ -186,8 +187,8 @@ impl Lower {
         if self.has_axis_word(words) {
             if self.state.level_changed {
                 // A cycle that its caller has called up has the level that was in force there.
-                let name = "position under a cycle of the caller after another return level".into();
-                self.fault(Fault::NotSupported { code: src.text(block), name }, block, out);
+                let what = MoveUnsupported::HoleAfterLevel.into();
+                self.fault(Fault::NotSupported { code: src.text(block), what }, block, out);
             }
             self.bare_words(block, out);
             let to = self.point(None, block, words, src, out);
@@ -295,8 +296,8 @@ impl Lower {
     pub(in crate::word) fn refuse_level(&mut self, block: Span, out: &mut Batch) {
         let row = self.settings.dialect.code_for(Meaning::UseToolLengthOffset);
         let code = row.map_or("", |row| row.code.as_str()).into();
-        let name = "length offset without an absolute Z before what depends on it".into();
-        self.fault(Fault::NotSupported { code, name }, block, out);
+        let what = MoveUnsupported::LengthWithoutZ.into();
+        self.fault(Fault::NotSupported { code, what }, block, out);
     }
 
     fn arc(&mut self, turn: Turn, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
@@ -307,8 +308,8 @@ impl Lower {
             let normal = plane.axes().2;
             if to.get(normal).is_some() {
                 let code = char::from(normal.letter()).to_string().into();
-                let name = "arc with a third axis".into();
-                self.fault(Fault::NotSupported { code, name }, block, out);
+                let what = MoveUnsupported::HelixAxis.into();
+                self.fault(Fault::NotSupported { code, what }, block, out);
             }
         }
         if let (Fact::Known(plane), true, false) = (plane, rules.end_needed, self.now.failed) {

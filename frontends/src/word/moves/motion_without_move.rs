@@ -3,10 +3,12 @@
 //! force when the program runs: before such a place a move to nowhere says it. An arc to nowhere has no centre;
 //! axis words after its code are refused.
 
+use ncc_dialects::Meaning;
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Move, Op, Point, Stmt};
+use ncc_ir::program::{Move, Op, Point, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::known::Know;
@@ -46,13 +48,16 @@ impl Lower {
         self.state = if self.assume { self.state.at_merge() } else { WordState::lost() };
     }
 
+    /// The code for rigid tapping.
+    pub(in crate::word) fn rigid_code(&self) -> Text {
+        let row = self.settings.dialect.code_for(Meaning::RigidTapping);
+        row.map_or("", |row| row.code.as_str()).into()
+    }
+
     /// Control goes elsewhere between the code for rigid tapping and its cycle: nobody knows there that it is rigid.
     pub(in crate::word) fn tap_elsewhere(&mut self, out: &mut Batch) {
         if let Some(code) = self.state.rigid.filter(|_| !matches!(self.state.cycle, CycleState::Active(_))) {
-            let fault = Fault::NotSupported {
-                code: "a call or a jump".into(),
-                name: "between the code for rigid tapping and its cycle".into(),
-            };
+            let fault = Fault::not_supported(self.rigid_code(), MoveUnsupported::RigidTappingFlow);
             self.fault(fault, code, out);
         }
     }
@@ -101,9 +106,8 @@ impl Lower {
         if std::mem::replace(&mut self.motion_without_move.reported, true) {
             return;
         }
-        let name =
-            "axis words alone, where a code of motion in a block without a move may be in force".into();
-        let fault = Fault::NotSupported { code: "G".into(), name };
+        let what = MoveUnsupported::MotionUnknown.into();
+        let fault = Fault::NotSupported { code: "G".into(), what };
         out.diagnostics.push(ncc_ir::diag::Diagnostic { fault, span: bare, related: vec![code] });
         self.now.failed = true;
     }

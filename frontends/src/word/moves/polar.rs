@@ -13,6 +13,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::geometry::polar;
 use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::PolarUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -26,7 +27,7 @@ impl Lower {
     pub(in crate::word) fn polar_words(&mut self, code: &Code, on: bool, out: &mut Batch) {
         let is_on = matches!(self.state.words, AxisWords::Polar { .. });
         if on != is_on && self.now.skip.is_some() {
-            return self.no_polar(code.row.code.as_str(), "in a block that can be skipped", code.span, out);
+            return self.no_polar(code.row.code.as_str(), PolarUnsupported::SkippedBlock, code.span, out);
         }
         if !on {
             self.state.words = AxisWords::Cartesian;
@@ -34,7 +35,7 @@ impl Lower {
             return;
         }
         let Fact::Known(plane) = self.plane(code.span, out) else {
-            return self.no_polar(code.row.code.as_str(), "in a plane that is not known", code.span, out);
+            return self.no_polar(code.row.code.as_str(), PolarUnsupported::UnknownPlane, code.span, out);
         };
         if is_on {
             self.now.silent = true;
@@ -71,8 +72,8 @@ impl Lower {
         }
         if self.distance(block, out) != Fact::Known(Distance::Absolute) {
             let code = char::from(radius).to_string().into();
-            let name = "polar words under incremental words".into();
-            self.fault(Fault::NotSupported { code, name }, block, out);
+            let what = PolarUnsupported::Increments.into();
+            self.fault(Fault::NotSupported { code, what }, block, out);
             [radius, angle].into_iter().chain(centre).for_each(|letter| _ = words.take(letter));
             return true;
         }
@@ -105,9 +106,8 @@ impl Lower {
         true
     }
 
-    fn no_polar(&mut self, code: &str, why: &str, at: Span, out: &mut Batch) {
-        let name = format!("polar words {why}").into();
-        self.fault(Fault::NotSupported { code: code.into(), name }, at, out);
+    fn no_polar(&mut self, code: &str, what: PolarUnsupported, at: Span, out: &mut Batch) {
+        self.fault(Fault::not_supported(code, what), at, out);
     }
 
     /// Refuses a code whose words are coordinates, or that leads where the mode is another.
@@ -135,8 +135,8 @@ impl Lower {
             _ => false,
         };
         if leaves && matches!(self.state.words, AxisWords::Polar { .. }) {
-            let name = "while words are polar".into();
-            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+            let what = PolarUnsupported::WhileActive.into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
         }
     }
 
@@ -168,26 +168,26 @@ impl Lower {
         if radius.is_none() && angle.is_none() {
             return self.push(span, op, out);
         }
-        let refuse = |name: &str| Fault::NotSupported { code: "G16".into(), name: name.into() };
+        let refuse = |what: PolarUnsupported| Fault::not_supported("G16", what);
         let adds = |word: &Option<ncc_ir::program::Coord>| {
             word.as_ref().is_some_and(|word| word.distance != Fact::Known(Distance::Absolute))
         };
         if adds(&radius) {
-            return self.fault(refuse("polar radius from where the tool stands"), span, out);
+            return self.fault(refuse(PolarUnsupported::RadiusFromTool), span, out);
         }
         if !follows && (radius.is_none() || angle.is_none() || adds(&angle)) {
-            return self.fault(refuse("polar word that counts from where the tool stands"), span, out);
+            return self.fault(refuse(PolarUnsupported::WordFromTool), span, out);
         }
         let negative = radius.as_ref().and_then(|r| r.value.literal()).is_some_and(|n| n.mantissa < 0);
         if negative {
-            return self.fault(refuse("negative polar radius"), span, out);
+            return self.fault(refuse(PolarUnsupported::NegativeRadius), span, out);
         }
         match &op {
             Op::Position(_) => {
-                return self.fault(refuse("position of a caller's cycle in polar words"), span, out);
+                return self.fault(refuse(PolarUnsupported::HoleOfCaller), span, out);
             }
             Op::ArcFeed(arc) if !matches!(arc.centre, Centre::Radius(_)) => {
-                return self.fault(refuse("arc about a centre in polar words"), span, out);
+                return self.fault(refuse(PolarUnsupported::CentreArc), span, out);
             }
             _ => {}
         }
@@ -218,30 +218,30 @@ impl Lower {
     fn push_signed(&mut self, span: Span, mut op: Op, src: Source, out: &mut Batch) {
         let [radius, angle] = std::mem::take(&mut self.now.polar);
         let Some(first) = radius.or(angle) else { return };
-        let refuse = |lower: &mut Lower, why: &str, out: &mut Batch| {
-            lower.no_polar(&src.text(first.span), why, first.span, out);
+        let refuse = |lower: &mut Lower, what: PolarUnsupported, out: &mut Batch| {
+            lower.no_polar(&src.text(first.span), what, first.span, out);
         };
         if self.plane(span, out) != Fact::Known(Plane::Xy) {
-            return refuse(self, "in another plane than XY, or in one that is not known", out);
+            return refuse(self, PolarUnsupported::OtherPlane, out);
         }
         let by_cycle = matches!(op, Op::Hole(_));
         if matches!(op, Op::Position(_)) {
-            return refuse(self, "as a position of a caller's cycle", out);
+            return refuse(self, PolarUnsupported::OfCallersCycle, out);
         }
         let plain =
             polar::end(&mut op).is_some_and(|to| to.get(Axis::X).is_none() && to.get(Axis::Y).is_none());
         if !plain {
-            return refuse(self, "beside words of X or Y", out);
+            return refuse(self, PolarUnsupported::BesideXY, out);
         }
         let Fact::Known(distance) = self.distance(span, out) else {
-            return refuse(self, "where it is not known whether they are increments", out);
+            return refuse(self, PolarUnsupported::UnknownDistance, out);
         };
         let adds = distance == Distance::Incremental;
         if adds && by_cycle {
-            return refuse(self, "as increments of a cycle", out);
+            return refuse(self, PolarUnsupported::HoleIncrements, out);
         }
         if (adds || radius.is_none() || angle.is_none()) && !self.state.follows_polar {
-            return refuse(self, "that count from where the tool stands", out);
+            return refuse(self, PolarUnsupported::CountFromTool, out);
         }
         let mut value = |word: Option<Word>, quantity: Quantity| match word {
             None => Some(None),
@@ -252,7 +252,7 @@ impl Lower {
             return;
         };
         if !adds && length.is_some_and(|length| length.mantissa < 0) {
-            return refuse(self, "with a negative radius", out);
+            return refuse(self, PolarUnsupported::WithNegativeRadius, out);
         }
         let follows = match length {
             None => self.state.follows_polar,

@@ -9,6 +9,7 @@ use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -28,17 +29,15 @@ impl Lower {
     ) {
         let Meaning::StraightProbe(probe) = code.meaning else { return };
         let text = || code.row.code.as_str().into();
-        let under = Fault::NotSupported { code: text(), name: "probing while a cycle is in force".into() };
+        let under = Fault::NotSupported { code: text(), what: MoveUnsupported::ProbingInCycle.into() };
         self.without_cycle(under, code.span, out);
         let why = match () {
-            () if self.state.compensated.value() == Some(true) => {
-                Some("probing under cutter radius compensation")
-            }
-            () if self.state.thread.is_some() => Some("probing while a thread's code is in force"),
+            () if self.state.compensated.value() == Some(true) => Some(MoveUnsupported::ProbingCompensated),
+            () if self.state.thread.is_some() => Some(MoveUnsupported::ProbingInThread),
             () => None,
         };
-        if let Some(name) = why {
-            self.fault(Fault::NotSupported { code: text(), name: name.into() }, code.span, out);
+        if let Some(what) = why {
+            self.fault(Fault::NotSupported { code: text(), what: what.into() }, code.span, out);
         }
         if code.row.own_feed && !self.now.fed {
             let word = char::from(self.roles.feed).to_string().into();

@@ -11,6 +11,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Pitch, Synchronised};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::MoveUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -44,8 +45,8 @@ impl Lower {
     fn lead_number(&mut self, word: &Word, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Num> {
         let bare = matches!(word.value, Value::Number(d) if !d.point);
         if bare && self.settings.dialect.numbers(quantity).bare == Bare::Increments && !self.calculator {
-            let name = "lead of a thread without a decimal point".into();
-            return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+            let what = MoveUnsupported::ThreadLead.into();
+            return self.refuse(Fault::NotSupported { code: src.text(word.span), what }, word.span, out);
         }
         match self.number(word, quantity, src, out)? {
             num if num.mantissa > 0 => Some(num),
@@ -64,8 +65,8 @@ impl Lower {
     ) {
         let code: Box<str> = row.code.as_str().into();
         if self.state.words != AxisWords::Cartesian {
-            let name = "thread in polar coordinates".into();
-            return self.fault(Fault::NotSupported { code, name }, block, out);
+            let what = MoveUnsupported::ThreadPolar.into();
+            return self.fault(Fault::NotSupported { code, what }, block, out);
         }
         let letter = row.words.bytes().next().unwrap_or(self.roles.feed);
         let lead = match words.take(letter) {
@@ -76,8 +77,8 @@ impl Lower {
         let to = self.point(None, block, words, src, out);
         let along: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| to.get(*axis).is_some()).collect();
         if !matches!(along[..], [axis] if !axis.is_rotary()) {
-            let name = "thread along several axes, or round one".into();
-            return self.fault(Fault::NotSupported { code, name }, block, out);
+            let what = MoveUnsupported::ThreadAxes.into();
+            return self.fault(Fault::NotSupported { code, what }, block, out);
         }
         let Some(lead) = lead else {
             if !self.now.failed {

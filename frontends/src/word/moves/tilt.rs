@@ -9,6 +9,7 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{FrameSlot, Op, Slot, Tilt};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::FrameUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -30,9 +31,9 @@ impl Lower {
         };
         // The way to the end of its own block is not that of the tip.
         if b"ABC".iter().any(|letter| words.get(*letter).is_some()) {
-            let name = "rotary axes in the block that switches control of the tool's tip on".into();
+            let what = FrameUnsupported::TcpAxes.into();
             let code_text = code.row.code.as_str().into();
-            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
         }
         if !self.tip.starts() {
             return self.behind_an_end(code, out);
@@ -43,8 +44,8 @@ impl Lower {
     }
 
     fn behind_an_end(&mut self, code: &Code, out: &mut Batch) {
-        let name = "switched on behind an end of it that may have been one".into();
-        self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+        let what = FrameUnsupported::TcpAgain.into();
+        self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), what }, code.span, out);
     }
 
     /// A code of lengths ends control of the tip, if it is on.
@@ -112,9 +113,9 @@ impl Lower {
     /// The tool is turned upright on the plane.
     pub(in crate::word) fn upright(&mut self, code: &Code, words: &Words, out: &mut Batch) {
         if self.has_axis_word(words) {
-            let name = "tool turned onto a plane in a block with axis words".into();
+            let what = FrameUnsupported::AxisWords.into();
             let code_text = code.row.code.as_str().into();
-            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
         }
         self.push(code.span, Op::OrientToolAxis(None), out);
     }

@@ -12,6 +12,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
 use ncc_ir::program::{Alarm, Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CallUnsupported, FlowUnsupported};
 
 use super::o_state::{Outer, StructureKind};
 use super::statements::{Decision, spelled};
@@ -31,8 +32,8 @@ const DEEPEST: usize = 100;
 /// Within what the number of a program is whole (interp_read.cc, `read_integer_value`).
 const WHOLE: Num = Num { mantissa: 1, scale: 4, point: true, unit: Unit::One };
 
-pub(in crate::word) fn refused(label: &str, word: FlowWord, name: &str) -> Fault {
-    Fault::NotSupported { code: format!("O{label} {}", spelled(word)).into(), name: name.into() }
+pub(in crate::word) fn refused(label: &str, word: FlowWord, what: FlowUnsupported) -> Fault {
+    Fault::not_supported(format!("O{label} {}", spelled(word)), what)
 }
 
 /// The label of a block, if it is no computed one.
@@ -54,13 +55,13 @@ impl Reader {
         }
         let (span, skip) = (self.block.span, self.block.skip);
         let Some(label) = label_of(&decision.label) else {
-            self.sub_fault(refused("[]", word, "label that is computed"), span, out);
+            self.sub_fault(refused("[]", word, FlowUnsupported::LabelComputed), span, out);
             return true;
         };
         let letter = self.signs.number;
         let beside = self.block.words.iter().any(|word| word.letter != letter);
         if skip != 0 || beside || !self.block.settings.is_empty() {
-            self.sub_fault(refused(&label, word, "words beside an O word"), span, out);
+            self.sub_fault(refused(&label, word, FlowUnsupported::OWords), span, out);
         }
         for (fault, at) in std::mem::take(&mut self.block.faults) {
             self.sub_fault(fault, at, out);
@@ -87,17 +88,17 @@ impl Reader {
             self.end_of_program(out);
         }
         if self.lower.sub.is_some() {
-            let fault = refused(&name, FlowWord::Sub, "subprogram within another");
+            let fault = refused(&name, FlowWord::Sub, FlowUnsupported::SubInSub);
             return self.sub_fault(fault, span, out);
         }
         if !self.lower.o.open.is_empty() {
-            let fault = refused(&name, FlowWord::Sub, "subprogram within a loop or a decision");
+            let fault = refused(&name, FlowWord::Sub, FlowUnsupported::SubInLoop);
             return self.sub_fault(fault, span, out);
         }
         if !self.lower.ended && self.lower.o.subs.called_by_main.contains(&name) {
             // The call has gone on to it, and the program comes to it once more.
-            let told = "subprogram that a program calls and comes to, since nothing ends it before";
-            self.sub_fault(refused(&name, FlowWord::Sub, told), span, out);
+            let what = FlowUnsupported::SubRunInto;
+            self.sub_fault(refused(&name, FlowWord::Sub, what), span, out);
         }
         if self.frame.programs().contains(&name) || self.lower.o.subs.known.contains_key(&name) {
             self.sub_fault(Fault::ProgramTwice { name: name.clone() }, span, out);
@@ -132,7 +133,7 @@ impl Reader {
             None => Vec::new(),
         };
         if values.len() > 1 {
-            out.report(refused(name, FlowWord::EndSub, "another number of values in brackets"), span);
+            out.report(refused(name, FlowWord::EndSub, FlowUnsupported::OValues), span);
             self.frame.faulty = true;
         }
         lower.now = crate::word::lower::Now::at(lower.target(out).len());
@@ -149,7 +150,7 @@ impl Reader {
         let failed = lower.now.failed;
         lower.centre_said_elsewhere(out);
         let Some(outer) = lower.close_sub(name) else {
-            let fault = refused(name, FlowWord::EndSub, "end of no subprogram that is open");
+            let fault = refused(name, FlowWord::EndSub, FlowUnsupported::SubEnd);
             return self.sub_fault(fault, span, out);
         };
         let Some(mut procedure) = lower.sub.take() else { return };
@@ -199,8 +200,8 @@ impl Lower {
             && self.sub.as_ref().is_some_and(|sub| *sub.name == *name)
             && self.kinds().any(|kind| matches!(kind, StructureKind::Repeat(_)))
         {
-            let told = "call of a subprogram by itself within a repeat";
-            return self.fault(refused(label, FlowWord::Call, told), span, out);
+            let what = FlowUnsupported::SubRecursive;
+            return self.fault(refused(label, FlowWord::Call, what), span, out);
         }
         let main = self.sub.is_none();
         self.o.subs.called_by_main.extend(main.then(|| name.clone()));
@@ -221,9 +222,9 @@ impl Lower {
     ) -> bool {
         self.o.too_deep = self.o.open.len() >= DEEPEST;
         if self.o.too_deep {
-            let name = format!("structure within {DEEPEST} others").into();
+            let what = FlowUnsupported::TooDeep { most: DEEPEST }.into();
             self.fault(
-                Fault::NotSupported { code: format!("O{label} {}", kind.word()).into(), name },
+                Fault::NotSupported { code: format!("O{label} {}", kind.word()).into(), what },
                 block,
                 out,
             );
@@ -242,11 +243,11 @@ impl Lower {
         // It goes back from the program that it stands in, whatever its label (rs274, run).
         let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(StructureKind::Sub(_))));
         if own.is_none() && !self.o.standalone.is_open() {
-            let told = "return of no subprogram that is open";
-            return self.fault(refused(label, FlowWord::Return, told), span, out);
+            let what = FlowUnsupported::ReturnNoSub;
+            return self.fault(refused(label, FlowWord::Return, what), span, out);
         }
         if self.kinds().any(|kind| matches!(kind, StructureKind::Repeat(_))) {
-            return self.fault(refused(label, FlowWord::Return, "return out of a repeat"), span, out);
+            return self.fault(refused(label, FlowWord::Return, FlowUnsupported::ReturnRepeat), span, out);
         }
         self.results(values.first(), span, out);
         self.leave_motion(None, out);
@@ -273,8 +274,8 @@ impl Lower {
         }
         self.o.subs.results = true;
         if let Some(at) = self.o.subs.plain_return {
-            let told = "return without a value in a long text that asks for values further on";
-            out.report(Fault::NotSupported { code: "#<_value>".into(), name: told.into() }, at);
+            let what = FlowUnsupported::ReturnValue;
+            out.report(Fault::NotSupported { code: "#<_value>".into(), what: what.into() }, at);
         }
         if self.sub.is_none() && self.o.open.is_empty() {
             let to = |name: &str| Var::Common(name.into()).into();
@@ -291,9 +292,13 @@ impl Lower {
         let subs = std::mem::take(&mut self.o.subs.known);
         for (name, numbered, at, _) in std::mem::take(&mut self.o.subs.called) {
             if let Some(found) = subs.get(&name).filter(|found| **found != numbered) {
-                let name = format!("{name}, which {}", if *found { "ends with M99" } else { "is a sub" });
-                let code = if numbered { "M98" } else { "call" }.into();
-                out.report(Fault::NotSupported { code, name: format!("call of O{name}").into() }, at);
+                let code = if numbered { "M98" } else { "call" };
+                let name = format!("O{name}").into();
+                let what = match *found {
+                    true => CallUnsupported::KindOfNumbered { name },
+                    false => CallUnsupported::KindOfProgram { name },
+                };
+                out.report(Fault::not_supported(code, what), at);
             }
         }
         // In the order of the text, in which a computed number is compared with them.

@@ -15,6 +15,7 @@ use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
 use ncc_ir::program::{Control, Op, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{FlowUnsupported, ValueUnsupported};
 
 use super::o_formula::constant;
 use super::o_state::{OpenStructure, Outer, StructureKind, StructurePaths};
@@ -97,12 +98,12 @@ impl Lower {
         if read != words {
             return;
         }
-        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
-            let fault = Fault::NotSupported { code: "#".into(), name: name.into() };
+        let refuse = |lower: &mut Lower, what: ValueUnsupported, out: &mut Batch| {
+            let fault = Fault::not_supported("#", what);
             lower.fault(fault, block.span, out);
         };
         if read && self.now.message && !block.comments.is_empty() {
-            return refuse(self, "setting beside a message, of what the block's words read", out);
+            return refuse(self, ValueUnsupported::SettingWithMessage, out);
         }
         // Of two that set one parameter, the later one counts.
         let mut left: Vec<&Setting> = Vec::new();
@@ -117,7 +118,7 @@ impl Lower {
                 left.iter().all(|other| std::ptr::eq(*other, *set) || !meets(&other.value, &set.to))
             });
             let Some(free) = free else {
-                return refuse(self, "settings that read one another", out);
+                return refuse(self, ValueUnsupported::SettingsCircular, out);
             };
             made.push(left.remove(free));
         }
@@ -141,11 +142,7 @@ impl Lower {
             let mut value = set.value.clone();
             self.parameters(&mut value, set.span, out);
             if read && asks(&value).is_some() {
-                return refuse(
-                    self,
-                    "setting of what the block's words read, to a value of the control's",
-                    out,
-                );
+                return refuse(self, ValueUnsupported::SettingOfControl, out);
             }
             let Some(to) = self.target_of(&set.to, set.span, out) else { continue };
             if let Target::Var(var) = &to
@@ -179,14 +176,16 @@ impl Lower {
                 let name = var.name().into_owned();
                 match self.named(&name, at, out)? {
                     Named::Var(Var::Common(word)) if matches!(&*word, "_value" | "_value_returned") => {
-                        let fault =
-                            Fault::NotSupported { code: name.into(), name: "setting of a result".into() };
+                        let fault = Fault::NotSupported {
+                            code: name.into(),
+                            what: ValueUnsupported::SetResult.into(),
+                        };
                         self.refuse(fault, at, out)
                     }
                     Named::Var(var) => Some(Target::Var(var)),
                     Named::Value(_) => {
-                        let what = "setting of a parameter of the control's own".into();
-                        self.refuse(Fault::NotSupported { code: name.into(), name: what }, at, out)
+                        let what = ValueUnsupported::SetControl.into();
+                        self.refuse(Fault::NotSupported { code: name.into(), what }, at, out)
                     }
                 }
             }
@@ -252,8 +251,8 @@ impl Lower {
             set |= !says_nothing && !stays && !keeps;
         }
         if let Some(at) = late {
-            let name = "value of the control's own in a block that does something before".into();
-            self.fault(Fault::NotSupported { code: "#".into(), name }, at, out);
+            let what = ValueUnsupported::ControlLate.into();
+            self.fault(Fault::NotSupported { code: "#".into(), what }, at, out);
         }
     }
 
@@ -279,18 +278,19 @@ impl Lower {
             Index::Name(name) => name.clone(),
             Index::Computed(_) if word == FlowWord::Call => "".into(),
             Index::Computed(_) => {
-                let fault = Fault::NotSupported { code: code("[]"), name: "label that is computed".into() };
+                let fault =
+                    Fault::NotSupported { code: code("[]"), what: FlowUnsupported::LabelComputed.into() };
                 return self.fault(fault, span, out);
             }
         };
-        let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
-            lower.fault(Fault::NotSupported { code: code(&label), name: name.into() }, span, out);
+        let refuse = |lower: &mut Lower, what: FlowUnsupported, out: &mut Batch| {
+            lower.fault(Fault::NotSupported { code: code(&label), what: what.into() }, span, out);
         };
         if block.words.iter().any(|w| w.letter != letter) || !block.settings.is_empty() {
-            return refuse(self, "words beside an O word", out);
+            return refuse(self, FlowUnsupported::OWords, out);
         }
         if block.skip != 0 {
-            return refuse(self, "O word in a block that can be skipped", out);
+            return refuse(self, FlowUnsupported::OSkipped, out);
         }
         let most = match word {
             FlowWord::Call => 30,
@@ -299,13 +299,13 @@ impl Lower {
             _ => 0,
         };
         if decision.values.len() > most {
-            return refuse(self, "another number of values in brackets", out);
+            return refuse(self, FlowUnsupported::OValues, out);
         }
         let mut values = decision.values.clone();
         values.iter_mut().for_each(|value| self.parameters(value, span, out));
         let needs = matches!(word, FlowWord::If | FlowWord::ElseIf | FlowWord::While | FlowWord::Repeat);
         if needs && values.is_empty() {
-            return refuse(self, "O word without its value in brackets", out);
+            return refuse(self, FlowUnsupported::OValue, out);
         }
         self.now.silent = true;
         let first = || values.first().cloned().unwrap_or(Expr::int(0));
@@ -334,12 +334,12 @@ impl Lower {
             FlowWord::ElseIf | FlowWord::Else => {
                 let now = (word == FlowWord::ElseIf).then(first);
                 if !self.next_branch(&label, now, span, out) {
-                    refuse(self, "O word without its if", out);
+                    refuse(self, FlowUnsupported::OElse, out);
                 }
             }
             FlowWord::EndIf | FlowWord::EndWhile | FlowWord::EndRepeat => {
                 if !self.end_body(&label, word, out) {
-                    refuse(self, "end of nothing that is open", out);
+                    refuse(self, FlowUnsupported::OEnd, out);
                 }
             }
             FlowWord::Break | FlowWord::Continue => self.leave(&label, word, span, out),
@@ -354,7 +354,7 @@ impl Lower {
     pub(in crate::word) fn open_bodies(&mut self, out: &mut Batch) {
         for open in std::mem::take(&mut self.o.open) {
             let code = format!("O{} {}", open.label, open.kind.word()).into();
-            out.report(Fault::NotSupported { code, name: "O word without its end".into() }, open.block);
+            out.report(Fault::NotSupported { code, what: FlowUnsupported::OUnclosed.into() }, open.block);
             self.now.failed = true;
         }
         self.o.labels.clear();

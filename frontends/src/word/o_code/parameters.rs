@@ -11,6 +11,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Var};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{Unsupported, ValueUnsupported};
 
 use super::o_formula::node;
 use crate::batch::Batch;
@@ -75,26 +76,26 @@ impl Lower {
 
     /// What a parameter is by the text's name of it, `#31` or `#<_x>`; `None` is refused (reported).
     pub(in crate::word) fn named(&mut self, name: &str, at: Span, out: &mut Batch) -> Option<Named> {
-        let refuse = |lower: &mut Lower, told: &str, out: &mut Batch| {
-            let fault = Fault::NotSupported { code: name.into(), name: told.into() };
+        let refuse = |lower: &mut Lower, what: Unsupported, out: &mut Batch| {
+            let fault = Fault::not_supported(name, what);
             lower.refuse(fault, at, out)
         };
         let bare = name.trim_start_matches('#');
         if let Some(word) = bare.strip_prefix('<').and_then(|word| word.strip_suffix('>')) {
             if !word.starts_with('_') {
                 if self.o.numbered_program {
-                    return refuse(self, "local parameter with a name in a program that ends with M99", out);
+                    return refuse(self, ValueUnsupported::LocalInNumbered.into(), out);
                 }
                 return Some(Named::Var(Var::Local(word.into())));
             }
             if word.starts_with("_ini[") || word.starts_with("_hal[") {
-                return refuse(self, "value of the machine's own configuration", out);
+                return refuse(self, ValueUnsupported::MachineValue.into(), out);
             }
             let row = self.settings.dialect.system.iter().find(|row| row.name == word);
             let Some(row) = row else { return Some(Named::Var(Var::Common(word.into()))) };
             return match self.value_of(row, 0, at, out) {
                 Some(value) => Some(Named::Value(value)),
-                None => refuse(self, row.refuse.as_deref().unwrap_or_default(), out),
+                None => refuse(self, Unsupported::named(row.refuse.as_deref().unwrap_or_default()), out),
             };
         }
         let number: u32 = bare.parse().ok()?;
@@ -108,7 +109,7 @@ impl Lower {
         };
         match self.value_of(row, number - row.number, at, out) {
             Some(value) => Some(Named::Value(value)),
-            None => refuse(self, row.refuse.as_deref().unwrap_or_default(), out),
+            None => refuse(self, Unsupported::named(row.refuse.as_deref().unwrap_or_default()), out),
         }
     }
 

@@ -8,6 +8,7 @@ use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::expr::Var;
 use ncc_ir::program::{Op, Procedure, Program};
+use ncc_ir::unsupported::FlowUnsupported;
 
 use super::o_state::StandaloneOsub;
 use super::o_subs::refused;
@@ -101,7 +102,7 @@ impl Reader {
         let span = self.block.span;
         let mut values = self.block.decision.as_deref().map(|own| own.values.clone()).unwrap_or_default();
         if values.len() > 1 || !self.lower.o.open.is_empty() {
-            self.sub_fault(refused(name, FlowWord::EndSub, "end within something else"), span, out);
+            self.sub_fault(refused(name, FlowWord::EndSub, FlowUnsupported::EndWithinElse), span, out);
             return true;
         }
         self.lower.now = crate::word::lower::Now::at(self.lower.target(out).len());

@@ -7,6 +7,7 @@ use lalrpop_util::{ParseError, lalrpop_mod};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Unary};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::{CodeUnsupported, TextUnsupported};
 
 use super::device_text;
 use super::token::{FlowWord, Refusal, Signs, Token, Tokens};
@@ -174,7 +175,7 @@ impl Sink<'_> {
             Some(Read::Name) => {
                 let code = self.text(start, end);
                 return self.fault(
-                    Fault::NotSupported { code, name: "program with a name".into() },
+                    Fault::NotSupported { code, what: TextUnsupported::ProgramName.into() },
                     start,
                     end,
                 );
@@ -353,8 +354,8 @@ impl Sink<'_> {
         };
         if self.block.skip != 0 {
             let code = self.text(start, end);
-            let name = "second skip level in a block".into();
-            return self.fault(Fault::NotSupported { code, name }, start, end);
+            let what = CodeUnsupported::SecondSkipLevel.into();
+            return self.fault(Fault::NotSupported { code, what }, start, end);
         }
         self.block.skip = level;
         if self.block.words.iter().any(|w| w.letter != self.number) {

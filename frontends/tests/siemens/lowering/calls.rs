@@ -73,21 +73,12 @@ fn ends_of_programs() {
 
 #[test]
 fn units_that_are_refused() {
-    let refused = |code: &str, name: &str, at: &str| {
-        format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'")
+    let refused = |code: &str, what: &str, at: &str| {
+        format!("NotSupported {{ code: '{code}', what: {what} }} at '{at}'")
     };
-    assert_eq!(
-        with_subs("", "%_N_B_MPF\nX5\n").1,
-        [refused("%_N_B_MPF", "second main program in one text", "%_N_B_MPF")]
-    );
-    assert_eq!(
-        with_subs("", "%_N_B_INI\n$X=5\n").1,
-        [refused("%_N_B_INI", "unit that is no program", "%_N_B_INI")]
-    );
-    assert_eq!(
-        with_subs("", "%_N_12_SPF\nM17\n").1,
-        [refused("12", "subprogram that only a path can call", "12")]
-    );
+    assert_eq!(with_subs("", "%_N_B_MPF\nX5\n").1, [refused("%_N_B_MPF", "Text(SecondMain)", "%_N_B_MPF")]);
+    assert_eq!(with_subs("", "%_N_B_INI\n$X=5\n").1, [refused("%_N_B_INI", "Text(NoProgram)", "%_N_B_INI")]);
+    assert_eq!(with_subs("", "%_N_12_SPF\nM17\n").1, [refused("12", "Text(ByPathOnly)", "12")]);
     assert_eq!(with_subs("", "%_N_L1_SPF\nM17\n%_N_L1_SPF\nM17\n").1, ["ProgramTwice { name: '1' } at 'L1'"]);
     assert_eq!(units("%_X\nM30\n").1[0], "Syntax { found: '%_X', expected: '%_N_NAME_MPF' } at '%_X'");
     assert_eq!(units("%\nM30\n").1, [] as [&str; 0]);
@@ -121,32 +112,19 @@ fn positions_of_a_subprogram_under_a_cycle_of_its_caller() {
     assert_eq!(subs, ["1: POSITION X?1u Y?2u | POSITION X?3u | Return"]);
     assert_eq!(after_head(drill)[2], "HOLE X?9u");
     let refused = |sub: &str| with_subs(drill, &format!("%_N_L1_SPF\n{sub}\nM17\n")).1.remove(0);
-    assert_eq!(
-        refused("G1 X1"),
-        "NotSupported { code: 'G1', name: 'motion at feed while a cycle of the caller may be in force' } at 'G1'"
-    );
-    assert_eq!(
-        refused("Z1"),
-        "NotSupported { code: 'Z1', name: 'move other than a position under the cycle of a caller' } at 'Z1'"
-    );
-    assert_eq!(
-        refused("MCALL"),
-        "NotSupported { code: 'MCALL', name: 'cycle that its subprogram leaves in force or ends' } at 'M17'"
-    );
+    assert_eq!(refused("G1 X1"), "NotSupported { code: 'G1', what: Move(FeedInCallersCycle) } at 'G1'");
+    assert_eq!(refused("Z1"), "NotSupported { code: 'Z1', what: Move(NoPosition) } at 'Z1'");
+    assert_eq!(refused("MCALL"), "NotSupported { code: 'MCALL', what: Call(CycleLeft) } at 'M17'");
     // The feed of its own is not the subprogram's.
     let bore = "MCALL CYCLE85(5,0,2,-3,,,9,9)\nL1\nMCALL\n";
     assert_eq!(
         with_subs(bore, "%_N_L1_SPF\nX1 F5\nM17\n").1,
-        [
-            "NotSupported { code: 'F5', name: 'feed under the cycle of a caller that may have its own' } at 'F5'"
-        ]
+        ["NotSupported { code: 'F5', what: Move(FeedInCallersCycleWord) } at 'F5'"]
     );
     assert_eq!(faults("MCALL CYCLE85(5,0,2,-3,,,9,9)\nL1\nMCALL\nG1 X1\n"), ["NoFeed at 'G1 X1'"]);
     assert_eq!(
         faults("G1 X1\nMCALL CYCLE81(5,0,2,-3)\nL1\n"),
-        [
-            "NotSupported { code: 'L1', name: 'call under a cycle with another motion than G0 in force' } at 'L1'"
-        ]
+        ["NotSupported { code: 'L1', what: Call(UnderCycleMotion) } at 'L1'"]
     );
 }
 
@@ -162,17 +140,10 @@ fn a_subprogram_keeps_to_what_it_was_read_under() {
     let late = "%_N_L1_SPF\nG0 X1\nM17\n%_N_L2_SPF\nMCALL CYCLE81(5,0,2,-3)\nL1\nMCALL\nM17\n";
     assert_eq!(
         with_subs("L1\nL2\n", late).1,
-        [
-            "NotSupported { code: 'L1', name: 'call under another cycle than where the subprogram was called before' } at 'L1'"
-        ]
+        ["NotSupported { code: 'L1', what: Call(UnderOtherCycle) } at 'L1'"]
     );
     let open = with_subs("L2\n", "%_N_L2_SPF\nMCALL CYCLE81(5,0,2,-3)\nX1\nM17\n").1;
-    assert_eq!(
-        open,
-        [
-            "NotSupported { code: 'MCALL', name: 'cycle that its subprogram leaves in force or ends' } at 'M17'"
-        ]
-    );
+    assert_eq!(open, ["NotSupported { code: 'MCALL', what: Call(CycleLeft) } at 'M17'"]);
 }
 
 #[test]
@@ -239,33 +210,22 @@ fn a_subprogram_after_each_move() {
         ]
     );
     assert_eq!(after_head("MCALL CYCLE81(5,0,2,-3)\nMCALL POCKET\nMCALL\n")[1..], ["EndCycle"]);
-    let refused = |name: &str, at: &str, code: &str| {
-        [format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'")]
+    let refused = |what: &str, at: &str, code: &str| {
+        [format!("NotSupported {{ code: '{code}', what: {what} }} at '{at}'")]
     };
-    assert_eq!(
-        faults("MCALL L70\nL80\n"),
-        refused("call while a subprogram is called after each move", "L80", "L80")
-    );
-    assert_eq!(
-        faults("MCALL SUB(R1)\n"),
-        refused("call after each move with what others may change", "SUB(R1)", "SUB(R1)")
-    );
-    assert_eq!(faults("/MCALL L70\n"), refused("call after each move that a switch may skip", "L70", "L70"));
-    assert_eq!(
-        faults("MCALL L70\n/MCALL\n"),
-        refused("end of a call after each move that a switch may skip", "/MCALL", "MCALL")
-    );
+    assert_eq!(faults("MCALL L70\nL80\n"), refused("Call(WhileModal)", "L80", "L80"));
+    assert_eq!(faults("MCALL SUB(R1)\n"), refused("Call(ModalShared)", "SUB(R1)", "SUB(R1)"));
+    assert_eq!(faults("/MCALL L70\n"), refused("Call(ModalSkipped)", "L70", "L70"));
+    assert_eq!(faults("MCALL L70\n/MCALL\n"), refused("Cycle(CallEndSkipped)", "/MCALL", "MCALL"));
     assert_eq!(
         faults("MCALL L70\nHOLES2(0,0,5,0,0,2)\n"),
-        refused("pattern of a subprogram called after each move", "HOLES2(0,0,5,0,0,2)", "HOLES2")
+        refused("Cycle(PatternOfSubprogram)", "HOLES2(0,0,5,0,0,2)", "HOLES2")
     );
 }
 
 #[test]
 fn repeated_blocks_find_what_they_found_the_first_time() {
-    let refused = [
-        "NotSupported { code: 'REPEAT', name: 'repetition of blocks that find other modes in force than the first time' } at 'REPEAT AA'",
-    ];
+    let refused = ["NotSupported { code: 'REPEAT', what: Call(RepeatDiffers) } at 'REPEAT AA'"];
     assert_eq!(faults("AA: X1\nG91\nREPEAT AA\n"), refused);
     assert_eq!(faults("AA: G90 X1\nG91\nREPEAT AA\n"), [] as [&str; 0]);
     assert_eq!(faults("AA: X1\nG1 X2\nREPEAT AA\n"), refused);

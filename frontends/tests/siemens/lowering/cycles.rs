@@ -129,44 +129,44 @@ fn cycles_that_are_none() {
     assert_eq!(one("CYCLE81(5,0,2,3)"), "CycleUpsideDown at 'CYCLE81(5,0,2,3)'");
     assert_eq!(
         one("CYCLE81(5,0,2,-3,4)"),
-        "NotSupported { code: 'CYCLE81', name: 'DP and DPR that differ' } at '4'"
+        "NotSupported { code: 'CYCLE81', what: Cycle(TwoDepths { first: 'DP', second: 'DPR' }) } at '4'"
     );
     assert_eq!(
         one("CYCLE81(5,0,2,-3,,2)"),
-        "NotSupported { code: 'CYCLE81', name: 'DTB: dwell at the bottom' } at '2'"
+        "NotSupported { code: 'CYCLE81', what: Cycle(RefusedArgument { parameter: 'DTB', name: 'dwell at the bottom' }) } at '2'"
     );
     assert_eq!(one("CYCLE82(5,0,2,-3,,-2)"), "OutOfRange { word: '-2' } at '-2'");
     assert_eq!(
         one("CYCLE82(5,0,2,-3,,,,,11)"),
-        "NotSupported { code: 'CYCLE82', name: '_AMODE: mode of depths and dwells' } at '11'"
+        "NotSupported { code: 'CYCLE82', what: Cycle(DepthMode { parameter: '_AMODE' }) } at '11'"
     );
     assert_eq!(
         one("CYCLE82(5,0,2,,3,,,,12)"),
-        "NotSupported { code: 'CYCLE82', name: '_AMODE: mode of depths and dwells' } at '12'"
+        "NotSupported { code: 'CYCLE82', what: Cycle(DepthMode { parameter: '_AMODE' }) } at '12'"
     );
     assert_eq!(
         one("CYCLE82(5,0,2,-3,,,,,22)"),
-        "NotSupported { code: 'CYCLE82', name: '_AMODE: mode of depths and dwells' } at '22'"
+        "NotSupported { code: 'CYCLE82', what: Cycle(DepthMode { parameter: '_AMODE' }) } at '22'"
     );
     assert_eq!(
         one("CYCLE82(5,0,2,-3,,,,2,12)"),
-        "NotSupported { code: 'CYCLE82', name: '_DMODE: another plane than the one in force' } at '2'"
+        "NotSupported { code: 'CYCLE82', what: Cycle(ArgumentPlane { parameter: '_DMODE' }) } at '2'"
     );
     assert_eq!(
         one("G18\nCYCLE82(5,0,2,-3,,,,2,12)\nCYCLE82(5,0,2,-3,,,,1,12)"),
-        "NotSupported { code: 'CYCLE82', name: '_DMODE: another plane than the one in force' } at '1'"
+        "NotSupported { code: 'CYCLE82', what: Cycle(ArgumentPlane { parameter: '_DMODE' }) } at '1'"
     );
     assert_eq!(
         one("CYCLE82(5,0,2,-3,,,,11,12)"),
-        "NotSupported { code: 'CYCLE82', name: '_DMODE: mode of the display' } at '11'"
+        "NotSupported { code: 'CYCLE82', what: Cycle(DisplayMode { parameter: '_DMODE' }) } at '11'"
     );
     assert_eq!(
         one("CYCLE83(5,0,1,-20,,-8,,2,,,1,1)"),
-        "NotSupported { code: 'CYCLE83', name: 'DAM: degression of pecks' } at '2'"
+        "NotSupported { code: 'CYCLE83', what: Cycle(RefusedArgument { parameter: 'DAM', name: 'degression of pecks' }) } at '2'"
     );
     assert_eq!(
         one("CYCLE83(5,0,1,-20,,-8,,,,,.5,1)"),
-        "NotSupported { code: 'CYCLE83', name: 'FRF: another feed for the first peck' } at '.5'"
+        "NotSupported { code: 'CYCLE83', what: Cycle(RefusedArgument { parameter: 'FRF', name: 'another feed for the first peck' }) } at '.5'"
     );
     assert_eq!(one("CYCLE83(5,0,1,-20,,-30)"), "OutOfRange { word: 'FDEP' } at '-30'");
     assert_eq!(
@@ -174,10 +174,7 @@ fn cycles_that_are_none() {
         "WordMissing { code: 'CYCLE83', word: 'FDEP' } at 'CYCLE83(5,0,1,-20,,,,,,,,1)'"
     );
     assert_eq!(one("CYCLE83(5,0,1,-20,,-8,,,,,,2)"), "OutOfRange { word: 'VARI' } at '2'");
-    assert_eq!(
-        one("CYCLE81(10,0,R1,-5)"),
-        "NotSupported { code: 'R1', name: 'computed value of this word' } at 'R1'"
-    );
+    assert_eq!(one("CYCLE81(10,0,R1,-5)"), "NotSupported { code: 'R1', what: Code(ComputedWord) } at 'R1'");
     assert_eq!(one("CYCLE81(5,0,2,-5,,,,,,7)"), "WordUnused { word: '7' } at '7'");
     assert_eq!(
         one("CYCLE84(5,0,2,-5)"),
@@ -185,19 +182,19 @@ fn cycles_that_are_none() {
     );
     assert_eq!(
         one("MCALL CYCLE830(5,0,2,-5)"),
-        "NotSupported { code: 'CYCLE830', name: 'deep-hole drilling of the newer kind' } at 'CYCLE830(5,0,2,-5)'"
+        "NotSupported { code: 'CYCLE830', what: Code(Named { name: 'deep-hole drilling of the newer kind' }) } at 'CYCLE830(5,0,2,-5)'"
     );
     assert_eq!(
         one("G0 X5 CYCLE81(5,0,2,-5)"),
-        "NotSupported { code: 'CYCLE81', name: 'call beside other words' } at 'G0 X5 CYCLE81(5,0,2,-5)'"
+        "NotSupported { code: 'CYCLE81', what: Call(BesideWords) } at 'G0 X5 CYCLE81(5,0,2,-5)'"
     );
     assert_eq!(
         one("MCALL CYCLE81(5,0,2,-5)\nCYCLE81(5,0,2,-5)"),
-        "NotSupported { code: 'CYCLE81', name: 'cycle called while another is modal' } at 'CYCLE81(5,0,2,-5)'"
+        "NotSupported { code: 'CYCLE81', what: Cycle(InModalCycle) } at 'CYCLE81(5,0,2,-5)'"
     );
     assert_eq!(
         one("MCALL CYCLE81(5,0,2,-5)\nG18"),
-        "NotSupported { code: 'G18', name: 'change of the plane while a cycle is in force' } at 'G18'"
+        "NotSupported { code: 'G18', what: Move(PlaneInCycle) } at 'G18'"
     );
 }
 

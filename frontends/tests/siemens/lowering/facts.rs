@@ -33,7 +33,7 @@ fn a_text_of_our_own_leaves_it_open() {
 fn a_refused_block_still_says_its_modes() {
     assert_eq!(
         faults("G91 G147 X1\nX2\n"),
-        ["NotSupported { code: 'G147', name: 'soft approach' } at 'G147'"]
+        ["NotSupported { code: 'G147', what: Code(Named { name: 'soft approach' }) } at 'G147'"]
     );
     let text = HEAD.to_owned() + "G91 G147 X1\nX2\nM30\n";
     assert!(stmts(&read(&text)).contains(&"TRAVERSE X+=2".to_owned()));

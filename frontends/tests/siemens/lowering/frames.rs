@@ -24,16 +24,19 @@ fn frames_replace_and_append() {
 
 #[test]
 fn frames_that_are_refused() {
-    let refused = |code: &str, name: &str, at: &str| {
-        [format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'")]
+    let refused = |code: &str, what: &str, at: &str| {
+        [format!("NotSupported {{ code: '{code}', what: {what} }} at '{at}'")]
     };
-    assert_eq!(faults("ROT X30\n"), refused("ROT", "rotation about an axis of the plane", "X30"));
-    assert_eq!(faults("ATRANS\n"), refused("ATRANS", "appended frame without axes", "ATRANS"));
-    assert_eq!(faults("TRANS X5 G0\n"), refused("TRANS", "frame beside other functions", "TRANS"));
-    assert_eq!(faults("TRANS X=IC(5)\n"), refused("X=IC(5)", "AC or IC in a frame", "X=IC(5)"));
+    assert_eq!(faults("ROT X30\n"), refused("ROT", "Frame(RotationAboutPlaneAxis)", "X30"));
+    assert_eq!(faults("ATRANS\n"), refused("ATRANS", "Frame(AppendedNothing)", "ATRANS"));
+    assert_eq!(faults("TRANS X5 G0\n"), refused("TRANS", "Frame(BesideFunctions)", "TRANS"));
+    assert_eq!(faults("TRANS X=IC(5)\n"), refused("X=IC(5)", "Frame(FrameDistance)", "X=IC(5)"));
     assert_eq!(faults("TRANS X5 F9\n"), ["WordUnused { word: 'F9' } at 'F9'"]);
     assert_eq!(faults("SCALE X0\n"), ["OutOfRange { word: 'X0' } at 'X0'"]);
     assert_eq!(faults("SCALE X-1\n"), ["OutOfRange { word: 'X-1' } at 'X-1'"]);
-    assert_eq!(faults("G58 X5\n"), refused("G58", "axial absolute shift", "G58"));
-    assert_eq!(faults("ROTS X5 Y5\n"), refused("ROTS", "rotation by solid angles", "ROTS"));
+    assert_eq!(faults("G58 X5\n"), refused("G58", "Code(Named { name: 'axial absolute shift' })", "G58"));
+    assert_eq!(
+        faults("ROTS X5 Y5\n"),
+        refused("ROTS", "Code(Named { name: 'rotation by solid angles' })", "ROTS")
+    );
 }

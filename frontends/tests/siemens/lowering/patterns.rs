@@ -67,27 +67,26 @@ fn patterns_that_are_none() {
     // It is shared out where that is 0, which is known for what is never 0.
     assert_eq!(
         one("HOLES2(0,0,5,0,R1,2)"),
-        "NotSupported { code: 'HOLES2', name: 'INDA: an angle that is computed and may be 0' } at 'R1'"
+        "NotSupported { code: 'HOLES2', what: Cycle(StepComputed { parameter: 'INDA' }) } at 'R1'"
     );
     assert_eq!(faults(&format!("{DRILL}HOLES2(R1,R2,R3,R4,-(360/R5),4)\n")), [] as [&str; 0]);
-    let counted =
-        |at: &str| format!("NotSupported {{ code: '{at}', name: 'computed value of this word' }} at '{at}'");
+    let counted = |at: &str| format!("NotSupported {{ code: '{at}', what: Code(ComputedWord) }} at '{at}'");
     assert_eq!(one("HOLES2(0,0,5,0,0,R1)"), counted("R1"));
     assert_eq!(one("CYCLE801(R1,0,0,5,5,2,2)"), counted("R1"));
     assert_eq!(
         one("CYCLE801(0,0,0,5,5,2,2,2)"),
-        "NotSupported { code: 'CYCLE801', name: '_VARI: positions in another order than those of a grid or a frame' } at '2'"
+        "NotSupported { code: 'CYCLE801', what: Cycle(PatternOrder { parameter: '_VARI' }) } at '2'"
     );
     assert_eq!(
         one("CYCLE802(111111112,111111111,1,2)"),
-        "NotSupported { code: 'CYCLE802', name: 'positions that are not all absolute' } at 'CYCLE802(111111112,111111111,1,2)'"
+        "NotSupported { code: 'CYCLE802', what: Cycle(PointsNotAbsolute) } at 'CYCLE802(111111112,111111111,1,2)'"
     );
     assert_eq!(
         one("CYCLE802(111111111,111111111,1,2,,,3,4)"),
-        "NotSupported { code: 'CYCLE802', name: 'gap between the positions' } at '3'"
+        "NotSupported { code: 'CYCLE802', what: Cycle(PointsGap) } at '3'"
     );
     assert_eq!(
         one("MCALL HOLES2(0,0,5,0,0,2)"),
-        "NotSupported { code: 'HOLES2', name: 'pattern after each move' } at 'HOLES2(0,0,5,0,0,2)'"
+        "NotSupported { code: 'HOLES2', what: Call(ModalPattern) } at 'HOLES2(0,0,5,0,0,2)'"
     );
 }

@@ -95,16 +95,10 @@ fn work_offsets() {
 #[test]
 fn a_dwell_leaves_the_feed_alone() {
     assert_eq!(after_head("G4 F1.5\nG4F2\nG1 X1\n"), ["DWELL 1.5s", "DWELL 2s", "FEED! X1"]);
-    assert_eq!(
-        faults("G4 S3\n"),
-        ["NotSupported { code: 'G4', name: 'dwell in turns of the spindle' } at 'G4'"]
-    );
+    assert_eq!(faults("G4 S3\n"), ["NotSupported { code: 'G4', what: Code(DwellInTurns) } at 'G4'"]);
     assert_eq!(faults("G4\n"), ["WordMissing { code: 'G4', word: 'F' } at 'G4'"]);
     assert_eq!(faults("G4 F1 X5\n"), ["WordUnused { word: 'X5' } at 'X5'"]);
-    assert_eq!(
-        faults("G4 F1 M8\n")[0],
-        "NotSupported { code: 'G4', name: 'dwell beside other functions' } at 'G4'"
-    );
+    assert_eq!(faults("G4 F1 M8\n")[0], "NotSupported { code: 'G4', what: Code(DwellBesideOthers) } at 'G4'");
 }
 
 #[test]
@@ -194,11 +188,11 @@ fn machine_coordinates() {
     );
     assert_eq!(
         faults("SUPA X=IC(5)\n"),
-        ["NotSupported { code: 'X=IC(5)', name: 'incremental word in machine coordinates' } at 'X=IC(5)'"]
+        ["NotSupported { code: 'X=IC(5)', what: Move(MachineIncrementWord) } at 'X=IC(5)'"]
     );
     assert_eq!(
         faults("SUPA G2 X5 I2\n"),
-        ["NotSupported { code: 'SUPA', name: 'arc in machine coordinates' } at 'SUPA'"]
+        ["NotSupported { code: 'SUPA', what: Move(MachineArc) } at 'SUPA'"]
     );
 }
 

@@ -16,6 +16,7 @@ use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::CycleUnexecuted;
+use ncc_ir::unsupported::CycleUnsupported;
 
 /// Most pecks of one hole; more is a slip of the pen.
 const MAX_PECKS: i64 = 100_000;
@@ -284,14 +285,8 @@ impl Exec {
         // What it says of the hole is the reader's to find out; where that could not know of the cycle,
         // nobody does.
         if to.axes[cycle.plane.axes().2 as usize].is_some() {
-            let name = "word along the drilling axis at a position under a cycle".into();
-            return self.fault(
-                Fault::NotSupported {
-                    code: (cycle.plane.axes().2.letter() as char).to_string().into(),
-                    name,
-                },
-                span,
-            );
+            let letter = char::from(cycle.plane.axes().2.letter()).to_string();
+            return self.fault(Fault::not_supported(letter, CycleUnsupported::HoleAlongAxis), span);
         }
         let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
         let mut next = self.position;

@@ -22,6 +22,7 @@ use ncc_ir::program::kinds::{drilling, flow, moves, polar, tooling, variables};
 use ncc_ir::program::{Attribute, Data, FrameSlot, Move, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::unsupported::SaveUnsupported;
 
 /// Puts the statements behind the calls. `entry` is what holds where the statements of the main procedure begin; `word`
 /// names the attribute in refusals.
@@ -31,7 +32,7 @@ pub fn run(program: &mut Program, entry: &Tracker, word: &str, diags: &mut Vec<D
         return;
     }
     let Some(at) = at_calls(program, entry) else {
-        let what = "a program of which too little is known".into();
+        let what = SaveUnsupported::Unknown;
         return diags.push(refused(word, what, Span::default()));
     };
     let mut changes: HashMap<Text, Changes> = HashMap::new();
@@ -64,8 +65,8 @@ pub fn left_out(program: &Program, target: &Caps) -> Vec<Diagnostic> {
     reported
 }
 
-fn refused(word: &str, name: String, span: Span) -> Diagnostic {
-    Diagnostic::new(Fault::NotSupported { code: word.into(), name: name.into() }, span)
+fn refused(word: &str, what: SaveUnsupported, span: Span) -> Diagnostic {
+    Diagnostic::new(Fault::not_supported(word, what), span)
 }
 
 /// What a subprogram changes, with all that it calls and that gives nothing back itself.
@@ -83,7 +84,7 @@ struct Changes {
     speeds: Vec<SpindleMode>,
     compensation: bool,
     /// What is refused, whatever is in force.
-    refused: Option<&'static str>,
+    refused: Option<SaveUnsupported>,
 }
 
 impl Changes {
@@ -131,8 +132,8 @@ impl Changes {
             | Op::ClearFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
-            | Op::UseOriginShift(_) => self.refused = Some("another frame than one of the chain"),
-            Op::Advise(_) => self.refused = Some("advice to the control"),
+            | Op::UseOriginShift(_) => self.refused = Some(SaveUnsupported::OtherFrame),
+            Op::Advise(_) => self.refused = Some(SaveUnsupported::Advice),
             Op::SetData(data) => self.data |= matches!(**data, Data::Offset { .. }),
             moves!() | drilling!() | polar!() | Op::Position(_) | Op::EndCycle => self.motion = true,
             Op::UseToolCentrePoint(_)
@@ -175,7 +176,7 @@ impl Changes {
     }
 
     /// The statements that put in force again what was so at a call; else what stands against them.
-    fn undone(&self, at: Option<&At>) -> Result<Vec<Op>, &'static str> {
+    fn undone(&self, at: Option<&At>) -> Result<Vec<Op>, SaveUnsupported> {
         let mut ops = Vec::new();
         if let Some(refused) = self.refused {
             return Err(refused);
@@ -183,30 +184,30 @@ impl Changes {
         // A call to which no way leads.
         let Some(At { before, path, behind }) = at else { return Ok(ops) };
         let modes = &before.modes;
-        let same = |set: bool, what: &'static str| if set { Ok(()) } else { Err(what) };
-        same(self.units.iter().all(|units| modes.units == Some(*units)), "another unit of length")?;
-        same(self.feeds.iter().all(|mode| modes.feed_mode == Some(*mode)), "what a feed counts")?;
-        same(self.speeds.is_empty(), "what a speed counts")?;
+        let same = |set: bool, what: SaveUnsupported| if set { Ok(()) } else { Err(what) };
+        same(self.units.iter().all(|units| modes.units == Some(*units)), SaveUnsupported::Units)?;
+        same(self.feeds.iter().all(|mode| modes.feed_mode == Some(*mode)), SaveUnsupported::FeedMode)?;
+        same(self.speeds.is_empty(), SaveUnsupported::SpeedMode)?;
         let beside = before.compensated || behind.as_ref().is_none_or(|behind| behind.compensated);
-        same(!self.compensation || !beside, "cutter radius compensation")?;
-        same(!self.offset || !self.data, "a work offset that is changed and left")?;
+        same(!self.compensation || !beside, SaveUnsupported::Compensation)?;
+        same(!self.offset || !self.data, SaveUnsupported::OffsetChanged)?;
         if self.plane {
-            ops.push(Op::SelectPlane(modes.plane.ok_or("a plane that is not known where it is called")?));
+            ops.push(Op::SelectPlane(modes.plane.ok_or(SaveUnsupported::Plane)?));
         }
         if self.distance {
-            let distance = modes.distance.ok_or("a dimension mode that is not known where it is called")?;
+            let distance = modes.distance.ok_or(SaveUnsupported::Distance)?;
             ops.push(Op::SetDistanceMode(distance));
         }
         if self.offset {
-            let offset = modes.work_offset.ok_or("a work offset that is not known where it is called")?;
+            let offset = modes.work_offset.ok_or(SaveUnsupported::Offset)?;
             ops.push(Op::SetOriginOffsets(offset));
         }
         if self.frame {
-            same(!before.framed && !before.turned, "a frame of the caller's that is another one in it")?;
+            same(!before.framed && !before.turned, SaveUnsupported::CallersFrame)?;
             ops.push(Op::ClearFrame(FrameSlot::Chain));
         }
         if self.path {
-            let path = path.clone().ok_or("how corners are taken, which is not known where it is called")?;
+            let path = path.clone().ok_or(SaveUnsupported::Path)?;
             ops.push(Op::SetMotionControlMode(path));
         }
         if self.motion {
@@ -214,7 +215,7 @@ impl Changes {
             ops.push(match modes.motion {
                 Some(Motion::Traverse) => Op::StraightTraverse(nowhere),
                 Some(Motion::Feed) => Op::StraightFeed(nowhere),
-                Some(_) | None => return Err("a motion other than G0 and G1, or one that is not known"),
+                Some(_) | None => return Err(SaveUnsupported::Motion),
             });
         }
         Ok(ops)
@@ -243,9 +244,9 @@ fn behind_calls(
             place += 1;
         }
         match changes.undone(at.get(&span.start)) {
-            Err(what) => diags.push(refused(word, what.into(), span)),
+            Err(what) => diags.push(refused(word, what, span)),
             Ok(ops) if !ops.is_empty() && times > 1 => {
-                diags.push(refused(word, "a call that is made several times".into(), span));
+                diags.push(refused(word, SaveUnsupported::Repeated, span));
             }
             Ok(ops) => {
                 for (joined, op) in ops.into_iter().enumerate().map(|(k, op)| (k > 0, op)) {

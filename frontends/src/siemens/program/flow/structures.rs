@@ -4,6 +4,7 @@ use ncc_ir::computed::computed_code::computed_code;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr, Node, Target as Into, Var};
 use ncc_ir::program::{Control, Op, Stmt};
+use ncc_ir::unsupported::FlowUnsupported;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -18,11 +19,11 @@ impl Lower {
         out.whole = true;
         self.now.heading = true;
         if self.skipped() {
-            self.not_supported(what.word(), "structure whose head can be skipped", head.span, out);
+            self.not_supported(what.word(), FlowUnsupported::HeadSkipped, head.span, out);
         }
         let most = self.settings.dialect.formula.loops;
         if self.flow.open.len() >= most.into() {
-            self.not_supported(what.word(), &format!("structure within {most} others"), head.span, out);
+            self.not_supported(what.word(), FlowUnsupported::TooDeep { most: most.into() }, head.span, out);
         }
         let scaled = self.state.scaled;
         if !matches!(what, StructureKind::If { .. }) {
@@ -109,7 +110,7 @@ impl Lower {
             }
             _ => {
                 if !self.now.failed {
-                    self.not_supported("FOR", "counter that is no plain variable", counter.span, out);
+                    self.not_supported("FOR", FlowUnsupported::Counter, counter.span, out);
                 }
                 StructureKind::Loop
             }
@@ -149,13 +150,13 @@ impl Lower {
                 (self.state, self.moved) = begin;
                 self.forget_texts();
                 if !same {
-                    let name = "modal cycle or rounding that a branch leaves in force or ends";
-                    self.not_supported("ELSE", name, head.span, out);
+                    let what = FlowUnsupported::BranchModal;
+                    self.not_supported("ELSE", what, head.span, out);
                 }
             }
             _ => {
                 self.target(out).extend(body);
-                self.not_supported("ELSE", "branch of no IF", head.span, out);
+                self.not_supported("ELSE", FlowUnsupported::ElseAlone, head.span, out);
             }
         }
     }
@@ -172,14 +173,14 @@ impl Lower {
         self.now.heading = true;
         let fits = self.flow.open.last().is_some_and(|open| open.what.closed_by() == closes);
         if !fits {
-            let name = match self.flow.open.last() {
-                Some(open) => format!("end within {}", open.what.word()),
-                None => "end of nothing".to_owned(),
+            let what = match self.flow.open.last() {
+                Some(open) => FlowUnsupported::EndWithin { open: open.what.word().into() },
+                None => FlowUnsupported::EndOfNothing,
             };
-            return self.not_supported(closes.word(), &name, head.span, out);
+            return self.not_supported(closes.word(), what, head.span, out);
         }
         if self.skipped() {
-            self.not_supported(closes.word(), "structure whose end can be skipped", head.span, out);
+            self.not_supported(closes.word(), FlowUnsupported::EndSkipped, head.span, out);
         }
         self.no_idle_tap(head.span, src, out);
         let stale = std::mem::take(&mut self.stale);
@@ -191,8 +192,8 @@ impl Lower {
             return;
         };
         if found != self.in_place() {
-            let name = "modal cycle or rounding that a loop or branch leaves in force or ends";
-            self.not_supported(closes.word(), name, head.span, out);
+            let what = FlowUnsupported::LoopModal;
+            self.not_supported(closes.word(), what, head.span, out);
         }
         let stmts = self.target(out);
         let mut body = stmts.split_off(at.min(stmts.len()));
@@ -234,8 +235,8 @@ impl Lower {
             StructureKind::Until => Control::Until { body, condition: condition.unwrap_or(Expr::int(1)) },
             StructureKind::For { variable, from, to } => {
                 if may_change(&body, &to) {
-                    let name = "loop whose end value may change while it runs";
-                    self.not_supported("FOR", name, begin, out);
+                    let what = FlowUnsupported::EndValue;
+                    self.not_supported("FOR", what, begin, out);
                 }
                 Control::For { variable, from, to, step: Expr::int(1), body }
             }

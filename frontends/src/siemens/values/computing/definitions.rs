@@ -4,6 +4,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Var;
 use ncc_ir::program::{Declare, Op};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::ValueUnsupported;
 
 use super::super::typed::Kind;
 use super::{several_values, stored};
@@ -31,16 +32,21 @@ impl Lower {
         out.whole = true;
         self.now.heading = true;
         if let Some(scope) = definition.scope.first() {
-            return self.not_supported(&src.text(*scope), "definition for all programs", *scope, out);
+            return self.not_supported(&src.text(*scope), ValueUnsupported::ForAllPrograms, *scope, out);
         }
         if let Some((attribute, _)) = definition.attributes.first() {
-            return self.not_supported(&src.text(*attribute), "attribute of a variable", *attribute, out);
+            return self.not_supported(
+                &src.text(*attribute),
+                ValueUnsupported::VariableAttribute,
+                *attribute,
+                out,
+            );
         }
         if self.skipped() {
-            return self.not_supported("DEF", "definition that can be skipped", span, out);
+            return self.not_supported("DEF", ValueUnsupported::DefSkipped, span, out);
         }
         if self.executed {
-            return self.not_supported("DEF", "definition behind blocks that are executed", span, out);
+            return self.not_supported("DEF", ValueUnsupported::DefLate, span, out);
         }
         let Some(kind) = self.kind_of(definition.kind.name, span, src, out) else { return };
         let longest = match definition.kind.size.first() {
@@ -65,9 +71,9 @@ impl Lower {
             TypeName::Int => return Some(Kind::Int),
             TypeName::Bool => return Some(Kind::Bool),
             TypeName::String => return Some(Kind::Text),
-            TypeName::Char => "character as a variable",
-            TypeName::Axis => "axis as a variable",
-            TypeName::Frame => "frame as a variable",
+            TypeName::Char => ValueUnsupported::Character,
+            TypeName::Axis => ValueUnsupported::AxisVariable,
+            TypeName::Frame => ValueUnsupported::FrameVariable,
         };
         self.not_supported(&src.text(span), refuse, span, out);
         None
@@ -82,17 +88,17 @@ impl Lower {
     ) -> Option<(String, Box<[u32]>)> {
         let span = place.span;
         let Address::Name(name) = place.address else {
-            self.not_supported(&src.text(span), "name that no variable can have", span, out);
+            self.not_supported(&src.text(span), ValueUnsupported::VariableName, span, out);
             return None;
         };
         let name = src.text(name).to_ascii_uppercase();
         let dialect = self.settings.dialect;
         let taken = if dialect.name_row(&name).is_some() || dialect.call_row(&name).is_some() {
-            Some("word of the language as a variable")
+            Some(ValueUnsupported::ReservedName)
         } else if self.variables.contains_key(&*name) || Lower::named_constant(&name).is_some() {
-            Some("variable that is defined twice")
+            Some(ValueUnsupported::DefinedTwice)
         } else if place.index.len() > DIMENSIONS {
-            Some("array of more than three dimensions")
+            Some(ValueUnsupported::Dimensions)
         } else {
             None
         };
@@ -151,7 +157,7 @@ impl Lower {
         let variable = Variable { kind, sizes: sizes.clone(), text, reference: None };
         if kind == Kind::Text {
             if !sizes.is_empty() {
-                return self.not_supported(&src.text(span), "array of texts", span, out);
+                return self.not_supported(&src.text(span), ValueUnsupported::TextArray, span, out);
             }
             self.variables.insert(name.as_str().into(), variable);
             if let Some(value) = &declared.initial {
@@ -172,7 +178,7 @@ impl Lower {
                     .and_then(|typed| self.converted(typed, kind, span, out))
                     .map(|value| vec![Some(value)]),
                 _ => {
-                    self.not_supported(&src.text(span), "first value in another form", span, out);
+                    self.not_supported(&src.text(span), ValueUnsupported::FirstValueForm, span, out);
                     None
                 }
             },

@@ -7,6 +7,7 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Var};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::ValueUnsupported;
 
 use super::has_round;
 use crate::batch::Batch;
@@ -155,15 +156,16 @@ impl Lower {
                     && [a, b].iter().any(|e| e.literal().is_some_and(|n| n.whole_number().is_none()))
                 {
                     let code = self.settings.dialect.formula.operators[&Operator::Modulo].as_str().into();
-                    let name = "the remainder of a number that is not whole".into();
-                    self.fault(Fault::NotSupported { code, name }, at, out);
+                    let what = ValueUnsupported::Remainder.into();
+                    self.fault(Fault::NotSupported { code, what }, at, out);
                 }
                 let rules = &self.settings.dialect.formula;
                 if matches!(**node, Node::Binary(Binary::Power, ..))
                     && !rules.power
                     && !rules.operators.contains_key(&Operator::Power)
                 {
-                    let fault = Fault::NotSupported { code: "POW".into(), name: "function".into() };
+                    let fault =
+                        Fault::NotSupported { code: "POW".into(), what: ValueUnsupported::Function.into() };
                     self.fault(fault, at, out);
                 }
                 expr.parts_mut().for_each(|part| self.mean(part, round, at, out));
@@ -177,8 +179,8 @@ impl Lower {
             Node::Call(function, arguments) => {
                 let function = *function;
                 if !self.settings.dialect.formula.has(function) {
-                    let (code, name) = (format!("{function:?}").to_uppercase().into(), "function".into());
-                    self.fault(Fault::NotSupported { code, name }, at, out);
+                    let code = format!("{function:?}").to_uppercase();
+                    self.fault(Fault::not_supported(code, ValueUnsupported::Function), at, out);
                 }
                 arguments.iter_mut().for_each(|a| self.mean(a, round, at, out));
                 if function == Function::Round

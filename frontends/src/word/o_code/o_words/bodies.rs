@@ -4,6 +4,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, partial_expr};
 use ncc_ir::program::{Control, Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::FlowUnsupported;
 
 use crate::batch::Batch;
 use crate::word::lower::Lower;
@@ -16,7 +17,7 @@ impl Lower {
         if self.o.labels.iter().any(|other| **other == *label) {
             let fault = Fault::NotSupported {
                 code: format!("O{label} {}", kind.word()).into(),
-                name: "label that stands twice in its program".into(),
+                what: FlowUnsupported::OLabelTwice.into(),
             };
             self.fault(fault, block, out);
         }
@@ -68,13 +69,13 @@ impl Lower {
         let mut loops =
             self.o.open.iter().rev().filter(|open| !matches!(open.kind, StructureKind::If { .. }));
         let inner = loops.next();
-        let name = match inner {
+        let what = match inner {
             // What is passed over behind a `continue` is looked through for the loop's label, and a `break` with it
             // is taken for one that is made (interp_o_word.cc); a `while` goes on all the same.
             Some(OpenStructure { kind: StructureKind::Do, label: own, turned: true, .. })
                 if **own == *label && word == FlowWord::Break =>
             {
-                Some("O word that leaves a loop behind a continue of it")
+                Some(FlowUnsupported::BreakAfterContinue)
             }
             Some(OpenStructure { kind: StructureKind::While(_) | StructureKind::Do, label: own, .. })
                 if **own == *label =>
@@ -84,14 +85,14 @@ impl Lower {
             Some(OpenStructure { kind: StructureKind::While(_) | StructureKind::Do, .. })
                 if loops.any(|open| *open.label == *label) =>
             {
-                Some("O word that leaves a loop from within another")
+                Some(FlowUnsupported::BreakOuter)
             }
-            Some(OpenStructure { kind: StructureKind::Repeat(_), .. }) => Some("O word that leaves a repeat"),
-            _ => Some("O word that leaves no loop"),
+            Some(OpenStructure { kind: StructureKind::Repeat(_), .. }) => Some(FlowUnsupported::BreakRepeat),
+            _ => Some(FlowUnsupported::BreakNoLoop),
         };
-        if let Some(name) = name {
+        if let Some(what) = what {
             let code = format!("O{label} {}", spelled(word)).into();
-            return self.fault(Fault::NotSupported { code, name: name.into() }, span, out);
+            return self.fault(Fault::NotSupported { code, what: what.into() }, span, out);
         }
         let in_while = matches!(inner, Some(OpenStructure { kind: StructureKind::While(_), .. }));
         if word == FlowWord::Break && in_while {
@@ -116,8 +117,8 @@ impl Lower {
     /// (interp_o_word.cc, `doing_break`).
     fn check_break(&mut self, at: Span, out: &mut Batch) {
         if self.o.left.is_some() && self.o.does.is_some() {
-            let name = "loop of do in a text where break leaves a loop of while".into();
-            self.fault(Fault::NotSupported { code: "O".into(), name }, at, out);
+            let what = FlowUnsupported::DoAfterBreak.into();
+            self.fault(Fault::NotSupported { code: "O".into(), what }, at, out);
         }
     }
 
@@ -125,8 +126,8 @@ impl Lower {
     /// (run: a `repeat [3]` made six turns).
     fn check_continue(&mut self, at: Span, out: &mut Batch) {
         if self.o.turned.is_some() && self.o.repeats.is_some() {
-            let name = "loop of repeat in a text where continue leaves a turn of a do".into();
-            self.fault(Fault::NotSupported { code: "O".into(), name }, at, out);
+            let what = FlowUnsupported::RepeatAfterContinue.into();
+            self.fault(Fault::NotSupported { code: "O".into(), what }, at, out);
         }
     }
 
