@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn another_state_makes_other_events() {
         let start = Op::StartCycle(Box::new(cycles().remove(0)));
-        let source = control(&[start.clone()]);
+        let source = control(std::slice::from_ref(&start));
         assert!(source.makes_strokes_of(&control(&[])));
         assert!(!source.makes_strokes_of(&control(&[start])), "a cycle");
         let turned = [Some(Expr::int(0)), Some(Expr::int(0)), None];
