@@ -46,7 +46,7 @@ const MENDED: [Mended; 12] = [
     Mended {
         name: "arrays",
         why: "nn, m and o are not defined, and a name has two letters first",
-        told: "variable that the program does not define",
+        told: "Value(Undefined)",
         by: &[
             ("DEF INT FELD[", "DEF INT nn, mm, oo\nDEF INT FELD["),
             ("FOR nn", "F1000\nFOR nn"),
@@ -88,7 +88,7 @@ const MENDED: [Mended; 12] = [
     Mended {
         name: "r_param",
         why: "R0 is no name of a variable: it is defined already",
-        told: "name that no variable can have",
+        told: "Value(VariableName)",
         by: &[("DEF REAL R0=0", "R0=0 F1000")],
     },
     Mended {
