@@ -177,6 +177,12 @@ fn the_unit_of_a_feed_in_a_subprogram() {
 fn labels_and_repetition() {
     assert_eq!(after_head("N5 A_B: X1\nREPEAT a_b P=3\n"), ["N5 A_B:", "& TRAVERSE X1", "REPEAT A_B x3"]);
     assert_eq!(after_head("AA: X1\nBB: X2\nREPEAT AA BB\n")[4], "REPEAT AA to BB x1");
+    // What is relied on behind a label, by lines that are read the short way too, is another the second time.
+    for (mode, line) in [("G1 F100", "X1"), ("G91", "X1"), ("G18", "G2 X1 Y0 I1 J0"), ("G70", "X1")] {
+        let text = format!("G71 G90 G17 G0 X0 Y0 F100\nAA:\n{line}\n{line}\n{mode} Z3\nREPEAT AA\n");
+        let faults = faults(&text);
+        assert!(faults.iter().any(|fault| fault.contains("RepeatDiffers")), "{mode}: {faults:?}");
+    }
     assert_eq!(faults("REPEAT AA\n"), ["LabelUnknown { name: 'AA' } at 'AA'"]);
     assert_eq!(faults("AA: X1\nREPEAT AA BB\n"), ["LabelUnknown { name: 'BB' } at 'BB'"]);
     assert_eq!(
