@@ -339,6 +339,7 @@ impl Reader {
         let text = src.text(line).to_ascii_uppercase();
         if text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == "MCALL") {
             self.lower.state.cycle = ModalCall::Refused;
+            self.lower.refresh();
         }
     }
 

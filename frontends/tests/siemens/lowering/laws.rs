@@ -128,6 +128,7 @@ fn move_line() -> impl Strategy<Value = String> {
 fn hole_line() -> impl Strategy<Value = String> {
     let cycles = [
         "MCALL CYCLE81(5,0,2,-3)",
+        "MCALL CYCLE81(5,0,2,-3)\r ",
         "MCALL CYCLE82(5,0,2,-3,,1)",
         "MCALL CYCLE83(5,0,1,-20,,-8,,0,0,0,1,1)",
         "MCALL CYCLE85(5,0,2,-3,,,9,8)",
