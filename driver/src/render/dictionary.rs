@@ -1,4 +1,4 @@
-//! What is wrong with a dictionary, in words: a headline and helps.
+//! The words for a fault of a dictionary: a headline and helps.
 //!
 //! ```text
 //! means = "FLOD_ON"    no meaning: FLOD_ON    did you mean `FLOOD_ON`?
@@ -10,12 +10,12 @@ use ncc_dialects::{DialectFault, UnknownKind, UnknownWord, Unreadable, builtin_i
 
 use super::messages::message::{Help, Message, Part};
 
-/// Words about a fault.
+/// The words for a fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Words {
-    /// What is wrong.
+    /// The problem, in one line.
     pub headline: String,
-    /// What to do.
+    /// Actions, one each.
     pub helps: Vec<String>,
 }
 
@@ -28,20 +28,20 @@ pub struct BaseRow<'t> {
     pub key: &'t str,
 }
 
-/// The words about a fault, which may be in a row of the base.
+/// The words for a fault, which may be in a row of the base.
 pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
     if let Some(unknown) = fault.unknown() {
         return of_unknown(fault, &unknown);
     }
     if let Some(field) = fault.missing() {
         let help = if field == "source" { "help-source" } else { "help" };
-        return told(dictionary("missing-field").text("field", field), vec![Help::new(help)]);
+        return in_words(dictionary("missing-field").text("field", field), vec![Help::new(help)]);
     }
     let form = match fault {
         DialectFault::NotInBase { row, among } => {
             let near = near(row, among.iter().map(String::as_str));
             let message = dictionary("not-in-base").text("row", &**row);
-            return told(message, vec![of_near(&near)]);
+            return in_words(message, vec![of_near(&near)]);
         }
         DialectFault::Unreadable { row, why } => {
             let (form, letter) = match why {
@@ -59,7 +59,7 @@ pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
                 (Unreadable::Word(_) | Unreadable::Taken, Some(row)) => of_base(row),
                 _ => Help::new("help"),
             };
-            return told(message, vec![help]);
+            return in_words(message, vec![help]);
         }
         DialectFault::NoBase { base } => {
             let near = near(base, builtin_ids());
@@ -67,7 +67,7 @@ pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
                 Some(near) => Help::new("help-one").text("near", *near),
                 None => Help::new("help"),
             };
-            return told(dictionary("no-base").text("fault", fault.to_string()), vec![help]);
+            return in_words(dictionary("no-base").text("fault", fault.to_string()), vec![help]);
         }
         DialectFault::Form(_) | DialectFault::NoCycleKind { .. } => "form",
         DialectFault::Missing { .. } | DialectFault::BadId { .. } => "own-name",
@@ -83,7 +83,7 @@ pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
         ("row", Some(row)) => of_base(row),
         _ => Help::new("help"),
     };
-    told(dictionary(form).text("fault", fault.to_string()), vec![help])
+    in_words(dictionary(form).text("fault", fault.to_string()), vec![help])
 }
 
 fn of_unknown(fault: &DialectFault, unknown: &UnknownWord<'_>) -> Words {
@@ -96,7 +96,7 @@ fn of_unknown(fault: &DialectFault, unknown: &UnknownWord<'_>) -> Words {
         (UnknownKind::Value | UnknownKind::CycleKind, _) => dictionary("value"),
     };
     let message = message.text("name", unknown.name).text("among", quoted(&unknown.among));
-    told(message, vec![of_near(&unknown.near())])
+    in_words(message, vec![of_near(&unknown.near())])
 }
 
 /// The help that names the row of the base.
@@ -117,7 +117,7 @@ fn quoted(words: &[&str]) -> String {
     words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
 }
 
-fn told(message: Message, helps: Vec<Help>) -> Words {
+fn in_words(message: Message, helps: Vec<Help>) -> Words {
     Words { headline: message.headline(), helps: message.helps(Some(helps)) }
 }
 

@@ -90,6 +90,8 @@ impl Exec {
         if matches!(way, Way::Fine { .. } | Way::Stop { .. }) {
             return None;
         }
+        // A control that refuses the cycle makes no hole.
+        self.spindle_turns_for(cycle, Span::default()).ok()?;
         let level = self.return_to(cycle);
         self.level_is_known(cycle, level, Span::default()).ok()?;
         let out_to = cycle.return_plane.unwrap_or(level);
@@ -143,30 +145,12 @@ impl Exec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::moves::sketch::{mm, stmt, to, word};
+    use crate::moves::sketch::{drilling, hole, mm, stmt, to, word};
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, ReturnLevel, Spindle, Turn};
     use ncc_ir::expr::Expr;
     use ncc_ir::program::Pitch;
     use ncc_ir::program::cycle::{Approach, BoreStop, Clearance, Cycle, CycleKind, Tap};
-
-    fn hole(x: i64, y: i64) -> Stmt {
-        stmt(Op::Hole(to([Some(x), Some(y), None])))
-    }
-
-    fn plain() -> Cycle {
-        Cycle {
-            kind: CycleKind::Drill,
-            plane: Fact::Known(Plane::Xy),
-            retract: word(2_000),
-            reference: None,
-            depth: word(-20_000),
-            return_level: Fact::Known(ReturnLevel::Retract),
-            return_plane: None,
-            approach: Approach::PlaneFirst,
-            feed: None,
-        }
-    }
 
     fn peck(peck: i64, clearance: Clearance) -> CycleKind {
         let (first, less, pause, settle, dwell) = (None, None, None, None, None);
@@ -203,23 +187,26 @@ mod tests {
             tap(1_500),
             CycleKind::BoreStop(stop),
         ];
-        let mut all: Vec<Cycle> = kinds.into_iter().map(|kind| Cycle { kind, ..plain() }).collect();
+        let mut all: Vec<Cycle> = kinds.into_iter().map(|kind| Cycle { kind, ..drilling() }).collect();
         let initial = Fact::Known(ReturnLevel::Initial);
         for return_level in [Fact::Known(ReturnLevel::Retract), initial, Fact::Entry] {
-            all.extend(Approach::ALL.map(|approach| Cycle { approach, return_level, ..plain() }));
+            all.extend(Approach::ALL.map(|approach| Cycle { approach, return_level, ..drilling() }));
         }
-        all.extend([2_000, 5_000, 50_000].map(|to| Cycle { return_plane: Some(word(to)), ..plain() }));
-        all.extend([1_000, 60_000].map(|retract| Cycle { retract: word(retract), ..plain() }));
-        all.push(Cycle { depth: word(-20_001), ..plain() });
-        all.push(Cycle { retract: word(1_000), return_plane: Some(word(5_000)), ..plain() });
-        all.push(Cycle { depth: word(-20_001), return_plane: Some(word(2_000)), ..plain() });
+        all.extend([2_000, 5_000, 50_000].map(|to| Cycle { return_plane: Some(word(to)), ..drilling() }));
+        all.extend([1_000, 60_000].map(|retract| Cycle { retract: word(retract), ..drilling() }));
+        all.push(Cycle { depth: word(-20_001), ..drilling() });
+        all.push(Cycle { retract: word(1_000), return_plane: Some(word(5_000)), ..drilling() });
+        all.push(Cycle { depth: word(-20_001), return_plane: Some(word(2_000)), ..drilling() });
         all
     }
 
     /// A control with a cycle in force, whose clearance of pecks is so much.
     fn control(cycle: &Cycle, clearance: Nanos) -> Exec {
-        let world = World { peck_clearance: clearance, ..World::generate(1, &Modes::default()) };
-        let mut exec = Exec::new(&world, 0);
+        in_world(&World { peck_clearance: clearance, ..World::generate(1, &Modes::default()) }, cycle)
+    }
+
+    fn in_world(world: &World, cycle: &Cycle) -> Exec {
+        let mut exec = Exec::new(world, 0);
         let start = [
             Op::SetDistanceMode(Distance::Absolute),
             Op::SetReturnLevel(ReturnLevel::Retract),
@@ -280,8 +267,23 @@ mod tests {
     }
 
     #[test]
+    fn a_tap_that_one_control_refuses_is_no_same_hole() {
+        let cycle = Cycle { kind: tap(1_000), ..drilling() };
+        let needs = World { cycles_need_spindle: true, ..World::generate(1, &Modes::default()) };
+        let mut sides = [World::generate(1, &Modes::default()), needs].map(|world| in_world(&world, &cycle));
+        let [one, other] = &sides;
+        assert!(one.makes_holes_of(other));
+        for side in &mut sides {
+            side.step(&stmt(Op::StartSpindleCounterclockwise), &mut Vec::new()).expect("a plain program");
+        }
+        let [one, other] = &mut sides;
+        assert!(!one.makes_holes_of(other));
+        assert!(events(one, &[hole(0, 0)]).is_some() && events(other, &[hole(0, 0)]).is_none());
+    }
+
+    #[test]
     fn another_place_is_no_same_hole() {
-        let mut exec = control(&plain(), 0);
+        let mut exec = control(&drilling(), 0);
         let mut places = Vec::new();
         let said = [hole(1_000, 2_000), stmt(Op::Blank), hole(3_000, 2_000)];
         exec.clone().pass_holes(&said, &mut places).expect("plain holes");

@@ -78,7 +78,7 @@ impl Exec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::moves::sketch::{mm, stmt, to, word};
+    use crate::moves::sketch::{drilling, hole, mm, stmt, to, word};
     use crate::world::World;
     use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel};
     use ncc_ir::expr::Expr;
@@ -86,22 +86,8 @@ mod tests {
     use ncc_ir::program::Op;
     use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind};
 
-    fn hole(x: i64, y: i64) -> Stmt {
-        stmt(Op::Hole(to([Some(x), Some(y), None])))
-    }
-
     fn cycles() -> Vec<Cycle> {
-        let plain = Cycle {
-            kind: CycleKind::Drill,
-            plane: Fact::Known(Plane::Xy),
-            retract: word(2_000),
-            reference: None,
-            depth: word(-20_000),
-            return_level: Fact::Known(ReturnLevel::Retract),
-            return_plane: None,
-            approach: Approach::PlaneFirst,
-            feed: None,
-        };
+        let plain = drilling();
         let peck = |clearance, pause: Option<Expr>| CycleKind::DrillPeck {
             peck: mm(5_000),
             first: None,
