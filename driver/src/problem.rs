@@ -6,6 +6,7 @@ use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use serde::Serialize;
 
 use crate::render::line;
+use crate::render::messages::message::{Help, Message, Part};
 use crate::source::interrupted::Interrupted;
 use crate::source::spool::Lacking;
 
@@ -46,7 +47,17 @@ pub struct Problem {
     pub help: Vec<String>,
 }
 
+/// An entry about a command that cannot be done.
+pub(crate) fn problem(form: &'static str) -> Message {
+    Message::part(Part::Problem, form)
+}
+
 impl Problem {
+    /// A message with its helps: those that are named, or else the entry's own if it has one.
+    pub(crate) fn of(exit: Exit, message: &Message, helps: Option<Vec<Help>>) -> Problem {
+        Problem { exit, message: message.headline(), help: message.helps(helps) }
+    }
+
     /// Wrong usage.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Problem {
         Problem { exit: Exit::Usage, message: message.into(), help: vec![help.into()] }
@@ -54,25 +65,32 @@ impl Problem {
 
     /// A file that cannot be used.
     pub fn file(what: &str, name: &str, error: &io::Error) -> Problem {
+        let failed =
+            |reason: String| problem("file").text("action", what).text("name", name).text("reason", reason);
         if let Some(lacking) = error.get_ref().and_then(|inner| inner.downcast_ref::<Lacking>()) {
-            let message = format!("cannot {what} {name}: {lacking}");
-            return Problem { exit: Exit::File, message, help: lacking.help() };
+            let reason = problem("no-store")
+                .text("folder", lacking.folder.display().to_string())
+                .text("reason", lacking.reason.as_str())
+                .text("variable", if cfg!(windows) { "TMP" } else { "TMPDIR" });
+            return Problem {
+                help: reason.helps(None),
+                ..Problem::of(Exit::File, &failed(reason.headline()), None)
+            };
         }
         if let Some(interrupted) = error.get_ref().and_then(|inner| inner.downcast_ref::<Interrupted>()) {
             let message = match interrupted.line {
-                Some(_) => format!("{interrupted} of {name}; nothing was written"),
-                None => format!("{interrupted}; {name} was not written"),
+                Some(line) => problem("interrupted-at").text("line", line.to_string()),
+                None => problem("interrupted"),
             };
-            return Problem { exit: Exit::Interrupted, message, help: Vec::new() };
+            return Problem::of(Exit::Interrupted, &message.text("name", name), None);
         }
         let reason = match error.kind() {
-            io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
-            io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-            io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+            io::ErrorKind::NotFound => problem("not-found").headline(),
+            io::ErrorKind::PermissionDenied => problem("denied").headline(),
+            io::ErrorKind::IsADirectory => problem("folder").headline(),
             _ => error.to_string(),
         };
-        let message = format!("cannot {what} {name}: {reason}");
-        Problem { exit: Exit::File, message, help: Vec::new() }
+        Problem::of(Exit::File, &failed(reason), None)
     }
 
     /// Prints it.

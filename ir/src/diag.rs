@@ -256,8 +256,9 @@ faults! {
     /// Text before the mark that opens the program, which the control does not read.
     TextBeforeStart { mark: Box<str> } = 114, Warning;
 
-    /// Blocks before the only mark of the text: a control takes them for a leader and skips them.
-    OpeningMarkMissing { mark: Box<str> } = 112, Error;
+    /// Blocks before the first mark of the text: a control takes them for a leader and skips them. Whether blocks
+    /// follow the mark, which the control executes instead.
+    OpeningMarkMissing { mark: Box<str>, follows: bool } = 112, Error;
     /// A jump to a label that stands several times in its program: the control goes to one of them.
     LabelTwice { name: Box<str> } = 115, Warning;
     /// A comparison beside a logical operator without parentheses, where comparisons are made last.

@@ -7,7 +7,7 @@ use ncc::review::cert::disagreements;
 use ncc::review::verify::{SCHEMA, of_texts};
 use ncc_dialects::{Family, builtin};
 use ncc_driver::job::Job;
-use ncc_driver::review::verify::document::{Document, FINER, Word};
+use ncc_driver::review::verify::document::{Document, Word, finer_note};
 use ncc_driver::translate::judge::Judge;
 use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS};
@@ -132,7 +132,8 @@ fn a_mutant_is_different() {
 
 /// Whether it is told that two programs are apart by a digit that only the output resolves.
 fn tells_that(found: &Value) -> bool {
-    found["compared"]["notes"].as_array().is_some_and(|notes| notes.iter().any(|note| note == FINER))
+    let finer = finer_note();
+    found["compared"]["notes"].as_array().is_some_and(|notes| notes.iter().any(|note| *note == finer))
 }
 
 /// Programs that nobody translated: each block of a page against each other one.

@@ -10,7 +10,6 @@ use ncc_exec::verify::{Part, part};
 use ncc_exec::{Attribute, Compensation, Coolant, Event, Exec, Kind, State};
 use ncc_ir::canon::{AXES, Axis, Plane, Turn, same_point};
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::Text;
 
 /// Generated worlds beside the plain one.
 pub const WORLDS: usize = 2;
@@ -49,7 +48,7 @@ pub struct Record {
     /// Where X Y Z stand after it in the plain world, nanos.
     pub end: [Nanos; 3],
     /// Of a straight move, where A B C stand; of an arc, its centre in its plane; of a dwell, its
-    /// seconds; of an orientation, its degrees; of a text, its hash and its place in the list of texts.
+    /// seconds; of an orientation, its degrees; of a text, its hash and its place in the list of kept events.
     pub more: [Nanos; 3],
     /// Which [`Style`].
     pub style: u32,
@@ -208,8 +207,8 @@ pub struct Batch {
     pub records: Vec<Record>,
     /// Further styles, after those of earlier batches.
     pub styles: Vec<Style>,
-    /// Further texts.
-    pub texts: Vec<Text>,
+    /// Further events that a record tells by their place in this list.
+    pub kept: Vec<Kind>,
 }
 
 /// Makes records of events.
@@ -218,7 +217,7 @@ pub struct Recorder {
     batch: Batch,
     styles: HashMap<Style, u32>,
     last: Option<(Style, u32)>,
-    texts: u32,
+    kept: u32,
     /// Where the axes stood after the last record, world by world.
     stood: [[Nanos; AXES]; 1 + WORLDS],
     hole: u32,
@@ -231,10 +230,18 @@ impl Recorder {
             batch: Batch::default(),
             styles: HashMap::new(),
             last: None,
-            texts: 0,
+            kept: 0,
             stood: stand,
             hole: 0,
         }
+    }
+
+    /// Keeps an event that its record tells by its hash and its place.
+    fn keep(&mut self, hash: u64, kind: &Kind) -> [Nanos; 3] {
+        let place = i64::from(self.kept);
+        self.kept += 1;
+        self.batch.kept.push(kind.clone());
+        [hash as i64, place, 0]
     }
 
     /// Where the controls stand, before the first event.
@@ -360,41 +367,16 @@ impl Recorder {
             Kind::Orient(angle) => more = [*angle, 0, 0],
             Kind::Dwell(seconds) => more = [*seconds, 0, 0],
             Kind::Message(text) | Kind::MachineFunction(text) => {
-                more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
-                self.texts += 1;
-                self.batch.texts.push(text.clone());
+                more = self.keep(hash(text.as_bytes()), &event.kind)
             }
-            Kind::Data(_) | Kind::Output(_) | Kind::Alarm(..) => {
-                let text = match &event.kind {
-                    Kind::Data(stored) => stored.to_string(),
-                    Kind::Output(written) => written.to_string(),
-                    Kind::Alarm(Some(number), text) => format!("{} {text}", number / ncc_ir::expr::num::ONE),
-                    Kind::Alarm(None, text) => text.to_string(),
-                    _ => String::new(),
-                };
-                more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
-                self.texts += 1;
-                self.batch.texts.push(text.into());
+            Kind::Data(_) | Kind::Output(_) | Kind::Alarm(..) | Kind::Probe { .. } => {
+                more = self.keep(hash(format!("{:?}", event.kind).as_bytes()), &event.kind);
             }
-            Kind::Tilt(_) | Kind::OrientToolAxis(_) | Kind::Probe { .. } => {
-                let text = match &event.kind {
-                    Kind::Probe { to, probe } => {
-                        let [x, y, z] = [0, 1, 2].map(|axis| to[axis] as f64 / ncc_ir::expr::num::ONE as f64);
-                        let until = if probe.away { "off a contact" } else { "into a contact" };
-                        let error = if probe.error { ", or an error" } else { "" };
-                        format!("probing {until} on the way to X{x} Y{y} Z{z}{error}")
-                    }
-                    Kind::Tilt(Some(plane)) => plane.to_string(),
-                    Kind::Tilt(None) => "the tilted plane taken back".to_owned(),
-                    _ => "the tool turned onto the tilted plane".to_owned(),
-                };
-                let told = match &event.kind {
-                    Kind::Tilt(Some(plane)) => format!("{:?}", plane.rounded()),
-                    _ => text.clone(),
-                };
-                more = [hash(told.as_bytes()) as i64, i64::from(self.texts), 0];
-                self.texts += 1;
-                self.batch.texts.push(text.into());
+            // Toward which side it turns is the control's.
+            Kind::OrientToolAxis(_) => more = self.keep(0, &event.kind),
+            Kind::Tilt(plane) => {
+                let rounded = plane.as_ref().map(|plane| plane.rounded());
+                more = self.keep(hash(format!("{rounded:?}").as_bytes()), &event.kind);
             }
             Kind::Traverse | Kind::Feed => {}
             Kind::ToolChange

@@ -1,8 +1,8 @@
 //! A stream of records, of which a window is kept.
 
+use ncc_exec::Kind;
 use ncc_ir::canon::AXES;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::Text;
 
 use crate::record::{Batch, Record, Style};
 
@@ -15,8 +15,8 @@ pub struct Tape<'t> {
     pub(crate) over: bool,
     /// With what records are done.
     pub styles: Vec<Style>,
-    /// Texts of messages and functions.
-    pub texts: Vec<Text>,
+    /// Messages, functions and other events of which a record has the place in this list.
+    pub kept: Vec<Kind>,
     /// Positions of the axes before the next record, machine coordinates. The value of an axis that has not moved yet means nothing.
     pub(crate) stands: [Nanos; AXES],
 }
@@ -30,7 +30,7 @@ impl<'t> Tape<'t> {
             from: 0,
             over: false,
             styles: Vec::new(),
-            texts: Vec::new(),
+            kept: Vec::new(),
             stands: [0; AXES],
         }
     }
@@ -46,7 +46,7 @@ impl<'t> Tape<'t> {
                     }
                     self.records.extend(batch.records);
                     self.styles.extend(batch.styles);
-                    self.texts.extend(batch.texts);
+                    self.kept.extend(batch.kept);
                 }
                 None => self.over = true,
             }

@@ -17,8 +17,8 @@ use ncc_driver::review::feed::{Settings, records};
 use ncc_driver::review::stream::clearances;
 use ncc_driver::review::words::{coolant, event, number, spindle};
 use ncc_driver::source::not_milling;
+use ncc_exec::Kind;
 use ncc_ir::canon::Spindle;
-use ncc_ir::program::Text;
 
 use super::args::Textconv;
 use super::side::{Asked, open_one};
@@ -88,19 +88,19 @@ fn listed(
 ) -> io::Result<bool> {
     let settings = Settings { clearances: clearances(&side.job), ..Settings::default() };
     let mut styles: Vec<Style> = Vec::new();
-    let mut texts: Vec<Text> = Vec::new();
+    let mut kept: Vec<Kind> = Vec::new();
     let mut last: Option<Style> = None;
     let mut written = Ok(());
     let course = records(side, settings, &mut |batch: Batch| {
         styles.extend(batch.styles);
-        texts.extend(batch.texts);
+        kept.extend(batch.kept);
         let mut piece = BufWriter::new(Vec::new());
         for record in &batch.records {
             let Some(style) = styles.get(record.style as usize).filter(|_| record.world == 0) else {
                 continue;
             };
             written = state(&mut piece, last.as_ref(), style)
-                .and_then(|()| writeln!(piece, "{}", event(record, style, &texts)));
+                .and_then(|()| writeln!(piece, "{}", event(record, style, &kept)));
             last = Some(*style);
             if written.is_err() {
                 return ControlFlow::Break(());

@@ -60,7 +60,7 @@ fn what_is_wrong_with_a_dictionary_is_told_at_its_place() {
     for (from, to, place, says) in [
         ("FLOOD_ON", "FLOD_ON", "shop.toml:7:9", "no meaning: FLOD_ON"),
         ("id = \"shop\"", "id = \"fanuc\"", "shop.toml:1:6", "fanuc is built in"),
-        ("id = \"shop\"", "id = \"dialects\"", "shop.toml:1:1", "`dialects` is no name of a dialect"),
+        ("id = \"shop\"", "id = \"dialects\"", "shop.toml:1:1", "`dialects` is not a name for a dialect"),
         ("base = \"fanuc\"", "base = \"shop\"", "shop.toml:3:8", "cannot build on itself: shop, on shop"),
         ("write = false", "writes = false", "shop.toml:8:1", "unknown field `writes`"),
         ("means", "cycle", "shop.toml:7:1", "unknown field `cycle`"),

@@ -40,26 +40,68 @@ dictionary-name = row { $row }: never read: this control has no words of several
     .help = only dialects on siemens read [[name]] and [[call]]; a code is a row of [[code]]
 dictionary-form = { $fault }
     .help = `ncc dialects schema` lists the tables and their fields
-dictionary-own-name = { $fault }
+dictionary-missing = a dictionary states its own `{ $field }`
     .help = give it a name of its own: `id = "shop"`; a command's name cannot be one
-dictionary-built-in = { $fault }
+dictionary-no-id = `{ $name }` is not a name for a dialect: letters, digits, `_` and `-`, a letter first
+    .help = give it a name of its own: `id = "shop"`; a command's name cannot be one
+dictionary-built-in = { $name } is built in and cannot be redefined
     .help = give it a name of its own, and build on the other: `base = "…"`
-dictionary-name-twice = { $fault }
+dictionary-name-twice = two files define { $name }
     .help = leave one of the files out, or rename it
-dictionary-no-base = { $fault }
+dictionary-no-base = there is no dialect `{ $base }` to build on
     .help = `ncc dialects` lists the built-in ones; name a shop's file by a further --dialect
     .help-one = did you mean `{ $near }`?
-dictionary-base-cycle = { $fault }
+dictionary-base-cycle = a dictionary cannot build on itself: { $chain }
     .help = the last base of all is one that builds on none
-dictionary-other-family = { $fault }
+dictionary-other-family = a dialect has the family of its base
     .help = leave `family` out
-dictionary-row-key = { $fault }
+dictionary-no-key = a row of [[{ $table }]] needs `{ $key }`
     .help = rows of a table are told apart by this field; each stands once in a file
-dictionary-nothing-there = { $fault }
+dictionary-row-twice = row { $row }: twice in this file
+    .help = rows of a table are told apart by this field; each stands once in a file
+dictionary-nothing-there = { $row }: `{ $word }`, but the base has nothing of that name
     .help = `ncc dialects show` lists the rows of the base
-dictionary-row = { $fault }
+
+# Rows that contradict another, or name what is not there.
+dictionary-row = row { $row }: { $wrong }
     .help = `ncc dialects schema` says what a row needs
     .help-base = this file takes away what it needs; remove it too: `[[{ $table }]]`, `{ $key }`, `remove = true`
+dictionary-NoBehaviour = no such behaviour, or no such value of it
+dictionary-OtherValues = `others` has a value that the behaviour does not have
+dictionary-NoOption = no such option: the variant never applies
+dictionary-NoOptionValue = no such value of this option: the variant never applies
+dictionary-DefaultValue = the default of its option: the variant always applies
+dictionary-SeveralCodes = `upto` is for work offsets only
+dictionary-MeansOrRefuse = needs either `means` or `refuse`
+dictionary-FeedModeAlone = `feed_mode` is for codes of the spindle speed only
+dictionary-TurnsAxis = `turns` (about X, Y or Z) is for codes that tilt the plane, which need it
+dictionary-CountAlone = `count` is for work offsets with a word of their own
+dictionary-NoCycleRow = has no [[cycle]] row
+dictionary-NoPatternRow = has no [[pattern]] row
+dictionary-NoDataRow = has no [[data]] row
+dictionary-BlockLetters = `blocks` has other signs than capital letters
+dictionary-NoSource = names no source
+dictionary-NoNumberDefault = its default is not a number
+dictionary-HandOfTap = `hand` is for tapping cycles, which need it
+dictionary-ShiftOfBore = `shift` is for fine boring cycles, which need it
+dictionary-ShrinkingAlone = `shrinking` needs `peck`
+dictionary-DwellBy = `dwell_by` beside `dwell`, or of an option that does not exist
+dictionary-Twice = two rows of this name
+dictionary-CycleNotStarted = no [[code]] row starts this cycle
+dictionary-PatternNotStarted = no [[code]] row makes this pattern
+dictionary-NoCodeWithWord = a table is named by a code and a word
+dictionary-TableNotSet = no [[code]] row puts values into this table
+dictionary-ValuesOfTools = `values` is for tables of tools, which need it
+dictionary-NoEntries = a table needs entries: `first` and `count` are at least 1
+dictionary-NoCapitals = a name is of capital letters, digits and `_`
+dictionary-OneUse = needs one of `means`, `role` and `refuse`
+dictionary-RoleQuantity = `role` and `quantity` need each other
+dictionary-ArgumentsEffect = `arguments` is for names without an effect
+dictionary-ParameterUse = a parameter needs `role` and `quantity`, or `refuse`
+dictionary-RoleTwice = two parameters of one role
+dictionary-NoCode = not a code
+dictionary-NeitherGNorM = not a G or M code
+dictionary-NoLetter = not a letter
 
 # What `ncc dialects test` says of the rows of a dictionary.
 dictionary-cannot-write = cannot be written: { $why }

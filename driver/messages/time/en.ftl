@@ -26,3 +26,8 @@ time-marked = marked as assumed in the machine profile: { $facts }
 time-path-tolerance = path tolerance where the program states none: { $tolerance } mm
 time-bound = for the upper bound, { $fact }
 time-whole-path = the whole path
+
+# What a model of time takes into account.
+time-model-ideal = rates and fixed times, no acceleration
+time-model-trapezoidal = rates and accelerations of the axes, look-ahead, no jerk
+time-model-jerk-limited = rates, accelerations and jerk of the axes, look-ahead

@@ -223,7 +223,10 @@ fn take(event: &Event, into: &mut DefaultHasher) {
         Kind::Output(written) => written.hash(into),
         Kind::Alarm(number, text) => (number, text).hash(into),
         Kind::Data(stored) => stored.hash(into),
-        Kind::Tilt(plane) => plane.as_ref().map(ToString::to_string).hash(into),
+        Kind::Tilt(plane) => {
+            let digits = |part: f64| (part * 1e6).round() as i64;
+            plane.as_ref().map(|plane| (plane.origin, plane.axes.map(|row| row.map(digits)))).hash(into);
+        }
         Kind::OrientToolAxis(toward) => toward.hash(into),
         Kind::Traverse
         | Kind::Feed

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ncc_backends::Numbering;
 use ncc_dialects::Settings;
 
-use super::references::{Found, Reference, find};
+use super::references::{Found, Reference, find, reason};
 
 /// Highest number that is written.
 const HIGHEST: u32 = 99_999_999;
@@ -25,8 +25,8 @@ pub struct Refused {
     pub ours: bool,
 }
 
-fn refused(line: u32, what: impl Into<String>) -> Refused {
-    Refused { line, what: what.into(), ours: false }
+fn refused(line: u32, what: String) -> Refused {
+    Refused { line, what, ours: false }
 }
 
 /// A text, laid out before, with other numbers.
@@ -62,14 +62,16 @@ pub fn renumber(settings: &Settings, text: &[u8], numbering: Numbering) -> Resul
         match (numbering, &block.number) {
             (Numbering::Every { .. }, number) if block.says || number.is_some() => {
                 let value = u32::try_from(next).ok().filter(|n| *n <= HIGHEST);
-                let value = value.ok_or_else(|| refused(block.line, "block numbers beyond 99999999"))?;
+                let value = value.ok_or_else(|| {
+                    refused(block.line, reason("too-high").text("most", HIGHEST.to_string()).headline())
+                })?;
                 next += u64::from(step);
                 new.insert(at, value);
                 match number {
                     Some(number) => edits.push((number.digits.clone(), value.to_string())),
                     None => {
                         let letter = settings.dialect.block.number;
-                        let letter = letter.ok_or_else(|| refused(0, "a dialect without block numbers"))?;
+                        let letter = letter.ok_or_else(|| refused(0, reason("no-numbers").headline()))?;
                         // Digits would run together.
                         let digits = text.get(block.place).is_some_and(|b| b.is_ascii_digit() || *b == b'.');
                         let blank = if settings.dialect.block.blanks || digits { " " } else { "" };
@@ -97,7 +99,7 @@ pub fn renumber(settings: &Settings, text: &[u8], numbering: Numbering) -> Resul
         match values.into_iter().collect::<Vec<_>>().as_slice() {
             [Some(value)] => edits.push((reference.digits.clone(), value.to_string())),
             [None] | [] => {}
-            _ => return Err(refused(reference.line, "a return to blocks that get different numbers")),
+            _ => return Err(refused(reference.line, reason("return").headline())),
         }
     }
     edits.sort_by_key(|(range, _)| range.start);
@@ -144,16 +146,14 @@ impl Numbers {
                 callers.map(|(scope, _)| *scope).collect()
             }
         };
+        let block = |form| reason(form).text("block", value.to_string()).headline();
         if scopes.is_empty() {
-            return Err(refused(
-                line,
-                format!("a return to block {value} of a caller that is not in this text"),
-            ));
+            return Err(refused(line, block("caller")));
         }
         let one = |scope: usize| match self.blocks.get(&(scope, value)).map(Vec::as_slice) {
             Some([one]) => Ok(*one),
-            Some(_) => Err(refused(line, format!("block {value}, which is led to, is there more than once"))),
-            None => Err(refused(line, format!("block {value}, which is led to, is not there"))),
+            Some(_) => Err(refused(line, block("several"))),
+            None => Err(refused(line, block("nowhere"))),
         };
         scopes.into_iter().map(one).collect()
     }

@@ -14,6 +14,8 @@ use std::ops::Range;
 use ncc_dialects::{Dialect, Family, Meaning, Role, Settings};
 use ncc_frontends::pieces::{LineIs, Lines, Piece, PieceKind as Kind};
 
+use crate::render::messages::message::{Message, Part};
+
 /// A block.
 #[derive(Clone, Debug)]
 pub struct Block {
@@ -79,6 +81,11 @@ pub struct Found {
     labels: BTreeSet<(usize, String)>,
 }
 
+/// An entry about what keeps numbers from being changed.
+pub(super) fn reason(form: &'static str) -> Message {
+    Message::part(Part::Renumber, form)
+}
+
 /// Looks through a text.
 pub fn find(settings: &Settings, text: &[u8]) -> Found {
     let mut lines = Lines::new(settings.clone());
@@ -98,14 +105,14 @@ pub fn find(settings: &Settings, text: &[u8]) -> Found {
                 look.scope += usize::from(line.starts_with(b"%"));
             }
             LineIs::Frame | LineIs::Outside => {}
-            LineIs::Unread => look.doubt("a block that cannot be taken apart", None),
+            LineIs::Unread => look.doubt(&reason("unread"), None),
         }
         base += whole.len();
     }
     let mut found = look.found;
     for (scope, name, line) in std::mem::take(&mut found.named) {
         if !found.labels.contains(&(scope, name.clone())) {
-            let what = format!("the jump to {name}, which is no label: it may be computed");
+            let what = reason("no-label").text("name", name).headline();
             found.doubts.push(Doubt { line, what, only: None });
         }
     }
@@ -139,15 +146,15 @@ fn number_named(name: &[u8]) -> Option<u32> {
 }
 
 impl Look<'_> {
-    fn doubt(&mut self, what: impl Into<String>, only: Option<u32>) {
+    fn doubt(&mut self, what: &Message, only: Option<u32>) {
         let only = only.map(|value| (self.scope, value));
-        self.found.doubts.push(Doubt { line: self.line, what: what.into(), only });
+        self.found.doubts.push(Doubt { line: self.line, what: what.headline(), only });
     }
 
     fn reference(&mut self, base: usize, value: u32, start: usize, end: usize, of_callers: bool) {
         if of_callers && self.named {
             // Which programs call it by its name is not looked for.
-            self.doubt("a return from a program with a name", None);
+            self.doubt(&reason("named-program"), None);
         }
         let digits = base + start..base + end;
         let (scope, line) = (self.scope, self.line);
@@ -241,7 +248,7 @@ impl Look<'_> {
                 (Kind::Key, Some((value, start, end))) if text(at) == b"GOTO" => {
                     self.reference(base, value, start, end, false);
                 }
-                (Kind::Key, None) if text(at) == b"GOTO" => self.doubt("a computed jump", None),
+                (Kind::Key, None) if text(at) == b"GOTO" => self.doubt(&reason("computed-jump"), None),
                 (Kind::Address, Some((value, start, end))) => {
                     let letter = text(at)[0];
                     numbers += usize::from(Some(letter as char) == self.dialect.block.number);
@@ -254,7 +261,7 @@ impl Look<'_> {
             }
         }
         if numbers > 1 || self.dialect.block.number.is_some_and(|n| computed.contains(&(n as u8))) {
-            self.doubt("a block with two numbers, or a computed one", None);
+            self.doubt(&reason("two-or-computed"), None);
         }
         self.codes(base, pieces, line, &words, &computed);
     }
@@ -289,7 +296,7 @@ impl Look<'_> {
                         known.push(w.start);
                     }
                     None if computed.contains(&letter) => {
-                        self.doubt(format!("a block named by a variable ({})", letter as char), None);
+                        self.doubt(&reason("by-variable").text("letter", char::from(letter)), None);
                     }
                     None => {}
                 }
@@ -311,8 +318,7 @@ impl Look<'_> {
                 for letter in [b'Q', b'H'] {
                     let own = !elsewhere && row.blocks.as_bytes().contains(&letter);
                     if !own && (word(letter).is_some() || computed.contains(&letter)) {
-                        let what = format!("a call with {}: it may name a block", letter as char);
-                        self.doubt(what, None);
+                        self.doubt(&reason("call").text("letter", char::from(letter)), None);
                     }
                 }
             }
@@ -334,8 +340,8 @@ impl Look<'_> {
             let repeats = self.dialect.cycles.repeat == Some(w.letter as char);
             let refused = row.is_some_and(|row| row.refuse.is_some()) && !uses_letters && !repeats;
             if !number && !fixed && !known.contains(&w.start) && (strange || refused) {
-                let what = format!("{}{}: it may name a block", w.letter as char, w.value);
-                self.doubt(what, Some(w.value));
+                let word = format!("{}{}", char::from(w.letter), w.value);
+                self.doubt(&reason("word").text("word", word), Some(w.value));
             }
         }
     }
@@ -353,7 +359,7 @@ impl Look<'_> {
             let jumps = at > 0 && text(at - 1).starts_with(b"GOTO") && pieces[at - 1].kind == Kind::Key;
             if at == head && numbered && text(at) == b"N" {
                 // Whichever of them is taken away, the other one is the block's.
-                self.doubt("a block with two numbers", None);
+                self.doubt(&reason("two-numbers"), None);
                 continue;
             }
             let names_block = piece.kind == Kind::Address && text(at) == b"N" || jumps && text(at) == b":";
@@ -362,14 +368,14 @@ impl Look<'_> {
                     let next = &pieces[at + 1];
                     self.reference(base, value, next.start, next.end, false);
                 }
-                _ if names_block => self.doubt("a computed jump", None),
+                _ if names_block => self.doubt(&reason("computed-jump"), None),
                 (Kind::Name, _) if jumps => {
                     let name = String::from_utf8_lossy(text(at)).to_ascii_uppercase();
                     self.found.named.push((self.scope, name, self.line));
                 }
-                _ if jumps => self.doubt("a computed jump", None),
+                _ if jumps => self.doubt(&reason("computed-jump"), None),
                 (Kind::Name, _) if text(at) == b"EXECSTRING" => {
-                    self.doubt("a block that is put together (EXECSTRING)", None);
+                    self.doubt(&reason("execstring"), None);
                 }
                 (Kind::Kept, _) => self.kept(text(at)),
                 _ => {}
@@ -382,13 +388,13 @@ impl Look<'_> {
         let capitals = text.to_ascii_uppercase();
         let quoted = text.first() == Some(&b'"');
         if !quoted && capitals.windows(4).any(|w| w == b"GOTO") {
-            return self.doubt("a jump in a synchronised action or a macro", None);
+            return self.doubt(&reason("action"), None);
         }
         for (at, _) in capitals.iter().enumerate().filter(|(_, b)| **b == b'N') {
             let digits = capitals[at + 1..].iter().take_while(|b| b.is_ascii_digit()).count();
             let digits = std::str::from_utf8(&capitals[at + 1..at + 1 + digits]).unwrap_or_default();
             if let Ok(value) = digits.parse() {
-                self.doubt(format!("N{value} in a text: it may name a block"), Some(value));
+                self.doubt(&reason("in-text").text("word", format!("N{value}")), Some(value));
             }
         }
     }

@@ -13,6 +13,7 @@
 
 pub mod better;
 pub mod names;
+mod sign;
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -20,9 +21,11 @@ use std::io::{self, Read, Seek, SeekFrom};
 use ncc_dialects::{Dialect, Family, Meaning, Role};
 
 use crate::problem::{Exit, Problem};
+use crate::render::messages::message::Help;
 use crate::source::Source;
 
 pub use better::better;
+use sign::{Sign, guessed};
 
 /// How much of the text is looked at.
 const BEGINNING: u64 = 1 << 16;
@@ -55,23 +58,27 @@ struct Evidence {
     marked: bool,
     /// Whether the program's number has other digits than the control writes: a custom alone.
     digits: bool,
-    speaks_for: BTreeMap<String, usize>,
-    against: BTreeMap<String, usize>,
+    speaks_for: BTreeMap<Sign, usize>,
+    against: BTreeMap<Sign, usize>,
 }
 
 impl Evidence {
-    fn pro(&mut self, line: usize, reason: String) {
-        self.speaks_for.entry(reason).or_insert(line);
+    fn pro(&mut self, line: usize, sign: Sign) {
+        self.speaks_for.entry(sign).or_insert(line);
     }
 
-    fn con(&mut self, line: usize, reason: String) {
-        self.against.entry(reason).or_insert(line);
+    fn con(&mut self, line: usize, sign: Sign) {
+        self.against.entry(sign).or_insert(line);
     }
 
-    fn list(reasons: &BTreeMap<String, usize>) -> Vec<String> {
-        let mut reasons: Vec<_> = reasons.iter().map(|(reason, line)| (*line, reason)).collect();
-        reasons.sort();
-        reasons.into_iter().take(4).map(|(line, reason)| format!("{reason} (line {line})")).collect()
+    /// The first signs in words, with their lines.
+    fn list(signs: &BTreeMap<Sign, usize>) -> Vec<String> {
+        let mut signs: Vec<_> = signs.iter().map(|(sign, line)| (*line, sign)).collect();
+        signs.sort();
+        let words = |(line, sign): (usize, &Sign)| {
+            guessed("sign").text("sign", sign.words()).text("line", line.to_string()).headline()
+        };
+        signs.into_iter().take(4).map(words).collect()
     }
 }
 
@@ -114,32 +121,24 @@ pub fn recognise(source: &mut Source, dialects: &[&'static Dialect]) -> Result<R
     let found = guess(&mut source.file, dialects.iter().copied());
     match found.map_err(|e| Problem::file("read", &source.shown, &e))? {
         Guess::Sure(dialect, reasons, rivals) => Ok(Recognised { dialect, reasons, rivals }),
-        Guess::Unsure(_) if source.is_blank()? => Err(Problem {
-            exit: Exit::Refused,
-            message: format!("{} is empty", source.shown),
-            help: vec!["there is no program in it to read".to_owned()],
-        }),
-        Guess::Unsure(_) if source.is_no_text()? => Err(Problem {
-            exit: Exit::Refused,
-            message: format!("{} is not a part program", source.shown),
-            help: vec![
-                "there are bytes in it that no text contains; was it saved as UTF-16, or is it another file?"
-                    .to_owned(),
-            ],
-        }),
+        Guess::Unsure(_) if source.is_blank()? => {
+            Err(Problem::of(Exit::Refused, &guessed("empty").text("file", source.shown.as_str()), None))
+        }
+        Guess::Unsure(_) if source.is_no_text()? => {
+            Err(Problem::of(Exit::Refused, &guessed("binary").text("file", source.shown.as_str()), None))
+        }
         Guess::Unsure(fits) => {
-            let mut help: Vec<String> = fits
-                .iter()
-                .map(|(dialect, against)| match against.is_empty() {
-                    true => format!("{}: nothing speaks against it", dialect.id),
-                    false => format!("{}: {}", dialect.id, against.join(", ")),
-                })
-                .collect();
             let ids: Vec<&str> = dialects.iter().map(|dialect| dialect.id.as_str()).collect();
-            let ids = ids.join(", ");
-            help.insert(0, format!("name it: --from, one of {ids}"));
-            let message = format!("the dialect of {} cannot be told for certain", source.shown);
-            Err(Problem { exit: Exit::Usage, message, help })
+            let name_it = Help::new("help").text("dialects", ids.join(", "));
+            let fits = fits.iter().map(|(dialect, against)| match against.is_empty() {
+                true => Help::new("help-fits").text("dialect", dialect.id.as_str()),
+                false => Help::new("help-against")
+                    .text("dialect", dialect.id.as_str())
+                    .text("signs", against.join(", ")),
+            });
+            let helps = [name_it].into_iter().chain(fits).collect();
+            let message = guessed("unsure").text("file", source.shown.as_str());
+            Err(Problem::of(Exit::Usage, &message, Some(helps)))
         }
     }
 }
@@ -199,9 +198,9 @@ fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
                 match line.starts_with(b"ncc-ir") {
                     true => {
                         evidence.conclusive = true;
-                        evidence.pro(number, "the first line names the text form".to_owned());
+                        evidence.pro(number, Sign::TextForm);
                     }
-                    false => evidence.con(number, "the first line does not name the text form".to_owned()),
+                    false => evidence.con(number, Sign::OtherForm),
                 }
                 break;
             }
@@ -214,9 +213,9 @@ fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
 fn canon_line(number: usize, line: &[u8], evidence: &mut Evidence) {
     let name = line.iter().take_while(|b| b.is_ascii_uppercase() || **b == b'_').count();
     if name >= 4 && line.get(name) == Some(&b'(') && line.contains(&b')') {
-        evidence.pro(number, "lines are calls of canonical functions".to_owned());
+        evidence.pro(number, Sign::CanonicalCalls);
     } else if line[0].is_ascii_alphanumeric() || line[0] == b'%' {
-        evidence.con(number, "a line is no call".to_owned());
+        evidence.con(number, Sign::NoCall);
     }
 }
 
@@ -228,10 +227,10 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             false if dialect.program.ignored == "%" => {}
             // Such a control reads from there, if the program has no end of its own.
             true if alone && dialect.program.mark_behind_end && !evidence.ended => {
-                evidence.con(number, "`%` behind the program alone".to_owned());
+                evidence.con(number, Sign::MarkAfter);
             }
-            true => evidence.pro(number, "`%` before and after the program".to_owned()),
-            false => evidence.con(number, "`%` is not written".to_owned()),
+            true => evidence.pro(number, Sign::Mark),
+            false => evidence.con(number, Sign::NoMark),
         }
         return;
     }
@@ -240,19 +239,19 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         first_block(dialect, number, &code, framed, evidence);
     }
     if code.trim_ascii_start().starts_with(b"/") && dialect.block.skip_levels == 0 {
-        evidence.con(number, "`/` skips no block".to_owned());
+        evidence.con(number, Sign::NoSkip);
     }
     if is_o_word(&code) {
         match dialect.program.o_words {
-            true => evidence.pro(number, "words of flow behind an `O`".to_owned()),
-            false => evidence.con(number, "words of flow behind an `O`".to_owned()),
+            true => evidence.pro(number, Sign::FlowWords),
+            false => evidence.con(number, Sign::FlowWords),
         }
         return;
     }
     if code.windows(2).any(|two| two == b"#<") {
         match dialect.program.o_words {
-            true => evidence.pro(number, "`#<` begins the name of a parameter".to_owned()),
-            false => evidence.con(number, "`#<` begins the name of a parameter".to_owned()),
+            true => evidence.pro(number, Sign::NamedVariable),
+            false => evidence.con(number, Sign::NamedVariable),
         }
         return;
     }
@@ -260,7 +259,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         return;
     }
     if dialect.program.macros && code.contains(&b'=') && !code.contains(&b'#') {
-        evidence.con(number, "`=` and no variable".to_owned());
+        evidence.con(number, Sign::NoVariable);
         return;
     }
     if dialect.program.macros && code.iter().any(|b| b"#[=".contains(b)) {
@@ -279,7 +278,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         if !letter.is_ascii_uppercase() {
             if !b" \t/+-.0123456789%:".contains(&letter) && dialect.block.end.as_bytes() != [letter] {
                 let c = char::from(letter);
-                evidence.con(number, format!("`{}` is no sign of it", crate::render::text::visible(c)));
+                evidence.con(number, Sign::NoSign(c));
             }
             continue;
         }
@@ -291,12 +290,12 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         at += digits;
         alone = if digits == 0 { alone + 1 } else { 0 };
         if alone == WORDS_OF_A_TEXT {
-            evidence.con(number, "letters without numbers".to_owned());
+            evidence.con(number, Sign::Letters);
         }
         let word = String::from_utf8_lossy(&code[from..at]).into_owned();
         let numbers_program = from == 0 && dialect.program.number == Some(char::from(letter));
         if numbers_program && code[at..].iter().any(u8::is_ascii_alphabetic) {
-            evidence.con(number, format!("words behind `{}`", word.trim()));
+            evidence.con(number, Sign::WordsAfter(word.trim().to_owned()));
         }
         word_of(dialect, number, letter, value, &word, from == 0, evidence);
         match letter {
@@ -312,7 +311,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
     // An arc has two centre words in every plane; few controls pass over a third.
     let rules = &dialect.arc;
     if centre == 0b111 && arc && !(rules.centre_outside_zero || rules.centre_outside_ignored) {
-        evidence.con(number, "`I`, `J` and `K` in one arc".to_owned());
+        evidence.con(number, Sign::CentreWords);
     }
 }
 
@@ -322,12 +321,12 @@ fn first_block(dialect: &Dialect, number: usize, code: &[u8], framed: bool, evid
     let letters = [dialect.program.number, dialect.program.number_also];
     let numbered = letters.iter().flatten().any(|letter| *letter as u32 == u32::from(first));
     match dialect.program.number {
-        Some(_) if first == b':' && !numbered => evidence.con(number, "`:` is no sign of it".to_owned()),
+        Some(_) if first == b':' && !numbered => evidence.con(number, Sign::NoSign(':')),
         Some(letter) if numbered && dialect.program.unnumbered_main => {
-            evidence.con(number, format!("`{letter}` before the main program"));
+            evidence.con(number, Sign::NumberedMain(letter));
         }
         Some(letter) if framed && !numbered && !dialect.program.unnumbered_main => {
-            evidence.con(number, format!("no `{letter}` behind `%`"));
+            evidence.con(number, Sign::NoNumber(letter));
         }
         Some(_) | None => {}
     }
@@ -350,8 +349,8 @@ fn word_of(
     let c = char::from(letter);
     if value.is_empty() {
         match dialect.block.omitted_zero {
-            true => evidence.pro(line, "a letter alone means zero".to_owned()),
-            false => evidence.con(line, format!("`{c}` without a number")),
+            true => evidence.pro(line, Sign::LetterIsZero),
+            false => evidence.con(line, Sign::WithoutNumber(c)),
         }
     }
     if dialect.block.number == Some(c) {
@@ -360,22 +359,22 @@ fn word_of(
     if dialect.program.number == Some(c) {
         match first {
             true => program_number(dialect, line, word, value, evidence),
-            false => evidence.con(line, format!("`{word}` within a block")),
+            false => evidence.con(line, Sign::InBlock(word.to_owned())),
         }
         return;
     }
     if matches!(letter, b'G' | b'M') {
         let Some(tenths) = tenths(value) else { return };
         match dialect.code_row(letter, tenths).map(|row| row.means) {
-            None => evidence.con(line, format!("`{word}` is unknown")),
+            None => evidence.con(line, Sign::UnknownCode(word.to_owned())),
             Some(_) if dialect.code_row(letter, tenths).is_some_and(|row| row.other_machine) => {
-                evidence.con(line, format!("`{word}` is for other machines"));
+                evidence.con(line, Sign::OtherMachine(word.to_owned()));
             }
-            Some(Some(Meaning::UseLengthUnits(_))) => evidence.pro(line, format!("`{word}` says the unit")),
+            Some(Some(Meaning::UseLengthUnits(_))) => evidence.pro(line, Sign::UnitCode(word.to_owned())),
             Some(Some(meaning)) => {
                 evidence.ended |= meaning == Meaning::ProgramEnd;
                 if !std::mem::replace(&mut evidence.codes, true) {
-                    evidence.pro(line, format!("`{word}` is one of its codes"));
+                    evidence.pro(line, Sign::Code(word.to_owned()));
                 }
             }
             Some(None) => {}
@@ -383,9 +382,9 @@ fn word_of(
         return;
     }
     match dialect.address_row(letter).map(|row| row.role) {
-        None => evidence.con(line, format!("no word begins with `{c}`")),
+        None => evidence.con(line, Sign::NoAddress(c)),
         Some(Role::Corrector) if first || value.is_empty() => {}
-        Some(Role::Corrector) => evidence.pro(line, format!("`{word}` takes up a length offset")),
+        Some(Role::Corrector) => evidence.pro(line, Sign::LengthWord(word.to_owned())),
         Some(_) => {}
     }
 }
@@ -393,11 +392,11 @@ fn word_of(
 /// A program's number: written with leading zeros, it shows how many digits the control gives it.
 fn program_number(dialect: &Dialect, line: usize, word: &str, value: &str, evidence: &mut Evidence) {
     let letter = word.chars().next().unwrap_or(' ').to_ascii_uppercase();
-    evidence.pro(line, format!("`{letter}` begins the program's number"));
+    evidence.pro(line, Sign::ProgramNumber(letter));
     let digits = value.len();
     if value.starts_with('0') && digits != dialect.program.number_digits {
         evidence.digits = true;
-        evidence.con(line, format!("`{word}` has {digits} digits"));
+        evidence.con(line, Sign::Digits(word.to_owned(), digits));
     }
 }
 
@@ -414,7 +413,7 @@ fn without_comment(
     while at < line.len() {
         let rest = &line[at..];
         if !open.is_empty() && rest.starts_with(open) {
-            evidence.pro(number, format!("`{}` opens a comment", dialect.comment.open));
+            evidence.pro(number, Sign::Comment(dialect.comment.open.clone()));
             match rest.iter().position(|b| close.first() == Some(b)) {
                 Some(end) => at += end + close.len(),
                 None => break,
@@ -422,7 +421,7 @@ fn without_comment(
             continue;
         }
         if rest[0] == b'(' {
-            evidence.con(number, "`(` is no sign of it".to_owned());
+            evidence.con(number, Sign::NoSign('('));
             return None;
         }
         if dialect.comment.line.as_bytes() == &rest[..1] {
@@ -430,7 +429,7 @@ fn without_comment(
         }
         if rest[0] == b';' {
             if dialect.block.end != ";" || rest.iter().any(|b| !b"; ".contains(b)) {
-                evidence.con(number, "`;` before a text".to_owned());
+                evidence.con(number, Sign::TextAfterSign);
             }
             break;
         }

@@ -5,17 +5,18 @@
 use ncc_dialects::Dialect;
 use ncc_frontends::siemens::is_key_word;
 
+use super::sign::Sign;
 use super::{Evidence, word_of};
 
 /// A line such as `N10 G1 X=AC(5) MCALL CYCLE81(3,3,0,-6) ; text`.
 pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evidence) {
     if line.starts_with(b"%_N_") {
         evidence.conclusive = true;
-        evidence.pro(number, "`%_N_` heads a program".to_owned());
+        evidence.pro(number, Sign::Header);
         return;
     }
     if line[0] == b'%' {
-        return evidence.con(number, "`%` is not written".to_owned());
+        return evidence.con(number, Sign::NoMark);
     }
     let mut at = 0;
     let (mut after_name, mut key_word) = (false, false);
@@ -31,7 +32,7 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
             continue;
         }
         if c == b'(' && !after_name && !line[..at].contains(&b'=') {
-            evidence.con(number, "`(` is no sign of it".to_owned());
+            evidence.con(number, Sign::NoSign('('));
             return;
         }
         if letters >= 2 {
@@ -39,12 +40,12 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
             let before = &line[..at];
             let key = is_key_word(word.as_bytes());
             if key || dialect.name_row(&word).is_some() || dialect.call_row(&word).is_some() {
-                evidence.pro(number, format!("`{word}` is one of its words"));
+                evidence.pro(number, Sign::OwnWord(word));
                 key_word |= key;
             } else if key_word || before.iter().any(|b| b"=(<>".contains(b)) {
                 // A name of the program's own, in an expression or where a structure names it.
             } else if !matches!(line.get(at + name), Some(b'(' | b'=' | b':' | b'[')) && name < line.len() {
-                evidence.con(number, format!("`{word}` is none of its words"));
+                evidence.con(number, Sign::ForeignWord(word));
             }
             (at, after_name) = (at + name, true);
             continue;
@@ -58,15 +59,14 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
             at += digits;
             let word = String::from_utf8_lossy(&line[from..at]).to_uppercase();
             match line[at..].trim_ascii_start().first() {
-                Some(b'=') => evidence.pro(number, format!("`{word}=` sets a value")),
+                Some(b'=') => evidence.pro(number, Sign::SetsValue(word)),
                 _ => word_of(dialect, number, c.to_ascii_uppercase(), value, &word, from == 0, evidence),
             }
             after_name = line.get(at) == Some(&b'[');
             continue;
         }
         if !b" \t/+-.0123456789:=,()[]*<>$'&".contains(&c) {
-            let sign = crate::render::text::visible(char::from(c));
-            evidence.con(number, format!("`{sign}` is no sign of it"));
+            evidence.con(number, Sign::NoSign(char::from(c)));
         }
         at += 1;
     }

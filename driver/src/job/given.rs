@@ -13,7 +13,8 @@ use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::expr::value::Value;
 use serde::Deserialize;
 
-use crate::problem::{Exit, Problem};
+use crate::problem::{Exit, Problem, problem};
+use crate::render::messages::message::Help;
 
 /// What variables may be given, by their names without signs.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,7 +88,7 @@ fn plain(name: &str) -> String {
 /// # Errors
 /// It is not of this form.
 pub fn value(text: &str) -> Result<(String, Option<Num>), String> {
-    let form = || "write it as NAME=NUMBER, such as _td=0.25 or 500=12".to_owned();
+    let form = || problem("value-form").headline();
     let (name, number) = text.split_once('=').ok_or_else(form)?;
     if number == "drop" && !plain(name).is_empty() {
         return Ok((plain(name), None));
@@ -137,13 +138,9 @@ impl Given {
     /// # Errors
     /// It is not of this form.
     pub fn of_file(name: &str, text: &str) -> Result<Given, Problem> {
-        Given::parse(text).map_err(|message| Problem {
-            exit: Exit::File,
-            message: format!("{name}: {message}"),
-            help: vec![
-                "write [variables], and below it a line for each: \"#1\" = { from = 1, to = 20 }".into(),
-                "or \"#2\" = [0, 1], or \"R5\" = 12.5".into(),
-            ],
+        Given::parse(text).map_err(|reason| {
+            let message = problem("variables").text("file", name).text("reason", reason);
+            Problem::of(Exit::File, &message, Some(vec![Help::new("help"), Help::new("help-or")]))
         })
     }
 
@@ -154,7 +151,9 @@ impl Given {
     pub fn parse(text: &str) -> Result<Given, String> {
         let file: File = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
         let rows = file.variables.into_iter().map(|(name, row)| {
-            let wrong = |what: &str| Err(format!("the variable {name}: {what}"));
+            let wrong = |reason: &str| {
+                Err(problem("variable").text("variable", &name).text("reason", reason).headline())
+            };
             let (kind, vacant) = match row {
                 Row::Always(value) => (Kind::Among(vec![value]), false),
                 Row::Among(values) => (Kind::Among(values), false),
@@ -166,15 +165,15 @@ impl Given {
                 {
                     (Kind::Between { from, to, step: step.unwrap_or(STEP) }, vacant)
                 }
-                Row::Table(_) => return wrong("`from` and `to` belong together, without `among`"),
+                Row::Table(_) => return wrong("apart"),
             };
             match &kind {
-                Kind::Among(values) if values.is_empty() && !vacant => return wrong("no value"),
-                Kind::Among(values) if values.iter().any(|v| !v.is_finite()) => return wrong("no number"),
+                Kind::Among(values) if values.is_empty() && !vacant => return wrong("no-value"),
+                Kind::Among(values) if values.iter().any(|v| !v.is_finite()) => return wrong("no-number"),
                 Kind::Between { from, to, step }
                     if !(from <= to && *step > 0.0 && (to - from).is_finite()) =>
                 {
-                    return wrong("`from` is above `to`, or `step` is not above 0");
+                    return wrong("range");
                 }
                 Kind::Among(_) | Kind::Between { .. } => {}
             }
@@ -222,10 +221,10 @@ impl Given {
     pub fn one_of_file(name: &str, text: &str) -> Result<Given, Problem> {
         let given = Given::of_file(name, text)?;
         match given.0.iter().find(|(_, values)| values.only().is_none()) {
-            Some((variable, _)) => Err(Problem::usage(
-                format!("{name}: the variable {variable} has more than one value"),
-                "a program is executed with one value of each variable: \"#1\" = 20",
-            )),
+            Some((variable, _)) => {
+                let message = problem("several-values").text("file", name).text("variable", variable);
+                Err(Problem::of(Exit::Usage, &message, None))
+            }
             None => Ok(given),
         }
     }

@@ -3,7 +3,8 @@
 use ncc_dialects::{SettingError, Settings};
 use ncc_ir::canon::Units;
 
-use crate::problem::Problem;
+use crate::problem::{Exit, Problem, problem};
+use crate::render::messages::message::Help;
 
 /// States the units at power-on of a source, as far as the user has.
 ///
@@ -18,10 +19,8 @@ pub fn state_units(settings: &mut Settings, units: Option<Units>) -> Result<(), 
         Units::Mm => "inch",
         Units::Inch => "mm",
     };
-    Err(Problem::usage(
-        format!("--units contradicts what is known: {} begins in {own}", settings.dialect.id),
-        "leave --units out, or correct the profile of the machine",
-    ))
+    let message = problem("other-units").text("dialect", &settings.dialect.id).text("units", own);
+    Err(Problem::of(Exit::Usage, &message, None))
 }
 
 /// Settings with what the user has chosen.
@@ -32,23 +31,23 @@ pub fn choose(mut settings: Settings, chosen: &[(String, String)]) -> Result<Set
     let dialect = settings.dialect;
     for (option, value) in chosen {
         settings.choose(option, value).map_err(|error| match error {
-            SettingError::NoOption(option) => Problem::usage(
-                format!("{} has no option `{option}`", dialect.id),
-                match dialect.option.is_empty() {
-                    true => "it has no options at all".to_owned(),
-                    false => {
-                        let names: Vec<&str> = dialect.option.iter().map(|o| o.name.as_str()).collect();
-                        format!("it has: {}", names.join(", "))
-                    }
-                },
-            ),
-            SettingError::NoValue { option, values } => Problem::usage(
-                format!("`{value}` is no value of {option}"),
-                match values.is_empty() {
-                    true => "it takes a number from 0, such as 0.02".to_owned(),
-                    false => format!("it takes: {}", values.join(", ")),
-                },
-            ),
+            SettingError::NoOption(option) => {
+                let names: Vec<&str> = dialect.option.iter().map(|o| o.name.as_str()).collect();
+                let help = match names.is_empty() {
+                    true => Help::new("help-none"),
+                    false => Help::new("help").text("options", names.join(", ")),
+                };
+                let message = problem("no-option").text("dialect", &dialect.id).text("option", option);
+                Problem::of(Exit::Usage, &message, Some(vec![help]))
+            }
+            SettingError::NoValue { option, values } => {
+                let help = match values.is_empty() {
+                    true => Help::new("help-number"),
+                    false => Help::new("help").text("values", values.join(", ")),
+                };
+                let message = problem("no-value").text("value", value).text("option", option);
+                Problem::of(Exit::Usage, &message, Some(vec![help]))
+            }
         })?;
     }
     Ok(settings)

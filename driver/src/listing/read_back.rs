@@ -24,7 +24,7 @@ use ncc_ir::source::Span;
 use super::by_time;
 use crate::job::Job;
 use crate::job::parameters::parameter;
-use crate::translate::difference;
+use crate::render::events;
 
 /// The table of tools of the source's machine: lengths and radii that its profile states, and no offsets beside them.
 pub fn tables(job: &Job) -> Tables {
@@ -78,7 +78,7 @@ pub fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -> Resul
         let over = rest.peek().is_none();
         comparison.advance(&mut source, &mut piece, over).map_err(|found| {
             let at = found.source.as_ref().map_or(last, |event| event.span);
-            differs(difference::describe(&found), at)
+            differs(events::describe(&found), at)
         })?;
         if over {
             return Ok(());

@@ -11,3 +11,10 @@ pub mod pair;
 pub mod show;
 pub mod test;
 pub mod words;
+
+use crate::render::messages::message::{Message, Part};
+
+/// An entry about a machine.
+fn machine(form: &'static str) -> Message {
+    Message::part(Part::Machine, form)
+}

@@ -5,6 +5,8 @@ use std::fmt::{self, Write};
 use ncc_machines::table::{Stated, Tell};
 use ncc_machines::{Profile, Row};
 
+use super::machine;
+
 /// One line for each profile.
 pub fn list(profiles: &[Profile]) -> String {
     let wide = profiles.iter().map(|p| p.id().len()).max().unwrap_or(0);
@@ -36,14 +38,16 @@ pub fn show(profile: &Profile) -> String {
 fn write_all(out: &mut String, profile: &Profile) -> fmt::Result {
     let s = &profile.schema;
     out.push_str(&headline(profile));
-    writeln!(out, "dialect: {} ({})", profile.dialect.id, profile.dialect.title)?;
+    let dialect =
+        machine("dialect").text("dialect", &profile.dialect.id).text("title", &profile.dialect.title);
+    writeln!(out, "{}", dialect.headline())?;
     if s.typical {
-        writeln!(out, "typical: stands for a kind of machine, not for one that somebody has measured")?;
+        writeln!(out, "{}", machine("typical").headline())?;
     }
     if !s.notes.is_empty() {
         writeln!(out, "{}", s.notes)?;
     }
-    writeln!(out, "(~ is marked as assumed)")?;
+    writeln!(out, "{}", machine("legend").headline())?;
     options(out, profile)?;
     confirmed(out, profile)?;
     for row in profile.rows() {
@@ -98,11 +102,8 @@ fn confirmed(out: &mut String, profile: &Profile) -> fmt::Result {
         rows.iter().map(|(name, yes)| (name.get_ref().as_str(), yes.tell(""))).collect();
     lines(out, &named)?;
     if unsure > 0 {
-        writeln!(
-            out,
-            "  {unsure} rows of {} are unconfirmed: `ncc dialects show {}` marks them with ?",
-            d.id, d.id
-        )?;
+        let unsure = machine("unconfirmed").text("rows", unsure.to_string()).text("dialect", &d.id);
+        writeln!(out, "  {}", unsure.headline())?;
     }
     Ok(())
 }

@@ -12,11 +12,12 @@ use ncc_dialects::{Settings, builtin};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side;
 
+use super::machine;
 use super::pair::Machines;
 use crate::job::Job;
 use crate::questions::Policy;
 use crate::render::About;
-use crate::render::numbers::plural;
+use crate::render::messages::message::Message;
 use crate::render::{Loudness, human};
 use crate::translate::translate;
 
@@ -27,54 +28,58 @@ const SAMPLE: &str = include_str!("sample.ir");
 pub fn test(profile: &Profile) -> (String, bool) {
     let mut text = super::show::headline(profile);
     let mut passed = true;
-    let mut tell = |what: &str, result: &Result<String, String>| match result {
-        Ok(how) => text.push_str(&format!("  passed  {what}{how}\n")),
-        Err(why) => {
+    let form = machine("passed").text("what", machine("form").headline());
+    text.push_str(&format!("  {}\n", form.headline()));
+    let mut report = |what: &Message, result: Result<u64, String>| {
+        let what = what.headline();
+        let line = match &result {
+            Ok(events) => machine("passed-events").text("events", events.to_string()),
+            Err(_) => machine("failed"),
+        };
+        text.push_str(&format!("  {}\n", line.text("what", what).headline()));
+        if let Err(why) = result {
             passed = false;
-            text.push_str(&format!("  failed  {what}\n"));
             why.lines().for_each(|line| text.push_str(&format!("          {line}\n")));
         }
     };
-    tell("form and sense", &Ok(String::new()));
     let to = Machines { from: None, to: Some(Arc::new(profile.clone())) };
     let Some(ir) = builtin("ir") else { return (text, false) };
     let written = translated(SAMPLE, Settings::new(ir), to.clone());
-    tell(
-        "a sample program, written for it and verified",
-        &written.as_ref().map(|(n, _)| events(*n)).map_err(Clone::clone),
-    );
+    report(&machine("sample"), written.as_ref().map(|(events, _)| *events).map_err(Clone::clone));
     if let Ok((_, written)) = written {
         // The sample's numbers are of this machine already.
         let own = Machines { from: Some(Arc::new(ncc_machines::nameless(profile))), to: to.to.clone() };
         let again = translated(&written, profile.settings(), own);
-        tell("the same, from the machine to itself", &again.map(|(n, _)| events(n)));
+        report(&machine("itself"), again.map(|(events, _)| events));
     }
     let codes: Vec<(&str, &str)> = functions(profile).collect();
     if !codes.is_empty() {
         let wanted: String = codes.iter().map(|(_, name)| format!("MACHINE_FUNCTION({name:?})\n")).collect();
         let sample = SAMPLE.replace("SET_SPINDLE_SPEED", &format!("{wanted}SET_SPINDLE_SPEED"));
         let written = translated(&sample, Settings::new(ir), to);
-        let each = written.and_then(|(n, text)| {
+        let each = written.and_then(|(events, text)| {
             let stands = |code: &str| text.lines().any(|line| line.split(' ').next_back() == Some(code));
             match codes.iter().find(|(code, _)| !stands(code)) {
-                Some((code, name)) => Err(format!("{name} is not written as {code}")),
-                None => Ok(events(n)),
+                Some((code, name)) => {
+                    Err(machine("not-written").text("name", *name).text("code", *code).headline())
+                }
+                None => Ok(events),
             }
         });
-        tell(&format!("its {} M codes, written and read back", codes.len()), &each);
+        report(&machine("codes").text("number", codes.len().to_string()), each);
     }
     let other = ncc_machines::counterpart(profile, ir);
     let (tools, offsets) = (other.schema.tool.len(), other.schema.work_offset.len());
     if tools + offsets > 0 {
         let machines = Machines { from: Some(Arc::new(other)), to: Some(Arc::new(profile.clone())) };
         let written = translated(&of_names(tools, offsets), Settings::new(ir), machines);
-        let count = |n: usize, what: &str| format!("{n} {}", plural(n as u64, what));
-        let what = match (count(tools, "tool"), count(offsets, "work offset")) {
-            (what, _) if offsets == 0 => what,
-            (_, what) if tools == 0 => what,
-            (tools, offsets) => format!("{tools} and {offsets}"),
+        let form = match (tools, offsets) {
+            (_, 0) => "tools",
+            (0, _) => "offsets",
+            (_, _) => "tools-and-offsets",
         };
-        tell(&format!("the names of its {what}, from other numbers"), &written.map(|(n, _)| events(n)));
+        let what = machine(form).count("tools", tools as u64).count("offsets", offsets as u64);
+        report(&what, written.map(|(events, _)| events));
     }
     (text, passed)
 }
@@ -112,10 +117,6 @@ fn of_names(tools: usize, offsets: usize) -> String {
 fn functions(profile: &Profile) -> impl Iterator<Item = (&str, &str)> {
     let rows = profile.schema.m_code.iter().map(|row| row.get_ref());
     rows.filter_map(|row| Some((row.code.value.as_deref()?, row.function.value.as_deref()?)))
-}
-
-fn events(n: u64) -> String {
-    format!(": {n} events")
 }
 
 /// Translates a text for the target machine; gives the number of events and the text, or what is

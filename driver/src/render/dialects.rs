@@ -6,6 +6,8 @@ use ncc_dialects::{Dialect, PatternRow, PowerOn, PowerOnFact};
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::caps::ReturnsTo;
 
+use super::messages::message::{Message, Part};
+
 /// The form of a dictionary, for whoever writes one.
 pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/dialect.md");
 
@@ -30,10 +32,10 @@ pub fn show(dialect: &Dialect) -> String {
 fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     writeln!(out, "{}: {}", d.id, d.title)?;
     if let Some(base) = &d.base {
-        writeln!(out, "builds on: {base}")?;
+        writeln!(out, "{}", shown("base").text("base", base).headline())?;
     }
     if let Some(extension) = d.extensions.first() {
-        writeln!(out, "usual extension: .{extension}")?;
+        writeln!(out, "{}", shown("extension").text("extension", extension).headline())?;
     }
     let rows = d.code.len() + d.address.len() + d.cycle.len() + d.name.len() + d.call.len();
     let unsure = d.code.iter().filter(|r| !r.sure).count()
@@ -42,7 +44,8 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
         + d.name.iter().filter(|r| !r.sure).count()
         + d.call.iter().filter(|r| !r.sure).count();
     if rows > 0 {
-        writeln!(out, "{rows} rows, {unsure} of them unconfirmed (marked ?)")?;
+        let rows = shown("rows").text("rows", rows.to_string()).text("unsure", unsure.to_string());
+        writeln!(out, "{}", rows.headline())?;
     }
     behaviours(out, d)?;
     options(out, d)?;
@@ -54,7 +57,7 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     variants(out, d)?;
     power_on(out, &d.power_on)?;
     if !d.sources.is_empty() {
-        heading(out, "Sources")?;
+        heading(out, &shown("sources"))?;
         for (tag, source) in &d.sources {
             writeln!(out, "  {tag:<12}  {source}")?;
         }
@@ -62,87 +65,96 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     Ok(())
 }
 
-fn heading(out: &mut String, text: &str) -> fmt::Result {
-    write!(out, "\n{text}:\n")
+/// An entry about a dictionary that is shown.
+fn shown(form: &'static str) -> Message {
+    Message::part(Part::Dialect, form)
+}
+
+fn heading(out: &mut String, text: &Message) -> fmt::Result {
+    write!(out, "\n{}:\n", text.headline())
 }
 
 fn options(out: &mut String, d: &Dialect) -> fmt::Result {
     if d.option.is_empty() {
         return Ok(());
     }
-    heading(out, "Options (--from-option, --to-option NAME=VALUE)")?;
+    heading(out, &shown("options"))?;
     for row in &d.option {
         let values = match row.values.is_empty() {
-            true => format!("a number, {}", row.default),
+            true => shown("number-value").text("default", &row.default).headline(),
             false => {
-                let mark = |v: &String| if *v == row.default { format!("{v} (default)") } else { v.clone() };
+                let mark = |value: &String| match *value == row.default {
+                    true => shown("default-value").text("value", value).headline(),
+                    false => value.clone(),
+                };
                 row.values.iter().map(mark).collect::<Vec<_>>().join(", ")
             }
         };
         writeln!(out, "  {}: {values}", row.name)?;
         writeln!(out, "      {}", row.doc)?;
-        writeln!(out, "      source: {}", row.source)?;
+        writeln!(out, "      {}", shown("source").text("source", &row.source).headline())?;
     }
     Ok(())
 }
 
 fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {
-    heading(out, "What can be said in it")?;
+    heading(out, &shown("capabilities"))?;
     let caps = &d.caps;
-    let yes = |yes: bool| if yes { "yes" } else { "no" };
-    let mut row = |name: &str, value: &str| writeln!(out, "  {name:<28}  {value}");
+    let word = |form| shown(form).headline();
+    let yes = |yes: bool| word(if yes { "yes" } else { "no" });
+    let mut row = |name, value: &str| writeln!(out, "  {:<28}  {value}", word(name));
     if d.can.everything {
-        return row("everything", "whatever the neutral program can hold");
+        return row("everything", &word("everything-value"));
     }
     if caps.flat {
-        row("form", "a list of events; cycles, patterns, calls and repeats are written out")?;
+        row("form", &word("form-flat"))?;
     }
     if !caps.holes.cycles.is_empty() {
         let kinds: Vec<&str> = caps.holes.cycles.iter().map(|c| c.kind.as_str()).collect();
         row("cycles", &kinds.join(", "))?;
         row(
-            "cycles return to",
-            match d.cycles.return_level.map(ReturnLevel::from) {
-                None if caps.holes.returns == ReturnsTo::Plane => "a stated plane",
-                None => "the initial level or the retract plane",
-                Some(ReturnLevel::Initial) => "the initial level",
-                Some(ReturnLevel::Retract) => "the retract plane",
-            },
+            "return",
+            &word(match d.cycles.return_level.map(ReturnLevel::from) {
+                None if caps.holes.returns == ReturnsTo::Plane => "return-stated",
+                None => "return-either",
+                Some(ReturnLevel::Initial) => "return-initial",
+                Some(ReturnLevel::Retract) => "return-retract",
+            }),
         )?;
     }
-    let patterns: Vec<&str> = d
+    let patterns: Vec<String> = d
         .pattern
         .iter()
         .map(|p| match p {
-            PatternRow::Circle { .. } => "bolt circle",
-            PatternRow::Grid { .. } => "grid",
+            PatternRow::Circle { .. } => word("bolt-circle"),
+            PatternRow::Grid { .. } => word("grid"),
         })
         .collect();
-    let named = d.call.iter().filter(|c| c.kind.cycles().is_empty()).map(|c| c.name.as_str());
-    let patterns: Vec<&str> = patterns.into_iter().chain(named).collect();
+    let named = d.call.iter().filter(|c| c.kind.cycles().is_empty()).map(|c| c.name.clone());
+    let patterns: Vec<String> = patterns.into_iter().chain(named).collect();
     if !patterns.is_empty() {
-        row("patterns of holes", &patterns.join(", "))?;
+        row("patterns", &patterns.join(", "))?;
     }
-    row("subprograms", yes(caps.flow.calls))?;
-    row("repetition of blocks", yes(caps.flow.repeats || caps.flow.repeat_blocks))?;
-    row("frames", yes(caps.frames.chain))?;
-    row("machine coordinates", yes(caps.machine.coordinates))?;
+    row("subprograms", &yes(caps.flow.calls))?;
+    row("repeats", &yes(caps.flow.repeats || caps.flow.repeat_blocks))?;
+    row("frames", &yes(caps.frames.chain))?;
+    row("machine", &yes(caps.machine.coordinates))?;
     let offsets = match caps.frames.work_offsets {
-        0 => "one, without a word for it".to_owned(),
-        u16::MAX => "any number".to_owned(),
+        0 => word("one-offset"),
+        u16::MAX => word("any-offset"),
         n => n.to_string(),
     };
-    row("work offsets", &offsets)?;
-    row("incremental coordinates", yes(caps.modes.incremental))?;
-    row("helices", yes(caps.arcs.helix))?;
-    row("arcs by radius", yes(caps.arcs.by_radius))?;
+    row("work-offsets", &offsets)?;
+    row("incremental", &yes(caps.modes.incremental))?;
+    row("helices", &yes(caps.arcs.helix))?;
+    row("radius", &yes(caps.arcs.by_radius))?;
     let skip = match caps.flow.skip_levels {
-        0 => "no".to_owned(),
-        1 => "one switch".to_owned(),
-        n => format!("{n} switches"),
+        0 => word("no"),
+        1 => word("one-switch"),
+        n => shown("switches").text("number", n.to_string()).headline(),
     };
-    row("block skip", &skip)?;
-    row("messages to the operator", yes(caps.modes.messages))
+    row("skip", &skip)?;
+    row("operator", &yes(caps.modes.messages))
 }
 
 fn codes(out: &mut String, d: &Dialect) -> fmt::Result {
@@ -150,7 +162,7 @@ fn codes(out: &mut String, d: &Dialect) -> fmt::Result {
         return Ok(());
     }
     let mark = |sure: bool| if sure { ' ' } else { '?' };
-    heading(out, "Codes (word, meaning, source)")?;
+    heading(out, &shown("codes"))?;
     for row in d.code.iter().filter(|r| r.refuse.is_none()) {
         let mut meaning = row.means.map(|m| m.to_string()).unwrap_or_default();
         if let Some(cycle) = d.cycle_row(&row.code) {
@@ -158,7 +170,7 @@ fn codes(out: &mut String, d: &Dialect) -> fmt::Result {
         }
         writeln!(out, "{} {:<6}  {meaning:<38}  {}", mark(row.sure), row.code, row.source)?;
     }
-    heading(out, "Codes that are known and refused")?;
+    heading(out, &shown("refused-codes"))?;
     for row in &d.code {
         let Some(name) = &row.refuse else { continue };
         writeln!(out, "{} {:<6}  {name:<38}  {}", mark(row.sure), row.code, row.source)?;
@@ -172,7 +184,7 @@ fn variants(out: &mut String, d: &Dialect) -> fmt::Result {
     for variant in &d.variant {
         let when: Vec<String> =
             variant.when.iter().map(|(option, value)| format!("{option}={value}")).collect();
-        heading(out, &format!("With {} (word, meaning or refusal, source)", when.join(", ")))?;
+        heading(out, &shown("variant").text("options", when.join(", ")))?;
         for row in &variant.code {
             let cycle = variant.cycle.iter().find(|cycle| cycle.code == row.code);
             let means = row.means.map(|m| m.to_string()).or_else(|| row.refuse.clone());
@@ -200,13 +212,13 @@ fn names(out: &mut String, d: &Dialect) -> fmt::Result {
         return Ok(());
     }
     let mark = |sure: bool| if sure { ' ' } else { '?' };
-    heading(out, "Words of several letters (word, meaning, source)")?;
+    heading(out, &shown("names"))?;
     for row in d.name.iter().filter(|r| r.refuse.is_none()) {
         let address = || row.role.map(|role| spaced(&format!("{role:?}")));
         let meaning = row.means.map(|m| m.to_string()).or_else(address).unwrap_or_default();
         writeln!(out, "{} {:<8}  {meaning:<36}  {}", mark(row.sure), row.name, row.source)?;
     }
-    heading(out, "Words of several letters that are known and refused")?;
+    heading(out, &shown("refused-names"))?;
     for row in &d.name {
         let Some(name) = &row.refuse else { continue };
         writeln!(out, "{} {:<8}  {name:<36}  {}", mark(row.sure), row.name, row.source)?;
@@ -218,13 +230,13 @@ fn calls(out: &mut String, d: &Dialect) -> fmt::Result {
     if d.call.is_empty() {
         return Ok(());
     }
-    heading(out, "Cycles and patterns that are called (name, meaning, arguments, source)")?;
+    heading(out, &shown("calls"))?;
     for row in &d.call {
         let mark = if row.sure { ' ' } else { '?' };
         let what = spaced(&format!("{:?}", row.kind));
         let arguments: Vec<&str> = row.parameters.iter().map(|p| p.name.as_str()).collect();
         writeln!(out, "{mark} {}({}): {what}", row.name, arguments.join(","))?;
-        writeln!(out, "      source: {}", row.source)?;
+        writeln!(out, "      {}", shown("source").text("source", &row.source).headline())?;
     }
     Ok(())
 }
@@ -233,7 +245,7 @@ fn addresses(out: &mut String, d: &Dialect) -> fmt::Result {
     if d.address.is_empty() {
         return Ok(());
     }
-    heading(out, "Words (letter, what it is, source)")?;
+    heading(out, &shown("addresses"))?;
     for row in &d.address {
         let mark = if row.sure { ' ' } else { '?' };
         let what = spaced(&format!("{:?}, {:?}", row.role, row.quantity));
@@ -258,7 +270,7 @@ fn behaviours(out: &mut String, d: &Dialect) -> fmt::Result {
     if d.behaviour.is_empty() {
         return Ok(());
     }
-    heading(out, "What codes do besides their names (? is open: an option of the same name states it)")?;
+    heading(out, &shown("behaviours"))?;
     for row in &d.behaviour {
         let mark = if row.open { '?' } else { ' ' };
         let codes = row.codes.join(" ");
@@ -269,30 +281,31 @@ fn behaviours(out: &mut String, d: &Dialect) -> fmt::Result {
 
 fn power_on(out: &mut String, facts: &PowerOn) -> fmt::Result {
     let mut rows = Vec::new();
-    fact(&mut rows, "unit of length", facts.units.as_ref());
-    fact(&mut rows, "distance mode", facts.distance.as_ref());
+    fact(&mut rows, "units", facts.units.as_ref());
+    fact(&mut rows, "distance", facts.distance.as_ref());
     fact(&mut rows, "plane", facts.plane.as_ref());
-    fact(&mut rows, "feed mode", facts.feed_mode.as_ref());
-    fact(&mut rows, "return level", facts.return_level.as_ref());
+    fact(&mut rows, "feed-mode", facts.feed_mode.as_ref());
+    fact(&mut rows, "return-level", facts.return_level.as_ref());
     fact(&mut rows, "motion", facts.motion.as_ref());
-    fact(&mut rows, "work offset", facts.work_offset.as_ref());
-    fact(&mut rows, "length offset", facts.length_offset.as_ref());
-    fact(&mut rows, "no origin shift", facts.no_origin_shift.as_ref());
+    fact(&mut rows, "work-offset", facts.work_offset.as_ref());
+    fact(&mut rows, "length-offset", facts.length_offset.as_ref());
+    fact(&mut rows, "no-shift", facts.no_origin_shift.as_ref());
     fact(&mut rows, "corners", facts.path.as_ref());
     if rows.is_empty() {
         return Ok(());
     }
-    heading(out, "At power-on (* is always so; else taken for granted, and told)")?;
+    heading(out, &shown("power-on"))?;
     for row in rows {
         writeln!(out, "{row}")?;
     }
     Ok(())
 }
 
-fn fact<T: fmt::Debug>(rows: &mut Vec<String>, name: &str, fact: Option<&PowerOnFact<T>>) {
+fn fact<T: fmt::Debug>(rows: &mut Vec<String>, name: &'static str, fact: Option<&PowerOnFact<T>>) {
     if let Some(fact) = fact {
         let mark = if fact.always { '*' } else { ' ' };
         let value = spaced(&format!("{:?}", fact.value));
+        let name = shown(name).headline();
         rows.push(format!("{mark} {name:<16}  {value:<14}  {}", fact.source));
     }
 }

@@ -37,7 +37,7 @@ pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
         let help = if field == "source" { "help-source" } else { "help" };
         return in_words(dictionary("missing-field").text("field", field), vec![Help::new(help)]);
     }
-    let form = match fault {
+    let message = match fault {
         DialectFault::NotInBase { row, among } => {
             let near = near(row, among.iter().map(String::as_str));
             let message = dictionary("not-in-base").text("row", &**row);
@@ -67,23 +67,28 @@ pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
                 Some(near) => Help::new("help-one").text("near", *near),
                 None => Help::new("help"),
             };
-            return in_words(dictionary("no-base").text("fault", fault.to_string()), vec![help]);
+            return in_words(dictionary("no-base").text("base", base), vec![help]);
         }
-        DialectFault::Form(_) | DialectFault::NoCycleKind { .. } => "form",
-        DialectFault::Missing { .. } | DialectFault::BadId { .. } => "own-name",
-        DialectFault::BuiltInId { .. } => "built-in",
-        DialectFault::IdTwice { .. } => "name-twice",
-        DialectFault::BaseCycle { .. } => "base-cycle",
-        DialectFault::OtherFamily => "other-family",
-        DialectFault::NoKey { .. } | DialectFault::RowTwice { .. } => "row-key",
-        DialectFault::NothingThere { .. } => "nothing-there",
-        DialectFault::Row { .. } => "row",
+        DialectFault::Row { row, wrong } => {
+            let wrong = dictionary("").reason(wrong).headline();
+            let help = base_row.map_or_else(|| Help::new("help"), of_base);
+            return in_words(dictionary("row").text("row", row).text("wrong", wrong), vec![help]);
+        }
+        DialectFault::Form(text) => dictionary("form").text("fault", text),
+        DialectFault::NoCycleKind { row, kind } => dictionary("form").text("fault", format!("{row}: {kind}")),
+        DialectFault::Missing { field } => dictionary("missing").text("field", *field),
+        DialectFault::BadId { id } => dictionary("no-id").text("name", id),
+        DialectFault::BuiltInId { id } => dictionary("built-in").text("name", id),
+        DialectFault::IdTwice { id } => dictionary("name-twice").text("name", id),
+        DialectFault::BaseCycle { chain } => dictionary("base-cycle").text("chain", chain.join(", on ")),
+        DialectFault::OtherFamily => dictionary("other-family"),
+        DialectFault::NoKey { table, key } => dictionary("no-key").text("table", table).text("key", *key),
+        DialectFault::RowTwice { row } => dictionary("row-twice").text("row", row),
+        DialectFault::NothingThere { row, word } => {
+            dictionary("nothing-there").text("row", row).text("word", *word)
+        }
     };
-    let help = match (form, base_row) {
-        ("row", Some(row)) => of_base(row),
-        _ => Help::new("help"),
-    };
-    in_words(dictionary(form).text("fault", fault.to_string()), vec![help])
+    in_words(message, vec![Help::new("help")])
 }
 
 fn of_unknown(fault: &DialectFault, unknown: &UnknownWord<'_>) -> Words {
@@ -128,7 +133,17 @@ pub(crate) fn dictionary(form: &'static str) -> Message {
 
 #[cfg(test)]
 mod tests {
+    use ncc_dialects::RowFault;
+
     use super::*;
+
+    #[test]
+    fn every_row_fault_has_words() {
+        for wrong in RowFault::ALL {
+            let words = words(&DialectFault::Row { row: "Q1".to_owned(), wrong: *wrong }, None);
+            assert!(words.headline.len() > "row Q1: ".len() && words.headline.len() <= 90, "{words:?}");
+        }
+    }
 
     #[test]
     fn every_kind_of_fault_has_words_that_name_the_row() {
@@ -154,7 +169,7 @@ mod tests {
             ("unknown value `zz`", "it is one of `length`, `angle`")
         );
         assert_eq!(says("missing field `source`").helps[0].get(..6), Some("add `s"));
-        let in_base = DialectFault::Row { row, wrong: "has no [[data]] row" };
+        let in_base = DialectFault::Row { row, wrong: RowFault::NoDataRow };
         let help = words(&in_base, Some(BaseRow { table: "data", key: "name = \"G10 L2\"" })).helps;
         assert!(help[0].contains("`[[data]]`, `name = \"G10 L2\"`, `remove = true`"), "{help:?}");
     }

@@ -1,5 +1,10 @@
 //! The comment that opens an emitted program: source and hash, verified or not, assumptions. The
-//! operator at the machine never sees what the command line printed.
+//! operator at the machine never sees what the command line printed. Its words are in `messages/head`.
+//!
+//! ```text
+//! (ncc: mach9 teste.cn sha256 0f63f2c7, verified)
+//! (assumed: units = mm; work offset = G54)
+//! ```
 
 use std::collections::BTreeSet;
 
@@ -8,10 +13,15 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict};
 use ncc_ir::program::Text;
 use ncc_ir::program::numbered::Numbered;
 
+use super::messages::message::{Message, Part};
+use super::{questions, spelled};
 use crate::job::Job;
 use crate::questions::Question;
-use crate::render::numbers::given_number;
-use crate::render::{numbers, questions, spelled};
+
+/// An entry about the head of a program.
+fn head(form: &'static str) -> Message {
+    Message::part(Part::Head, form)
+}
 
 /// The lines of the comment.
 pub fn lines(
@@ -21,22 +31,23 @@ pub fn lines(
     diagnostics: &[Diagnostic],
     renumbered: &BTreeSet<(Numbered, Text, Text)>,
 ) -> Vec<String> {
-    let hash: String = hash[..4].iter().map(|b| format!("{b:02x}")).collect();
-    let verified = if job.verify { "verified" } else { "UNVERIFIED" };
-    let mut lines =
-        vec![format!("ncc: {} {} sha256 {hash}, {verified}", job.from.dialect.id, job.source_name)];
+    let first = head(if job.verify { "verified" } else { "unverified" })
+        .text("dialect", job.from.dialect.id.as_str())
+        .text("name", job.source_name.as_str())
+        .text("hash", beginning(hash));
+    let mut lines = vec![first.headline()];
     if let Some(project) = &job.project {
         lines.push(project.line());
     }
     for file in job.called.iter().flat_map(|called| &called.files) {
-        let hash: String = file.sha256[..4].iter().map(|b| format!("{b:02x}")).collect();
         let name = std::path::Path::new(&file.name).file_name();
         let name = name.map_or(file.name.clone().into(), |name| name.to_string_lossy());
-        lines.push(format!("called: {name} sha256 {hash}"));
+        let called = head("called").text("name", name).text("hash", beginning(&file.sha256));
+        lines.push(called.headline());
     }
     if !questions.is_empty() {
         let own: Vec<String> = questions.iter().map(questions::taken).collect();
-        lines.push(format!("not answered: {}", own.join("; ")));
+        lines.push(head("not-answered").text("facts", own.join("; ")).headline());
     }
     let dialects = [job.to.dialect, job.from.dialect];
     let mut seen = BTreeSet::new();
@@ -47,10 +58,15 @@ pub fn lines(
         .filter(|text| seen.insert(text.clone()))
         .collect();
     if !assumed.is_empty() {
-        lines.push(format!("assumed: {}", assumed.join("; ")));
+        lines.push(head("assumed").text("facts", assumed.join("; ")).headline());
     }
     lines.extend(by_name(renumbered, "to"));
     lines
+}
+
+/// The first digits of a hash.
+fn beginning(hash: &[u8; 32]) -> String {
+    hash[..4].iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// What was renumbered, a line for each kind: `tools by name: 3 to 7, 4 to 1`.
@@ -59,7 +75,13 @@ pub fn by_name(renumbered: &BTreeSet<(Numbered, Text, Text)>, arrow: &str) -> Ve
         let mut own: Vec<&(Numbered, Text, Text)> = renumbered.iter().filter(|row| row.0 == what).collect();
         own.sort_by_key(|(_, from, _)| (from.len(), from.clone()));
         let pairs: Vec<String> = own.iter().map(|(_, from, to)| format!("{from} {arrow} {to}")).collect();
-        (!pairs.is_empty()).then(|| format!("{} by name: {}", numbers::numbered(what, 2), pairs.join(", ")))
+        let form = match what {
+            Numbered::Tool => "tool-numbers",
+            Numbered::LengthEntry => "length-entry-numbers",
+            Numbered::WorkOffset => "work-offset-numbers",
+            Numbered::Program => "program-numbers",
+        };
+        (!pairs.is_empty()).then(|| head(form).text("pairs", pairs.join(", ")).headline())
     };
     Numbered::ALL.into_iter().filter_map(line).collect()
 }
@@ -67,89 +89,93 @@ pub fn by_name(renumbered: &BTreeSet<(Numbered, Text, Text)>, arrow: &str) -> Ve
 /// An assumption in the few words that fit a program's head; `None` for what is none. A work offset
 /// is named by the first of the dialects that has a word for it.
 pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
-    Some(match fault {
+    let controls = |form| {
+        let [to, from] = dialects.map(|dialect| dialect.id.as_str());
+        head(form).text("source", from).text("target", to)
+    };
+    let message = match fault {
         Fault::AssumedMode { fact, value } => match fact {
-            ModeName::Motion => format!("motion = {value}"),
-            ModeName::Distance => format!("start in {value} mode"),
-            ModeName::Units => format!("units = {value}"),
-            ModeName::Plane => format!("plane = {value}"),
-            ModeName::FeedMode => format!("feed {value}"),
-            ModeName::ReturnLevel => format!("cycles return to {value}"),
-            ModeName::WorkOffset => match value.parse() {
-                Ok(number) => format!("work offset = {}", spelled::work_offset(number, dialects)),
-                Err(_) => format!("work offset = {value}"),
-            },
-            ModeName::LengthOffset => "no length offset at the start".to_owned(),
-            ModeName::OriginShift => "no origin shift at the start".to_owned(),
+            ModeName::Motion => head("motion").text("value", &**value),
+            ModeName::Distance => head("distance").text("value", &**value),
+            ModeName::Units => head("units").text("value", &**value),
+            ModeName::Plane => head("plane").text("value", &**value),
+            ModeName::FeedMode => head("feed-mode").text("value", &**value),
+            ModeName::ReturnLevel => head("return-level").text("value", &**value),
+            ModeName::WorkOffset => {
+                let offset = value.parse().map(|number| spelled::work_offset(number, dialects));
+                head("work-offset").text("value", offset.unwrap_or_else(|_| value.to_string()))
+            }
+            ModeName::LengthOffset => head("no-length-offset"),
+            ModeName::OriginShift => head("no-origin-shift"),
         },
-        Fault::AssumedNoEffect { code } => format!("{code} has no effect"),
-        Fault::AssumedBareNumber { word, value } => format!("{word} without point = {value}"),
-        Fault::AssumedOffsetWithZ => "length offset taken up with the next Z".to_owned(),
+        Fault::AssumedNoEffect { code } => head("no-effect").text("code", &**code),
+        Fault::AssumedBareNumber { word, value } => {
+            head("bare-number").text("word", &**word).text("value", &**value)
+        }
+        Fault::AssumedOffsetWithZ => head("offset-with-z"),
         Fault::AssumedWorkOffset { offset } => {
-            format!("the only work offset = {}", spelled::work_offset(*offset, dialects))
+            head("only-work-offset").text("value", spelled::work_offset(*offset, dialects))
         }
         Fault::AssumedRow { code, meaning } => {
-            format!("{code} = {}", spelled::row_meaning(code, meaning, dialects))
+            head("fact").text("name", &**code).text("value", spelled::row_meaning(code, meaning, dialects))
         }
-        Fault::AssumedOption { option, value } => format!("{option} = {value}"),
-        Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
+        Fault::AssumedOption { option: name, value } | Fault::AssumedParameter { parameter: name, value } => {
+            head("fact").text("name", &**name).text("value", &**value)
+        }
         // The head has a line of its own about them.
         Fault::ToolNumbered { .. } => return None,
-        Fault::AssumedHoleOrder { pattern } => format!("order of the holes of {pattern}"),
-        Fault::AssumedPath { path } => format!("corners always by {path}"),
+        Fault::AssumedHoleOrder { pattern } => head("hole-order").text("pattern", &**pattern),
+        Fault::AssumedPath { path } => head("corners").text("path", &**path),
         Fault::AssumedMilling { looks_like, line } => {
-            format!("a milling program, though line {line} looks like {looks_like}")
+            head("milling").text("line", line.to_string()).text("looks-like", &**looks_like)
         }
-        Fault::AssumedTip => {
-            "rotary axes, and the zero of the tool's tip, as on the other control".to_owned()
-        }
-        Fault::AssumedToolChange { .. } => "tool_with_change = named".to_owned(),
+        Fault::AssumedTip => head("tip"),
+        Fault::AssumedToolChange { .. } => head("tool-change"),
         Fault::CallDepth { depth, sure, macros } => {
-            format!("{} go {depth} deep, older controls take {sure}", numbers::calls(*macros))
+            head(if *macros { "macro-call-depth" } else { "call-depth" })
+                .text("depth", depth.to_string())
+                .text("sure", sure.to_string())
         }
-        Fault::AssumedCycle { .. } => "cycle_beside_motion = drilled".to_owned(),
-        Fault::AssumedReturn { .. } => "return_distance = last".to_owned(),
-        Fault::AssumedControl { taken, other } => format!("control = {taken}, not {other}"),
-        Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
-        Fault::AssumedContourPath => "compensation worked out as RS274/NGC has it".to_owned(),
-        Fault::StartedAgain { behaviour } => {
-            format!("{}: started again before the next cut", behaviour.about())
+        Fault::AssumedCycle { .. } => head("cycle"),
+        Fault::AssumedReturn { .. } => head("return"),
+        Fault::AssumedControl { taken, other } => {
+            head("control").text("taken", &**taken).text("other", &**other)
         }
+        Fault::AssumedTilt => head("tilt"),
+        Fault::AssumedContourPath => head("contour-path"),
+        Fault::StartedAgain { behaviour } => head("started-again").text("behaviour", behaviour.about()),
         Fault::OpenBehaviour { behaviour, source, taken, .. } => {
             let [to, from] = dialects.map(|dialect| dialect.id.as_str());
-            format!("{} = {taken} on {}", behaviour.option(), if *source { from } else { to })
+            head("behaviour")
+                .text("option", behaviour.option())
+                .text("taken", *taken)
+                .text("control", if *source { from } else { to })
         }
-        Fault::OptionalStopDiffers => "the switch for optional stops is off".to_owned(),
+        Fault::OptionalStopDiffers => head("optional-stop"),
         Fault::PathAtStart { source, target } => {
-            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
-            format!("no path mode is programmed: corners {source} on {from}, {target} on {to}")
+            controls("path-at-start").text("source-path", *source).text("target-path", *target)
         }
         Fault::NextRunShifted { axis, .. } => {
-            format!("no shift of {} at the start, though the program leaves one", char::from(axis.letter()))
+            head("next-run-shifted").text("axis", char::from(axis.letter()).to_string())
         }
-        Fault::NextRunTurned => {
-            "no rotation, scale or mirror at the start, though the program leaves one".to_owned()
-        }
-        Fault::NextRunVariables { names, source, target } => {
-            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
-            let [source, target] = [*source, *target].map(spelled::kept);
-            format!("{} kept {source} on {from}, {target} on {to}", spelled::variables(names))
-        }
-        Fault::RoundsFreely => "corners rounded without a tolerance".to_owned(),
-        Fault::FeedOnArcs { contour_in_source, .. } => {
-            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
-            let [source, target] = match contour_in_source {
-                true => ["along the contour", "at the tool centre"],
-                false => ["at the tool centre", "along the contour"],
-            };
-            format!("F on arcs under cutter compensation: {source} on {from}, {target} on {to}")
-        }
-        Fault::LengthByHand { tool } => format!("the zero of Z is set by tool {tool} when it is put in"),
-        Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
-        Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
-        Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),
-        Fault::EdgeNumbered { .. } => given_number(fault),
-        Fault::AssumedEdge { .. } => "edge 1 of a tool = the length entry of its number".to_owned(),
+        Fault::NextRunTurned => head("next-run-turned"),
+        Fault::NextRunVariables { names, source, target } => controls("next-run-variables")
+            .text("variables", spelled::variables(names))
+            .text("source-kept", spelled::kept(*source))
+            .text("target-kept", spelled::kept(*target)),
+        Fault::RoundsFreely => head("rounds-freely"),
+        Fault::FeedOnArcs { contour_in_source: true, .. } => controls("feed-on-contour"),
+        Fault::FeedOnArcs { contour_in_source: false, .. } => controls("feed-on-centre"),
+        Fault::LengthByHand { tool } => head("length-by-hand").text("tool", tool.to_string()),
+        Fault::MovedAtChange => head("moved-at-change"),
+        Fault::AssumedContourEnds => head("contour-ends"),
+        Fault::AssumedRadius { .. } => head("radius"),
+        Fault::EdgeNumbered { tool, edge, entry } => head("edge-number")
+            .text("edge", edge.to_string())
+            .text("tool", tool.to_string())
+            .text("entry", entry.to_string()),
+        Fault::AssumedEdge { .. } => head("edge"),
         _ => return None,
-    })
+    };
+    Some(message.headline())
 }

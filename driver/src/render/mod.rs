@@ -10,6 +10,7 @@
 mod about;
 pub mod dialects;
 pub mod dictionary;
+pub mod events;
 pub mod explain;
 pub mod head;
 pub mod human;
@@ -17,6 +18,7 @@ pub mod json;
 pub mod line;
 pub mod messages;
 pub mod numbers;
+pub(crate) mod per_tool;
 pub mod questions;
 pub mod report;
 pub mod scaffold;

@@ -1,10 +1,7 @@
 //! Lengths and angles in messages.
 
-use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::ONE;
 use ncc_ir::program::numbered::Numbered;
-
-use super::text::plain;
 
 /// Nanos in millimetres, to four digits after the point.
 pub fn millimetres(nanos: i64) -> String {
@@ -24,11 +21,6 @@ pub fn thousands(count: u64) -> String {
     parts.collect::<Vec<&str>>().join(",")
 }
 
-/// Calls that are counted.
-pub fn calls(macros: bool) -> &'static str {
-    if macros { "macro calls" } else { "calls" }
-}
-
 /// What has a number, as one or as several.
 pub fn numbered(what: Numbered, count: u64) -> String {
     match what {
@@ -43,15 +35,4 @@ pub fn numbered(what: Numbered, count: u64) -> String {
 /// A noun with its plural's s.
 pub fn plural(count: u64, noun: &str) -> String {
     if count == 1 { noun.to_owned() } else { format!("{noun}s") }
-}
-
-/// Which number a tool, or one of its edges, has on the target's machine.
-pub(super) fn given_number(fault: &Fault) -> String {
-    match fault {
-        Fault::ToolNumbered { name, number } => format!("T{number} is {}", plain(name)),
-        Fault::EdgeNumbered { tool, edge, entry } => {
-            format!("edge {edge} of tool {tool} = length entry {entry}")
-        }
-        _ => String::new(),
-    }
 }

@@ -5,14 +5,21 @@ use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::diag::ModeName;
 
 use super::messages::message::{Message, Part};
-use super::numbers::{millimetres, plural};
+use super::numbers::millimetres;
 use super::text::{plain, plain_upto, quoted};
+
+/// An entry for a value.
+fn spelled(form: &'static str) -> Message {
+    Message::part(Part::Spelled, form)
+}
 
 /// What was found, in quotes if it is text of the source.
 pub fn found_words(found: &str) -> String {
     match found {
-        "end of line" | "end of text" => format!("the {found}"),
-        "a line" | "too many words" => found.to_owned(),
+        "end of line" => spelled("end-of-line").headline(),
+        "end of text" => spelled("end-of-text").headline(),
+        "a line" => spelled("line").headline(),
+        "too many words" => spelled("many-words").headline(),
         _ if found.starts_with('`') => plain(found),
         _ => quoted(found),
     }
@@ -28,7 +35,7 @@ pub(crate) fn character(c: char) -> String {
 
 /// Both radii of an arc.
 pub fn radii_of([start, end]: [i64; 2]) -> String {
-    format!("radius {} mm at the start, {} mm at the end", millimetres(start), millimetres(end))
+    spelled("radii").text("start", millimetres(start)).text("end", millimetres(end)).headline()
 }
 
 /// How the words of a return to a reference point count.
@@ -65,54 +72,58 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
 }
 
 /// What begins otherwise in the next run, where an open fact of the program's end decides it.
-pub fn next_run(behaviour: Behaviour) -> &'static str {
-    match behaviour {
-        Behaviour::VariablesAtEnd | Behaviour::VariablesWhenOff => "the next run reads other values",
-        _ => "the next run begins in another place",
-    }
+pub fn next_run(behaviour: Behaviour) -> String {
+    let form = match behaviour {
+        Behaviour::VariablesAtEnd | Behaviour::VariablesWhenOff => "next-run-values",
+        _ => "next-run-place",
+    };
+    spelled(form).headline()
 }
 
 /// What radius is not known: that of an entry of the table, or of an edge.
 pub fn radius_unknown(entry: Option<u32>) -> String {
     match entry {
-        Some(entry) => format!("the radius of entry {entry} is not known"),
-        None => "the radius of this edge is not known".into(),
+        Some(entry) => spelled("radius-of-entry").text("entry", entry.to_string()).headline(),
+        None => spelled("radius-of-edge").headline(),
     }
 }
 
 /// How long a variable is kept.
-pub fn kept(kept: Kept) -> &'static str {
-    match kept {
-        Kept::UntilEnd => "until the program ends",
-        Kept::UntilOff => "until it is switched off",
-        Kept::Always => "for ever",
-    }
+pub fn kept(kept: Kept) -> String {
+    let form = match kept {
+        Kept::UntilEnd => "kept-until-end",
+        Kept::UntilOff => "kept-until-off",
+        Kept::Always => "kept-always",
+    };
+    spelled(form).headline()
 }
 
 /// Variables by their names.
 pub fn variables(names: &[Box<str>]) -> String {
-    format!("{} {}", plural(names.len() as u64, "variable"), names.join(", "))
+    spelled("variables").count("count", names.len() as u64).text("names", names.join(", ")).headline()
 }
 
 /// A modal fact's name.
-pub fn mode(fact: ModeName) -> &'static str {
-    match fact {
-        ModeName::Motion => "motion mode",
-        ModeName::Distance => "distance mode",
-        ModeName::Units => "unit of length",
+pub fn mode(fact: ModeName) -> String {
+    let form = match fact {
+        ModeName::Motion => "motion",
+        ModeName::Distance => "distance",
+        ModeName::Units => "units",
         ModeName::Plane => "plane",
-        ModeName::FeedMode => "feed mode",
-        ModeName::ReturnLevel => "return level of cycles",
-        ModeName::WorkOffset => "work offset",
-        ModeName::LengthOffset => "length offset",
-        ModeName::OriginShift => "origin shift",
-    }
+        ModeName::FeedMode => "feed-mode",
+        ModeName::ReturnLevel => "return-level",
+        ModeName::WorkOffset => "work-offset",
+        ModeName::LengthOffset => "length-offset",
+        ModeName::OriginShift => "origin-shift",
+    };
+    spelled(form).headline()
 }
 
 /// A work offset by the word that one of the dialects has for it, the first one if it has.
 pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
     let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
-    row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
+    let unnamed = || spelled("work-offset-number").text("number", number.to_string()).headline();
+    row.map_or_else(unnamed, |row| row.code.clone())
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! Records in words: places, moves and what they are done with.
 
 use ncc_diff::record::{Length, Record, Style, What};
-use ncc_exec::Coolant;
+use ncc_exec::{Coolant, Kind};
 use ncc_ir::canon::{AXES, Axis, Plane, Spindle, Turn};
-use ncc_ir::expr::num::{Nanos, Num, Unit};
-use ncc_ir::program::Text;
+use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
+
+use crate::render::events;
 
 /// Digits after the point of what is shown.
 const DIGITS: u8 = 4;
@@ -75,8 +76,14 @@ pub fn length(length: &Length) -> String {
 }
 
 /// An event in one line.
-pub fn event(record: &Record, style: &Style, texts: &[Text]) -> String {
-    let text = || texts.get(record.more[1] as usize).map_or("", |text| &**text);
+pub fn event(record: &Record, style: &Style, kept: &[Kind]) -> String {
+    let text = || match kept.get(record.more[1] as usize) {
+        Some(Kind::Message(text) | Kind::Alarm(None, text)) => text.to_string(),
+        Some(Kind::Alarm(Some(number), text)) => format!("{} {text}", number / ONE),
+        Some(Kind::MachineFunction(name)) => format!("function {name}"),
+        Some(kind) => events::kind(kind, style.state.tool),
+        None => String::new(),
+    };
     let at = place(&record.place(style));
     match record.what {
         What::Traverse => format!("rapid {at}"),
@@ -103,7 +110,7 @@ pub fn event(record: &Record, style: &Style, texts: &[Text]) -> String {
         What::Orient => format!("spindle stopped at {}°", number(record.more[0])),
         What::Dwell => format!("dwell {} s", number(record.more[0])),
         What::ToolChange => format!("tool T{}", style.state.tool),
-        What::Function => format!("function {}", text()),
+        What::Function => text(),
         What::Stop => "stop".to_owned(),
         What::OptionalStop => "optional stop".to_owned(),
         What::End => "end".to_owned(),

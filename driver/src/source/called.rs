@@ -18,7 +18,7 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::program::{Op, Stmt, Text};
 use sha2::{Digest, Sha256};
 
-use crate::problem::{Exit, Problem};
+use crate::problem::{Exit, Problem, problem};
 use crate::source::Source;
 use crate::source::called_files::{Called, CalledFile};
 use crate::source::spool::Spool;
@@ -240,11 +240,12 @@ fn both(name: &str, files: [&PathBuf; 2], dialect: &Dialect) -> Problem {
     let [first, second] = files.map(|file| file.display().to_string());
     let own = dialect.program.called.iter().find_map(|form| stem(form, name)).unwrap_or_default();
     let extension = dialect.extensions.first().map(|e| e.to_ascii_lowercase()).unwrap_or_default();
-    Problem {
-        exit: Exit::Refused,
-        message: format!("program {name} is in two files: {first} and {second}"),
-        help: vec![format!("take one out of the folder, or name the right one {own}.{extension}")],
-    }
+    let message = problem("two-files")
+        .text("name", name)
+        .text("first", first)
+        .text("second", second)
+        .text("file", format!("{own}.{extension}"));
+    Problem::of(Exit::Refused, &message, None)
 }
 
 /// A name by its form: `{}` is the name, `{4}` its number with at least so many digits.
@@ -308,10 +309,9 @@ fn read(
 ) -> Result<CalledFile, Problem> {
     let shown = path.display().to_string();
     let text = library.read(path, LARGEST + 1).map_err(|e| Problem::file("read", &shown, &e))?;
-    let no_program = || Problem {
-        exit: Exit::Refused,
-        message: format!("{shown} is named as program {name}, and no whole program of {}", dialect.id),
-        help: vec!["look at its first and its last line".to_owned()],
+    let no_program = || {
+        let message = problem("no-program").text("file", &shown).text("name", name);
+        Problem::of(Exit::Refused, &message.text("dialect", &dialect.id), None)
     };
     if text.contains(&0) || whole.len() as u64 + text.len() as u64 > LARGEST {
         return Err(no_program());
@@ -321,11 +321,8 @@ fn read(
         None => program_of(&text, dialect).ok_or_else(no_program)?,
     };
     if let Some(other) = own.name.as_deref().filter(|own| !own.eq_ignore_ascii_case(name)) {
-        return Err(Problem {
-            exit: Exit::Refused,
-            message: format!("{shown} is named as program {name}, and holds program {other}"),
-            help: vec!["name it as the program in it, or have the right one in the folder".to_owned()],
-        });
+        let message = problem("other-program").text("file", &shown).text("name", name).text("other", other);
+        return Err(Problem::of(Exit::Refused, &message, None));
     }
     let end_line = |whole: &mut Vec<u8>| {
         if whole.last().is_some_and(|b| *b != b'\n') {

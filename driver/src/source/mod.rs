@@ -24,7 +24,7 @@ use std::sync::Arc;
 use ncc_ir::diag::Diagnostic;
 
 use crate::job::project_answers::Used;
-use crate::problem::Problem;
+use crate::problem::{Exit, Problem, problem};
 use crate::source::called_files::Called;
 
 /// Bytes that can be read again, from wherever the host keeps them.
@@ -108,14 +108,14 @@ impl Source {
         };
         match (same, into) {
             (false, _) => Ok(()),
-            (true, Some(path)) => Err(Problem::usage(
-                format!("{} is the source, and is never written over", path.display()),
-                "choose another name",
-            )),
-            (true, None) => Err(Problem::usage(
-                format!("stdout is {}, the source itself; the shell has emptied it", self.shown),
-                "write into another file, best with `-o NAME`",
-            )),
+            (true, Some(path)) => {
+                let message = problem("is-source").text("name", path.display().to_string());
+                Err(Problem::of(Exit::Usage, &message, None))
+            }
+            (true, None) => {
+                let message = problem("stdout-is-source").text("name", &self.shown);
+                Err(Problem::of(Exit::Usage, &message, None))
+            }
         }
     }
 

@@ -19,7 +19,7 @@ use crate::problem::{Problem, as_write};
 use crate::render::human::boxed;
 use crate::render::json::Entry;
 use crate::render::line;
-use crate::render::messages::message::{Help, Message};
+use crate::render::messages::message::{Help, Message, Part};
 use crate::render::questions::{Asked, AskedAnswer};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
@@ -33,7 +33,8 @@ pub fn note(source: &Source) -> Option<String> {
     let Diagnostic { fault: Fault::AssumedMilling { looks_like, line }, .. } = source.assumed.first()? else {
         return None;
     };
-    Some(format!("{}: looks like {looks_like} (line {line}); read as a milling program", source.shown))
+    let note = looks("read-as-milling").text("file", &source.shown).text("looks", &**looks_like);
+    Some(note.text("line", line.to_string()).headline())
 }
 
 /// Why a program is refused; `None` is a milling program. Where the user says that all are, what it looks like is
@@ -155,42 +156,52 @@ impl Refusal {
         Asked::of_refusal(
             &self.told,
             [
-                answer(None, format!("{}, not translated", self.kind), true),
-                answer(Some("--assume milling"), "a milling program, translated".to_owned(), false),
+                answer(None, looks("not-translated").text("looks", &self.kind).headline(), true),
+                answer(Some("--assume milling"), looks("translated").headline(), false),
             ],
         )
     }
 
     /// It in one line, with its place.
     pub fn reason(&self) -> String {
-        format!("line {}: {}", self.told.place.start.0, self.told.message)
+        looks("reason")
+            .text("line", self.told.place.start.0.to_string())
+            .text("reason", &self.told.message)
+            .headline()
     }
+}
+
+/// An entry about what a text is.
+fn looks(form: &'static str) -> Message {
+    Message::part(Part::Looks, form)
 }
 
 /// What a program looks like: `a lathe program`.
 fn kind(finding: &Finding) -> String {
-    match finding.kind {
+    let message = match finding.kind {
         Kind::Lathe => match finding.system {
-            None => "a lathe program".to_owned(),
-            Some(system) => format!("a lathe program ({})", control(system)),
+            None => looks("lathe"),
+            Some(system) => looks("lathe-system").text("system", looks(control(system)).headline()),
         },
-        Kind::Heidenhain => "a Heidenhain program".to_owned(),
-        Kind::Okuma => "an Okuma OSP program".to_owned(),
-        Kind::Mazatrol => "a Mazatrol program".to_owned(),
-        Kind::WireEdm => "a wire EDM program".to_owned(),
-        Kind::Printer => "a 3-D printer program".to_owned(),
-        Kind::Text => "plain text, not a program".to_owned(),
-    }
+        Kind::Heidenhain => looks("heidenhain"),
+        Kind::Okuma => looks("okuma"),
+        Kind::Mazatrol => looks("mazatrol"),
+        Kind::WireEdm => looks("wire-edm"),
+        Kind::Printer => looks("printer"),
+        Kind::Text => looks("text"),
+    };
+    message.headline()
 }
 
+/// The entry that names a control.
 fn control(system: System) -> &'static str {
     match system {
-        System::FanucA => "FANUC system A",
-        System::FanucB => "FANUC system B",
-        System::FanucC => "FANUC system C",
-        System::Haas => "Haas",
-        System::Sinumerik => "Sinumerik",
-        System::LinuxCnc => "LinuxCNC",
+        System::FanucA => "fanuc-a",
+        System::FanucB => "fanuc-b",
+        System::FanucC => "fanuc-c",
+        System::Haas => "haas",
+        System::Sinumerik => "sinumerik",
+        System::LinuxCnc => "linuxcnc",
     }
 }
 

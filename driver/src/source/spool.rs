@@ -34,22 +34,10 @@ pub struct Lacking {
     pub reason: String,
 }
 
-impl Lacking {
-    /// What to do, a line each.
-    pub fn help(&self) -> Vec<String> {
-        let name = if cfg!(windows) { "TMP" } else { "TMPDIR" };
-        vec![format!("name a folder with free space: {name}=/var/tmp ncc …")]
-    }
-}
-
 impl fmt::Display for Lacking {
+    /// For a developer; users get the words of the messages.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            out,
-            "the folder of temporary files, {}, cannot be used: {}",
-            self.folder.display(),
-            self.reason
-        )
+        write!(out, "{}: {}", self.folder.display(), self.reason)
     }
 }
 

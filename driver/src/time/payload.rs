@@ -17,6 +17,7 @@ use serde_json::{Map, Value};
 use super::columns::{Columns, Row, micro, units};
 use super::drive::{Said, Sink, Stage};
 use super::parameters;
+use crate::render::events;
 
 /// The JSON Schema of the document and of the lines of its long form.
 pub const SCHEMA: &str = include_str!("../../schema/payload.schema.json");
@@ -189,7 +190,7 @@ impl<W: Write> Sink for Payload<'_, W> {
             Kind::Arc { .. } => parameters::arc(act),
             Kind::Dwell(seconds) => parameters::one("seconds", micro(units(*seconds)).into()),
             Kind::Orient(angle) => parameters::one("angle", micro(units(*angle)).into()),
-            Kind::Output(written) => parameters::one("written", written.to_string().into()),
+            Kind::Output(written) => parameters::one("written", events::written(written).into()),
             Kind::Alarm(_, text) | Kind::Message(text) => parameters::one("text", (&**text).into()),
             Kind::Traverse
             | Kind::Feed

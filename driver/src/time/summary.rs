@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::duration::{hms, short};
 use super::grid::{Grid, escaped};
 use super::tally::{Account, Operation, Tally, Tool};
+use crate::render::messages::message::{Message, Part};
 
 /// All programs of a call.
 #[derive(Debug, Serialize)]
@@ -76,12 +77,13 @@ impl Timing {
 }
 
 /// What a model leaves out, in a few words.
-pub fn model_about(model: Model) -> &'static str {
-    match model {
-        Model::Ideal => "rates and fixed times, no acceleration",
-        Model::Trapezoidal => "rates and accelerations of the axes, look-ahead, no jerk",
-        Model::JerkLimited => "rates, accelerations and jerk of the axes, look-ahead",
-    }
+pub fn model_about(model: Model) -> String {
+    let form = match model {
+        Model::Ideal => "model-ideal",
+        Model::Trapezoidal => "model-trapezoidal",
+        Model::JerkLimited => "model-jerk-limited",
+    };
+    Message::part(Part::Time, form).headline()
 }
 
 impl Report {

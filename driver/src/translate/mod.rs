@@ -16,7 +16,6 @@
 //! Not here: how a difference or a refusal is told (`render`).
 
 mod beside;
-pub mod difference;
 pub mod heading;
 pub mod judge;
 mod outcome;

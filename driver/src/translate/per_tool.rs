@@ -33,6 +33,7 @@ use self::origins::{Cut, PerTool};
 use self::scan::{Change, Scanned, scan};
 use super::translation::Translation;
 use crate::job::{Job, Output, ToolFile};
+use crate::render::per_tool::{Begins, begin_line, file_line, per_tool as per_tool_words};
 use crate::render::source::Lines;
 use crate::source::Readable;
 use crate::verify_run::Verifier;
@@ -65,7 +66,7 @@ impl Translation<'_> {
             Err(Uncut::Found(found)) => self.take(found, Told::Writer),
             Err(Uncut::Differs { at, difference }) => {
                 self.failed = true;
-                let difference = format!("run by itself, the file of a tool differs: {difference}").into();
+                let difference = per_tool_words("differs").text("difference", difference).headline().into();
                 let fault = Fault::NotTheSame { difference };
                 self.diagnostics.push(Diagnostic::new(fault, own.source_of(&text, at)));
             }
@@ -205,18 +206,14 @@ impl Translation<'_> {
         if found.is_empty() { Ok(text) } else { Err(Uncut::Found(found)) }
     }
 
-    /// The codes of work offsets: ` in G54 and G55`.
-    fn named(&self, offsets: &[u16]) -> String {
+    /// The codes of work offsets, each once.
+    fn codes_of(&self, offsets: &[u16]) -> Vec<&str> {
         let mut codes: Vec<&str> = Vec::new();
         for number in offsets {
             let row = self.job.to.dialect.code_for(Meaning::SetOriginOffsets(*number));
             codes.extend(row.map(|row| row.code.as_str()).filter(|code| !codes.contains(code)));
         }
-        match codes.split_last() {
-            Some((last, [])) => format!(" in {last}"),
-            Some((last, others)) => format!(" in {} and {last}", others.join(", ")),
-            None => String::new(),
-        }
+        codes
     }
 
     /// The files with their heads. `hash` is the hash of the source.
@@ -229,19 +226,15 @@ impl Translation<'_> {
         let mut files = Vec::new();
         for (at, Cut { tool, offsets, lines, text, .. }) in cut.into_iter().enumerate() {
             let mut head = Head { lines: self.head_lines_of(hash, Some(tool)), ..head.clone() };
-            head.lines.push(about(tool, at + 1, count, lines));
+            head.lines.push(file_line(tool, at + 1, count, lines));
             if self.job.head {
                 let by_tool = |d: &Diagnostic| matches!(d.fault, Fault::LengthByHand { tool: own } if tool == Some(own.into()));
-                let put_in = match tool {
-                    Some(_) if self.diagnostics.iter().any(by_tool) => {
-                        format!("with this tool put in and the zero of Z set by it{}", self.named(&offsets))
-                    }
-                    Some(_) => {
-                        "with this tool put in, and the zero of Z as it was for the tool before".to_owned()
-                    }
-                    None => "with the tool that is in the spindle".to_owned(),
+                let begins = match tool {
+                    Some(_) if self.diagnostics.iter().any(by_tool) => Begins::ZeroSet,
+                    Some(_) => Begins::ZeroKept,
+                    None => Begins::InSpindle,
                 };
-                head.lines.push(format!("begin at rest, after a reset, {put_in}"));
+                head.lines.push(begin_line(begins, &self.codes_of(&offsets)));
             }
             let mut own = Vec::new();
             // The program name is reported once.
@@ -265,17 +258,6 @@ enum Uncut {
     Found(Vec<Diagnostic>),
     /// A file does not do the same as its part of the whole: an internal error.
     Differs { at: usize, difference: String },
-}
-
-/// The line of a head that names the tool.
-fn about(tool: Option<i64>, number: usize, count: usize, lines: Option<(u64, u64)>) -> String {
-    let tool = tool.map_or("THE TOOL IN THE SPINDLE".to_owned(), |tool| format!("TOOL {tool}"));
-    let lines = match lines {
-        Some((first, last)) if first == last => format!(", line {first} of the source"),
-        Some((first, last)) => format!(", lines {first} to {last} of the source"),
-        None => String::new(),
-    };
-    format!("{tool}: file {number} of {count}{lines}")
 }
 
 /// Spindle and coolant off, and Z to machine zero, as in the tool change by hand.

@@ -15,7 +15,7 @@ use ncc_ir::lack::ArcsLack;
 use ncc_ir::source::Span;
 
 use super::verifier::Stop;
-use crate::translate::difference;
+use crate::render::events;
 
 /// A difference is a fault of the compiler, but where the source leaves open what the target cannot.
 pub(super) fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> Stop {
@@ -29,7 +29,7 @@ pub(super) fn different(difference: &Difference, unsaid: Option<ModeName>, last:
     if let Some(fault) = closed_by_rounding(difference) {
         return Stop::Source(Diagnostic::new(fault, at));
     }
-    let difference = difference::describe(difference).into();
+    let difference = events::describe(difference).into();
     Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))
 }
 

@@ -29,7 +29,8 @@ use super::controls::with_parameters;
 use super::facts::reader_of_output;
 use super::{WORLDS, worlds_of};
 use crate::job::Job;
-use crate::translate::difference::describe;
+use crate::render::events::describe;
+use crate::render::per_tool::per_tool;
 
 /// Most bytes that are read at once, without the rest of the last line.
 const PIECE: usize = 1 << 16;
@@ -248,14 +249,14 @@ fn compare(whole: &mut Running, mut file: Running, part: &Part) -> Result<(), Di
                     return Err(differs(last, difference));
                 }
             }
-            (Some(own), None) => return Err(differs(own.span.start, "the file of a tool ends early".into())),
-            (None, Some(_)) => return Err(differs(last, "the file of a tool does more".into())),
+            (Some(own), None) => return Err(differs(own.span.start, per_tool("ends-early").headline())),
+            (None, Some(_)) => return Err(differs(last, per_tool("does-more").headline())),
         }
     }
     // The last file ends as the whole does.
     match file.exec.ended() || !whole.exec.ended() && whole.over {
         true => Ok(()),
-        false => Err(differs(last, "the file of a tool has no end".into())),
+        false => Err(differs(last, per_tool("no-end").headline())),
     }
 }
 
@@ -275,7 +276,7 @@ fn next_of_part(whole: &mut Running, changes: &mut usize) -> Result<Option<Event
 }
 
 fn unread(at: u32, found: &Diagnostic) -> Differs {
-    let difference = format!("the file of a tool is not read back (NC{:04})", found.fault.code());
+    let difference = per_tool("not-read").text("code", format!("NC{:04}", found.fault.code())).headline();
     Differs { at: at as usize, difference: Some(difference) }
 }
 
@@ -293,7 +294,7 @@ fn rests(event: &Event, from: [Nanos; AXES]) -> Result<(), String> {
     };
     match rests && still {
         true => Ok(()),
-        false => Err(format!("the file of a tool begins or ends with more than rest: {:?}", event.kind)),
+        false => Err(per_tool("more-than-rest").text("event", format!("{:?}", event.kind)).headline()),
     }
 }
 

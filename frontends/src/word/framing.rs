@@ -82,6 +82,14 @@ impl Reader {
             return text.iter().all(|&b| b == CONTROL_Z) || self.text_after_end(span, out);
         }
         if self.frame.closed {
+            if may_be_block(line, self.frame.number)
+                && let Some(at) = self.frame.first_mark.take()
+            {
+                // The control would execute these blocks, and skip those before the mark.
+                out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into(), follows: true }, at);
+                self.frame.faulty = true;
+                self.frame.after_end = true;
+            }
             return text.is_empty() || self.text_after_end(span, out);
         }
         let ignored = self.frame.ignored.as_bytes();
@@ -96,8 +104,11 @@ impl Reader {
         // The rest of the opening line is a leader, which controls ignore.
         if self.frame.opened || self.frame.blocks || !self.frame.programs.is_empty() {
             if !(self.frame.opened || self.frame.mark_behind_end && self.lower.ended) {
-                out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into() }, span);
+                let mark = self.frame.mark.into();
+                out.report(Fault::OpeningMarkMissing { mark, follows: false }, span);
                 self.frame.faulty = true;
+            } else if self.frame.leader && !self.frame.opened {
+                self.frame.first_mark = Some(span);
             }
             self.end_of_program(out);
             self.frame.closed = true;

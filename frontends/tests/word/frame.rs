@@ -53,8 +53,11 @@ fn frame_marks() {
     // A mark behind the end needs none before the program; one in the middle of it does.
     assert_eq!(errors("fanuc", "M30\n%\n"), Vec::<String>::new());
     assert_eq!(errors("haas", "O1\nM30\n%\n"), Vec::<String>::new());
-    assert_eq!(errors("fanuc", "M30\n%\nG0 X1\n"), ["TextAfterEnd at 'G0 X1'"]);
-    assert!(errors("fanuc", "G21\n%\nM30\n").contains(&"OpeningMarkMissing { mark: '%' } at '%'".to_owned()));
+    assert_eq!(errors("linuxcnc", "M30\n%\nG0 X1\n"), ["TextAfterEnd at 'G0 X1'"]);
+    assert!(
+        errors("fanuc", "G21\n%\nM30\n")
+            .contains(&"OpeningMarkMissing { mark: '%', follows: false } at '%'".to_owned())
+    );
     assert_eq!(errors("fanuc", "(NOTE)\n%\nM30\n%\n"), Vec::<String>::new());
     assert_eq!(errors("mach9", "%\nM2\n"), ["UnexpectedCharacter { found: '%' } at '%'"]);
 }
@@ -73,8 +76,11 @@ fn text_before_the_first_mark_is_a_leader() {
         for text in ["G0 X1.\n%\nO1\nM30\n%\n", "NOTE\nX 1.\n%\nO1\nM30\n%\n"] {
             assert!(errors(id, text).iter().any(|e| e.starts_with("OpeningMarkMissing")), "{text:?}");
         }
-        // A mark behind the end of the program is no first one.
+        // A mark behind the end of the program is no first one, unless blocks follow it: a control begins there.
         assert_eq!(errors(id, "O1\nM30\n%\nNOTE\n"), ["TextAfterEnd at 'NOTE'"]);
+        let between = ["OpeningMarkMissing { mark: '%', follows: true } at '%'"];
+        assert_eq!(errors(id, "O1\nM30\n%\nNOTE\nO2\nG0 X1.\nM30\n%\n")[1..], between);
+        assert_eq!(errors(id, "M30\n%\nG0 X1.\nM30\n%\n"), between);
         assert!(errors(id, "%\nO1\nG0\0\nM30\n%\n").iter().any(|e| e.starts_with("NotText")));
     }
     assert!(!errors("linuxcnc", "NOTE\n%\nM2\n%\n").is_empty());

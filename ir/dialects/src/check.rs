@@ -8,8 +8,10 @@ pub(crate) mod unknown;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use ncc_ir::reason::{Reason, Values};
+
 use crate::codes::{CodeIndex, CodeRow};
-use crate::fault::{DialectFault, Unreadable};
+use crate::fault::{DialectFault, RowFault, Unreadable};
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow, ParameterRole};
 use crate::schema::{Dialect, OptionRow, UNKNOWN};
@@ -86,10 +88,10 @@ fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fau
     for (row, at, counts, of_variant) in own.chain(of_variants) {
         let rows = if of_variant { &places.variant } else { &places.behaviour };
         let Some((behaviour, _)) = row.meaning() else {
-            return Err(fault(&row.name, "is no behaviour, or has no such value", rows, at));
+            return Err(fault(&row.name, RowFault::NoBehaviour, rows, at));
         };
         if !row.others.iter().all(|name| behaviour.value(name).is_some()) {
-            return Err(fault(&row.name, "has no value of these `others`", rows, at));
+            return Err(fault(&row.name, RowFault::OtherValues, rows, at));
         }
         let name = behaviour.option();
         let mut known = dialect.option.iter().chain(options.iter().map(|(option, _)| option));
@@ -126,12 +128,12 @@ pub(crate) fn variants(dialect: &Dialect, places: &Places) -> Result<(), Fault> 
         let wrong = |row: &str, wrong| fault(row, wrong, &places.variant, at);
         for (option, value) in &variant.when {
             let row = dialect.option.iter().find(|row| row.name == *option);
-            let row = row.ok_or_else(|| wrong(option, "is no option, so that the variant never holds"))?;
+            let row = row.ok_or_else(|| wrong(option, RowFault::NoOption))?;
             if !row.values.contains(value) {
-                return Err(wrong(value, "is no value of this option, so that the variant never holds"));
+                return Err(wrong(value, RowFault::NoOptionValue));
             }
             if variant.when.len() == 1 && row.default == *value {
-                return Err(wrong(value, "is the option's default, so that the variant always holds"));
+                return Err(wrong(value, RowFault::DefaultValue));
             }
         }
         let others = dialect.variant[..at].iter().filter(|other| variant.goes_with(other)).map(Some);
@@ -159,7 +161,7 @@ fn each_code(row: CodeRow, all: &mut Vec<CodeRow>) -> Result<(), DialectFault> {
         .and_then(|n| n.parse::<u16>().ok())
         .ok_or_else(|| DialectFault::Unreadable { row: row.code.clone(), why: Unreadable::Number })?;
     let Some(Meaning::SetOriginOffsets(number)) = row.means else {
-        return Err(wrong("stands for several codes, but for no work offsets"));
+        return Err(wrong(RowFault::SeveralCodes));
     };
     for code in first..=upto.min(first.saturating_add(999)) {
         let means = Some(Meaning::SetOriginOffsets(number.saturating_add(code - first)));
@@ -176,29 +178,29 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         readable::code(dialect, row).map_err(|why| unreadable(&row.code, why, &places.code, at))?;
         index.put_code(at, row).map_err(wrong)?;
         if row.means.is_some() == row.refuse.is_some() {
-            return Err(wrong("needs either `means` or `refuse`"));
+            return Err(wrong(RowFault::MeansOrRefuse));
         }
         let offsets = matches!(row.means, Some(Meaning::SetOriginOffsets(1..)));
         if row.feed_mode.is_some() && !matches!(row.means, Some(Meaning::SetSpindleMode(_))) {
-            return Err(wrong("says what a feed counts, and not what a speed does"));
+            return Err(wrong(RowFault::FeedModeAlone));
         }
         if (row.means == Some(Meaning::SetTilt)) != row.turns_about().is_some() {
-            return Err(wrong("needs `turns` about X, Y or Z if it tilts the plane, and has none else"));
+            return Err(wrong(RowFault::TurnsAxis));
         }
         if row.count.is_some() && (row.words.is_empty() || !offsets) {
-            return Err(wrong("has `count`, and is no code of work offsets with a word of its own"));
+            return Err(wrong(RowFault::CountAlone));
         }
         if row.means == Some(Meaning::StartCycle) && dialect.cycle_row(&row.code).is_none() {
-            return Err(wrong("has no [[cycle]] row"));
+            return Err(wrong(RowFault::NoCycleRow));
         }
         if row.means == Some(Meaning::Pattern) && dialect.pattern_row(&row.code).is_none() {
-            return Err(wrong("has no [[pattern]] row"));
+            return Err(wrong(RowFault::NoPatternRow));
         }
         if !row.blocks.bytes().all(|letter| letter.is_ascii_uppercase()) {
-            return Err(wrong("has `blocks` that are no letters"));
+            return Err(wrong(RowFault::BlockLetters));
         }
         if row.source.is_empty() {
-            return Err(wrong("names no source"));
+            return Err(wrong(RowFault::NoSource));
         }
     }
     cycles(dialect, places)?;
@@ -210,7 +212,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         readable::address(dialect, row).map_err(|why| unreadable(&letter, why, &places.address, at))?;
         index.put_letter(at, row).map_err(wrong)?;
         if row.source.is_empty() {
-            return Err(wrong("names no source"));
+            return Err(wrong(RowFault::NoSource));
         }
     }
     for (at, row) in dialect.option.iter().enumerate() {
@@ -220,7 +222,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             false => row.values.contains(&row.default),
         };
         if !fits && row.values.is_empty() {
-            return Err(wrong("has a default that is no number"));
+            return Err(wrong(RowFault::NoNumberDefault));
         }
         if !fits {
             let values = row.values.iter().map(|value| format!("`{value}`")).collect::<Vec<_>>().join(", ");
@@ -243,34 +245,29 @@ fn cycles(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
             return Err((DialectFault::NoCycleKind { row, kind }, places.cycle.get(at).cloned()));
         }
         if row.kind.starts_with("tap") != row.hand.is_some() {
-            return Err(wrong("needs `hand` if it is tapping, and has none else"));
+            return Err(wrong(RowFault::HandOfTap));
         }
         if (row.kind == "bore-fine") != row.shift.is_some() {
-            return Err(wrong("needs `shift` if it is fine boring, and has none else"));
+            return Err(wrong(RowFault::ShiftOfBore));
         }
         if row.shrinking.is_some() && row.peck.is_none() {
-            return Err(wrong("has `shrinking` and no `peck`"));
+            return Err(wrong(RowFault::ShrinkingAlone));
         }
         let asked = |asked: &crate::cycles::AskedDwell| dialect.option.iter().any(|o| o.name == asked.option);
         if row.dwell_by.as_ref().is_some_and(|by| row.dwell.is_some() || !asked(by)) {
-            return Err(wrong("has `dwell_by` beside `dwell`, or no such option"));
+            return Err(wrong(RowFault::DwellBy));
         }
         if dialect.cycle.iter().take(at).any(|other| other.code == row.code) {
-            return Err(wrong("stands twice"));
+            return Err(wrong(RowFault::Twice));
         }
         if !means(&row.code, Meaning::StartCycle) {
-            return Err(wrong("is a cycle, and no row of [[code]] starts it"));
+            return Err(wrong(RowFault::CycleNotStarted));
         }
         readable::cycle(dialect, row).map_err(|why| unreadable(&row.code, why, &places.cycle, at))?;
     }
     for (at, row) in dialect.pattern.iter().enumerate() {
         if !means(row.code(), Meaning::Pattern) {
-            return Err(fault(
-                row.code(),
-                "is a pattern, and no row of [[code]] says so",
-                &places.pattern,
-                at,
-            ));
+            return Err(fault(row.code(), RowFault::PatternNotStarted, &places.pattern, at));
         }
         readable::pattern(dialect, row).map_err(|why| unreadable(row.code(), why, &places.pattern, at))?;
     }
@@ -281,7 +278,7 @@ fn unreadable(row: &str, why: Unreadable, places: &[Range<usize>], at: usize) ->
     (DialectFault::Unreadable { row: row.to_owned(), why }, places.get(at).cloned())
 }
 
-fn fault(row: &str, wrong: &'static str, places: &[Range<usize>], at: usize) -> Fault {
+fn fault(row: &str, wrong: RowFault, places: &[Range<usize>], at: usize) -> Fault {
     (DialectFault::Row { row: row.to_owned(), wrong }, places.get(at).cloned())
 }
 
@@ -290,29 +287,29 @@ fn tables(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
     for (at, row) in dialect.data.iter().enumerate() {
         let wrong = |wrong| fault(&row.name, wrong, &places.data, at);
         if !row.is_variable() {
-            let (code, ..) = row.selected().ok_or_else(|| wrong("is no code with a word behind it"))?;
+            let (code, ..) = row.selected().ok_or_else(|| wrong(RowFault::NoCodeWithWord))?;
             let sets = |c: &CodeRow| c.code == code && c.means == Some(Meaning::SetData);
             if !dialect.code.iter().any(sets) {
-                return Err(wrong("is a table, and no row of [[code]] puts values into one"));
+                return Err(wrong(RowFault::TableNotSet));
             }
         }
         if (row.kind == DataKind::Tool) == row.values.is_empty() {
-            return Err(wrong("needs `values` if it is of tools, and has none else"));
+            return Err(wrong(RowFault::ValuesOfTools));
         }
         if row.first == 0 || row.count == 0 {
-            return Err(wrong("has no entries"));
+            return Err(wrong(RowFault::NoEntries));
         }
         if row.source.is_empty() {
-            return Err(wrong("names no source"));
+            return Err(wrong(RowFault::NoSource));
         }
         if dialect.data.iter().take(at).any(|other| other.name == row.name) {
-            return Err(wrong("stands twice"));
+            return Err(wrong(RowFault::Twice));
         }
     }
     let sets = |row: &CodeRow| row.means == Some(Meaning::SetData);
     for (at, row) in dialect.code.iter().enumerate().filter(|(_, row)| sets(row)) {
         if dialect.tables_of(&row.code).next().is_none() {
-            return Err(fault(&row.code, "has no [[data]] row", &places.code, at));
+            return Err(fault(&row.code, RowFault::NoDataRow, &places.code, at));
         }
     }
     Ok(())
@@ -327,42 +324,50 @@ fn names(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
         let wrong = |wrong| fault(name, wrong, places, at);
         readable::name(dialect).map_err(|why| unreadable(name, why, places, at))?;
         if !seen.insert(name) {
-            return Err(wrong("stands twice"));
+            return Err(wrong(RowFault::Twice));
         }
         if name.is_empty() || !name.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_')
         {
-            return Err(wrong("is no word in capitals"));
+            return Err(wrong(RowFault::NoCapitals));
         }
         if source.is_empty() {
-            return Err(wrong("names no source"));
+            return Err(wrong(RowFault::NoSource));
         }
     }
     for (at, row) in dialect.name.iter().enumerate() {
         let wrong = |wrong| fault(&row.name, wrong, &places.name, at);
         let uses = [row.means.is_some(), row.role.is_some(), row.refuse.is_some()];
         if uses.into_iter().filter(|u| *u).count() != 1 {
-            return Err(wrong("needs one of `means`, `role` and `refuse`"));
+            return Err(wrong(RowFault::OneUse));
         }
         if row.role.is_some() != row.quantity.is_some() {
-            return Err(wrong("needs `quantity` with `role`"));
+            return Err(wrong(RowFault::RoleQuantity));
         }
         if row.arguments && row.means != Some(NameMeaning::Code(Meaning::NoEffect)) {
-            return Err(wrong("has `arguments` and an effect"));
+            return Err(wrong(RowFault::ArgumentsEffect));
         }
     }
     for (at, row) in dialect.call.iter().enumerate() {
         let wrong = |wrong| fault(&row.name, wrong, &places.call, at);
         for p in &row.parameters {
             if p.role.is_some() == p.refuse.is_some() || p.role.is_some() != p.quantity.is_some() {
-                return Err(wrong("has a parameter without `role` and `quantity`, or `refuse`"));
+                return Err(wrong(RowFault::ParameterUse));
             }
             use ParameterRole as Role;
             let several = matches!(p.role, Some(Role::PointFirst | Role::PointSecond | Role::FormText));
             let same = row.parameters.iter().filter(|q| q.role == p.role).count();
             if p.role.is_some() && !several && same > 1 {
-                return Err(wrong("has two parameters of one role"));
+                return Err(wrong(RowFault::RoleTwice));
             }
         }
     }
     Ok(())
+}
+
+impl Reason for RowFault {
+    fn name(&self) -> String {
+        format!("{self:?}")
+    }
+
+    fn values(&self, _: &mut Values) {}
 }

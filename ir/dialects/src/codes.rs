@@ -2,6 +2,7 @@
 //!
 //! Not here: what a meaning is (`meaning`), and whether rows fit together (`check`).
 
+use crate::fault::RowFault;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, DefaultHasher};
 
@@ -183,27 +184,27 @@ pub type RowsBy<K> = HashMap<K, u16, BuildHasherDefault<DefaultHasher>>;
 
 impl CodeIndex {
     /// Puts a row of `code` in by its number.
-    pub(crate) fn put_code(&mut self, at: usize, row: &CodeRow) -> Result<(), &'static str> {
-        let (letter, number) = tenths(&row.code).ok_or("is no code")?;
+    pub(crate) fn put_code(&mut self, at: usize, row: &CodeRow) -> Result<(), RowFault> {
+        let (letter, number) = tenths(&row.code).ok_or(RowFault::NoCode)?;
         let table = match letter {
             b'G' => &mut self.g,
             b'M' => &mut self.m,
-            _ => return Err("is neither a G nor an M code"),
+            _ => return Err(RowFault::NeitherGNorM),
         };
         if table.len() <= number {
             table.resize(number + 1, None);
         }
         match table[number].replace(at as u16) {
-            Some(_) => Err("stands twice"),
+            Some(_) => Err(RowFault::Twice),
             None => Ok(()),
         }
     }
 
     /// Puts a row of `address` in by its letter.
-    pub(crate) fn put_letter(&mut self, at: usize, row: &Address) -> Result<(), &'static str> {
-        let slot = self.letter.get_mut((row.letter as usize).wrapping_sub(65)).ok_or("is no letter")?;
+    pub(crate) fn put_letter(&mut self, at: usize, row: &Address) -> Result<(), RowFault> {
+        let slot = self.letter.get_mut((row.letter as usize).wrapping_sub(65)).ok_or(RowFault::NoLetter)?;
         match slot.replace(at as u8) {
-            Some(_) => Err("stands twice"),
+            Some(_) => Err(RowFault::Twice),
             None => Ok(()),
         }
     }

@@ -1,6 +1,6 @@
 //! Why a dictionary cannot be used, and where in its text.
 //!
-//! Typed and without wording for people beyond one line: the command line renders the place.
+//! Typed and without words: the driver has them (`messages/dictionary`), and the command line shows the place.
 
 use std::fmt;
 use std::ops::Range;
@@ -116,7 +116,7 @@ pub enum DialectFault {
         /// Code, name or letter of the row.
         row: String,
         /// What is wrong.
-        wrong: &'static str,
+        wrong: RowFault,
     },
 }
 
@@ -139,6 +139,125 @@ pub enum Unreadable {
     Name,
 }
 
+/// What is wrong with a row that contradicts another, or names what is not there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowFault {
+    /// Its name is no behaviour, or its value is none of it.
+    NoBehaviour,
+    /// Its `others` are no values of the behaviour.
+    OtherValues,
+    /// A variant under an option that there is not.
+    NoOption,
+    /// A variant under a value that its option has not.
+    NoOptionValue,
+    /// A variant under its option's default.
+    DefaultValue,
+    /// `upto` in a row of no work offsets.
+    SeveralCodes,
+    /// A code with both, or neither.
+    MeansOrRefuse,
+    /// `feed_mode` beside another meaning than that of a spindle speed.
+    FeedModeAlone,
+    /// `turns` without a tilted plane, or the other way round.
+    TurnsAxis,
+    /// `count` without a word of work offsets.
+    CountAlone,
+    /// A code that starts a cycle that no row describes.
+    NoCycleRow,
+    /// A code that makes a pattern that no row describes.
+    NoPatternRow,
+    /// A code that sets values of no table.
+    NoDataRow,
+    /// `blocks` with other signs than letters.
+    BlockLetters,
+    /// No source.
+    NoSource,
+    /// A default that is no number, of an option without values.
+    NoNumberDefault,
+    /// `hand` without tapping, or the other way round.
+    HandOfTap,
+    /// `shift` without fine boring, or the other way round.
+    ShiftOfBore,
+    /// `shrinking` without `peck`.
+    ShrinkingAlone,
+    /// `dwell_by` beside `dwell`, or of no option.
+    DwellBy,
+    /// Twice in a table.
+    Twice,
+    /// A cycle that no code starts.
+    CycleNotStarted,
+    /// A pattern that no code makes.
+    PatternNotStarted,
+    /// A table whose name is no code with a word.
+    NoCodeWithWord,
+    /// A table that no code sets.
+    TableNotSet,
+    /// `values` without tools, or the other way round.
+    ValuesOfTools,
+    /// A table of nothing.
+    NoEntries,
+    /// A name with other signs than capitals, digits and `_`.
+    NoCapitals,
+    /// A name with several uses, or none.
+    OneUse,
+    /// `role` without `quantity`, or the other way round.
+    RoleQuantity,
+    /// `arguments` of a name with an effect.
+    ArgumentsEffect,
+    /// A parameter of a call without a use.
+    ParameterUse,
+    /// Two parameters of one role.
+    RoleTwice,
+    /// No code.
+    NoCode,
+    /// A code of another letter than G and M.
+    NeitherGNorM,
+    /// No letter.
+    NoLetter,
+}
+
+impl RowFault {
+    /// All of them.
+    pub const ALL: &'static [RowFault] = &[
+        RowFault::NoBehaviour,
+        RowFault::OtherValues,
+        RowFault::NoOption,
+        RowFault::NoOptionValue,
+        RowFault::DefaultValue,
+        RowFault::SeveralCodes,
+        RowFault::MeansOrRefuse,
+        RowFault::FeedModeAlone,
+        RowFault::TurnsAxis,
+        RowFault::CountAlone,
+        RowFault::NoCycleRow,
+        RowFault::NoPatternRow,
+        RowFault::NoDataRow,
+        RowFault::BlockLetters,
+        RowFault::NoSource,
+        RowFault::NoNumberDefault,
+        RowFault::HandOfTap,
+        RowFault::ShiftOfBore,
+        RowFault::ShrinkingAlone,
+        RowFault::DwellBy,
+        RowFault::Twice,
+        RowFault::CycleNotStarted,
+        RowFault::PatternNotStarted,
+        RowFault::NoCodeWithWord,
+        RowFault::TableNotSet,
+        RowFault::ValuesOfTools,
+        RowFault::NoEntries,
+        RowFault::NoCapitals,
+        RowFault::OneUse,
+        RowFault::RoleQuantity,
+        RowFault::ArgumentsEffect,
+        RowFault::ParameterUse,
+        RowFault::RoleTwice,
+        RowFault::NoCode,
+        RowFault::NeitherGNorM,
+        RowFault::NoLetter,
+    ];
+}
+
 impl DialectFault {
     /// The fault at a place.
     pub(crate) fn at(self, place: Option<Place>) -> DialectError {
@@ -146,39 +265,10 @@ impl DialectFault {
     }
 }
 
-impl fmt::Display for DialectFault {
-    /// In one line.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            DialectFault::Form(message) => f.write_str(message),
-            DialectFault::Missing { field } => write!(f, "a dictionary states its own `{field}`"),
-            DialectFault::BadId { id } => {
-                write!(f, "`{id}` is no name of a dialect: letters, digits, `_` and `-`, a letter first")
-            }
-            DialectFault::BuiltInId { id } => write!(f, "{id} is built in and cannot be redefined"),
-            DialectFault::IdTwice { id } => write!(f, "two files define {id}"),
-            DialectFault::NoBase { base } => write!(f, "there is no dialect `{base}` to build on"),
-            DialectFault::BaseCycle { chain } => {
-                write!(f, "a dictionary cannot build on itself: {}", chain.join(", on "))
-            }
-            DialectFault::OtherFamily => f.write_str("a dialect has the family of its base"),
-            DialectFault::NoKey { table, key } => write!(f, "a row of [[{table}]] needs `{key}`"),
-            DialectFault::RowTwice { row } => write!(f, "row {row}: stands twice"),
-            DialectFault::NothingThere { row, word } => {
-                write!(f, "{row}: `{word}`, and the base has nothing of that name")
-            }
-            // Users have words of the messages about these.
-            DialectFault::NotInBase { row, .. } => f.write_str(row),
-            DialectFault::NoCycleKind { row, kind } => write!(f, "{row}: {kind}"),
-            DialectFault::Unreadable { row, why } => write!(f, "{row}: {why:?}"),
-            DialectFault::Row { row, wrong } => write!(f, "row {row}: {wrong}"),
-        }
-    }
-}
-
 impl fmt::Display for DialectError {
+    /// For a developer; users get words of the messages.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.fault.fmt(f)
+        write!(f, "{:?}", self.fault)
     }
 }
 

@@ -42,7 +42,7 @@ pub use check::unknown::{UnknownKind, UnknownWord, near};
 pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
-pub use fault::{DialectError, DialectFault, Place, Text, Unreadable};
+pub use fault::{DialectError, DialectFault, Place, RowFault, Text, Unreadable};
 pub use formula::{FormulaRules, FunctionName, Operator, RemainderRule, Statement};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};

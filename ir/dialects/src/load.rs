@@ -46,7 +46,7 @@ fn prepared(at: usize) -> Result<Dialect, DialectError> {
     let read = rmp_serde::from_slice(PREPARED[at]);
     let mut dialect: Dialect = read.map_err(|e| DialectFault::Form(e.to_string()).at(None))?;
     check::spread(&mut dialect, &mut Places::default()).map_err(|(fault, _)| fault.at(None))?;
-    let wrong = |wrong: &str| DialectFault::Form(wrong.to_owned()).at(None);
+    let wrong = |wrong| DialectFault::Form(format!("{wrong:?}")).at(None);
     dialect.index = CodeIndex::of(&dialect).map_err(wrong)?;
     dialect.caps = caps(&dialect);
     Ok(dialect)

@@ -6,6 +6,7 @@
 //!
 //! Not here: what a row holds (`codes`, `names`, `stored`).
 
+use crate::fault::RowFault;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::ToolValue;
@@ -116,7 +117,7 @@ impl Dialect {
 
 impl CodeIndex {
     /// Finds the rows of a dictionary that has been checked before (`check::index` finds and checks).
-    pub(crate) fn of(dialect: &Dialect) -> Result<CodeIndex, &'static str> {
+    pub(crate) fn of(dialect: &Dialect) -> Result<CodeIndex, RowFault> {
         let mut index = CodeIndex::default();
         dialect.code.iter().enumerate().try_for_each(|(at, row)| index.put_code(at, row))?;
         dialect.address.iter().enumerate().try_for_each(|(at, row)| index.put_letter(at, row))?;

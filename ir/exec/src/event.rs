@@ -111,37 +111,6 @@ pub enum Stored {
     Value(u32, ToolValue, bool, Nanos),
 }
 
-impl std::fmt::Display for Stored {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let number = |n: &Nanos| *n as f64 / ncc_ir::expr::num::ONE as f64;
-        match self {
-            Stored::Offset(offset, zero, turn) => {
-                write!(f, "zero of work offset {offset} at")?;
-                zero.iter().try_for_each(|at| write!(f, " {}", number(at)))?;
-                if *turn == 0 { Ok(()) } else { write!(f, ", turned by {}", number(turn)) }
-            }
-            Stored::Position(place, at) => {
-                write!(f, "stored position {place} at")?;
-                at.iter().try_for_each(|at| write!(f, " {}", number(at)))
-            }
-            Stored::Tool(tool) => write!(f, "tool {tool} is in the spindle"),
-            Stored::Length(entry, length) => write!(f, "length {} in entry {entry}", number(length)),
-            Stored::Value(entry, which, added, value) => {
-                let what = match which {
-                    ToolValue::Length => "length",
-                    ToolValue::LengthWear => "wear of the length",
-                    ToolValue::Radius => "radius",
-                    ToolValue::RadiusWear => "wear of the radius",
-                    ToolValue::OffsetX => "offset along X",
-                    ToolValue::OffsetY => "offset along Y",
-                };
-                let added = if *added { "added to" } else { "in" };
-                write!(f, "{what} {} {added} entry {entry}", number(value))
-            }
-        }
-    }
-}
-
 /// What was written to the device that the control has for it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Written {
@@ -151,16 +120,6 @@ pub enum Written {
     Line(Text),
     /// Nothing more is.
     Closed,
-}
-
-impl std::fmt::Display for Written {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Written::Opened => f.write_str("output is opened"),
-            Written::Line(text) => write!(f, "output of {text:?}"),
-            Written::Closed => f.write_str("output is closed"),
-        }
-    }
 }
 
 /// A move of the axes, by its way.

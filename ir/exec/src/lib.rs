@@ -38,7 +38,7 @@ pub use frames::tilt::TiltedPlane;
 pub use motion_modes::named_tool;
 pub use moves::arcs::same::are_arcs;
 pub use moves::centre_path::AsProgrammed;
-pub use moves::compensation::Compensation;
+pub use moves::compensation::{Compensation, CompensationRadius};
 pub use moves::fine::Increments;
 pub use moves::holes::same::are_holes;
 pub use moves::lines::valued::{Stroke, ValuedLines};

@@ -56,6 +56,9 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
             unsupported::m_code().into_iter().chain(call).collect()
         }
         Fault::NotSupported { code, .. } if is_open(code, at.from) => unsupported::open(code, at.from),
+        Fault::OpeningMarkMissing { follows: true, .. } => {
+            return Some(vec![Help::new("help"), Help::new("help-delete")]);
+        }
         Fault::NotSupported { code, what } => return unsupported::helps(code, what, at.from),
         Fault::WordMissing { code, .. } if is_return(code, at.from) => return None,
         Fault::WordMissing { code, word } => unsupported::missing(code, word, at.from),

@@ -89,7 +89,10 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::Syntax { found, expected } => {
             m.text("found", found_words(found)).text("expected", plain(expected))
         }
-        Fault::OpeningMarkMissing { mark } | Fault::TextBeforeStart { mark } => m.text("mark", shown(mark)),
+        Fault::OpeningMarkMissing { mark, follows: true } => m.form("between").text("mark", shown(mark)),
+        Fault::OpeningMarkMissing { mark, follows: false } | Fault::TextBeforeStart { mark } => {
+            m.text("mark", shown(mark))
+        }
         Fault::LabelTwice { name } => m.text("name", plain(name)),
         Fault::ComparedLast { what } => m.text("what", shown(what)),
 

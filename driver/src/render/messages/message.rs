@@ -40,14 +40,38 @@ pub(crate) enum Part {
     Common,
     /// What rows of a dictionary mean, where no manual confirms them.
     Meaning,
+    /// The tables of a dictionary.
+    Dialect,
     /// Faults of dictionaries, and what their test says.
     Dictionary,
+    /// What a comparison of two programs found.
+    Difference,
+    /// Events of an execution.
+    Event,
+    /// The comment that opens an emitted program.
+    Head,
+    /// What tells the dialect of a program.
+    Guess,
+    /// What a text is, if it is no milling program.
+    Looks,
+    /// What keeps a command from being done.
+    Problem,
     /// Questions, and what their answers make of a program.
     Question,
+    /// Why block numbers cannot be changed.
+    Renumber,
+    /// What is stated of a machine, and its test.
+    Machine,
+    /// Files for one tool each.
+    PerTool,
+    /// Values in words.
+    Spelled,
     /// The account of a translation.
     Summary,
     /// Assumptions of `ncc time`.
     Time,
+    /// What `ncc verify` prints.
+    Verify,
     /// Checks that `ncc check` left out, with the reason.
     Unchecked,
 }
@@ -57,11 +81,23 @@ impl Part {
         match self {
             Part::Common => "common",
             Part::Meaning => "meaning",
+            Part::Dialect => "dialect",
             Part::Dictionary => "dictionary",
+            Part::Difference => "difference",
+            Part::Event => "event",
+            Part::Head => "head",
+            Part::Guess => "guess",
+            Part::Looks => "looks",
+            Part::Problem => "problem",
             Part::Question => "question",
+            Part::Renumber => "renumber",
+            Part::Machine => "machine",
+            Part::PerTool => "per-tool",
+            Part::Spelled => "spelled",
             Part::Summary => "summary",
             Part::Time => "time",
             Part::Unchecked => "unchecked",
+            Part::Verify => "verify",
         }
     }
 
@@ -69,11 +105,23 @@ impl Part {
         match self {
             Part::Common => include_str!("../../../messages/common/en.ftl"),
             Part::Meaning => include_str!("../../../messages/meaning/en.ftl"),
+            Part::Dialect => include_str!("../../../messages/dialect/en.ftl"),
             Part::Dictionary => include_str!("../../../messages/dictionary/en.ftl"),
+            Part::Difference => include_str!("../../../messages/difference/en.ftl"),
+            Part::Event => include_str!("../../../messages/event/en.ftl"),
+            Part::Head => include_str!("../../../messages/head/en.ftl"),
+            Part::Guess => include_str!("../../../messages/guess/en.ftl"),
+            Part::Looks => include_str!("../../../messages/looks/en.ftl"),
+            Part::Problem => include_str!("../../../messages/problem/en.ftl"),
             Part::Question => include_str!("../../../messages/question/en.ftl"),
+            Part::Renumber => include_str!("../../../messages/renumber/en.ftl"),
+            Part::Machine => include_str!("../../../messages/machine/en.ftl"),
+            Part::PerTool => include_str!("../../../messages/per-tool/en.ftl"),
+            Part::Spelled => include_str!("../../../messages/spelled/en.ftl"),
             Part::Summary => include_str!("../../../messages/summary/en.ftl"),
             Part::Time => include_str!("../../../messages/time/en.ftl"),
             Part::Unchecked => include_str!("../../../messages/unchecked/en.ftl"),
+            Part::Verify => include_str!("../../../messages/verify/en.ftl"),
         }
     }
 }
@@ -207,6 +255,11 @@ impl Message {
     /// The words at the place.
     pub(crate) fn label(&self) -> String {
         Opened::new(self).words(Some("label"), &[]).unwrap_or_default()
+    }
+
+    /// The words of an attribute of its entry.
+    pub(crate) fn attribute(&self, name: &str) -> String {
+        Opened::new(self).words(Some(name), &[]).unwrap_or_default()
     }
 
     /// The phrase in the account of a translation: the entry's `account`, or its headline.

@@ -11,3 +11,4 @@ pub mod html;
 pub mod json;
 pub mod motion;
 pub mod tell;
+pub(crate) mod wording;

@@ -14,6 +14,7 @@ use ncc_ir::expr::num::Nanos;
 use serde::{Deserialize, Serialize};
 
 use crate::job::project_answers::Used;
+use crate::render::messages::message::{Message, Part};
 
 /// Version of the form.
 pub const VERSION: u32 = 1;
@@ -22,9 +23,15 @@ pub const KIND: &str = "ncc verification of a pair of programs";
 /// Its JSON Schema.
 pub const SCHEMA: &str = include_str!("../../../schema/certificate.schema.json");
 
-/// What is told where the rule of a translation is stricter than what was found.
-pub const FINER: &str =
-    "not the same to the output's own last digit, which the source does not resolve: a translation would be";
+/// The note where the rule of a translation is stricter than what was found.
+pub fn finer_note() -> String {
+    verify("finer").headline()
+}
+
+/// An entry about `ncc verify`.
+pub(super) fn verify(form: &'static str) -> Message {
+    Message::part(Part::Verify, form)
+}
 
 /// What a comparison is called with, as far as the document tells it.
 #[derive(Clone, Debug, Default)]

@@ -6,6 +6,7 @@ use std::collections::HashSet;
 
 use ncc_dialects::Dialect;
 use ncc_ir::program::Text;
+use ncc_ir::source::Span;
 
 /// Longest name of a program.
 const LONGEST_NAME: usize = 32;
@@ -60,6 +61,8 @@ pub(in crate::word) struct Frame {
     pub(in crate::word) mark_behind_end: bool,
     /// Whether the mark that opens the text has been met.
     pub(in crate::word) opened: bool,
+    /// A mark with blocks before it that no mark opens; blocks behind it are those that a control would execute.
+    pub(in crate::word) first_mark: Option<Span>,
     /// Nothing is read any more: the closing mark has been met.
     pub(in crate::word) closed: bool,
     /// Whether any block with words has been met.
@@ -93,6 +96,7 @@ impl Frame {
             leader: program.leader,
             mark_behind_end: program.mark_behind_end,
             opened: false,
+            first_mark: None,
             closed: false,
             blocks: false,
             faulty: false,

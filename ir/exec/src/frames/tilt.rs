@@ -63,19 +63,6 @@ impl TiltedPlane {
     }
 }
 
-impl std::fmt::Display for TiltedPlane {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a tilted plane at")?;
-        self.origin.iter().try_for_each(|at| write!(f, " {}", *at as f64 / 1e9))?;
-        write!(f, " with Z along")?;
-        // No zero has a sign.
-        let digits = |part: f64| (part * 1e6).round() / 1e6 + 0.0;
-        self.axes.iter().try_for_each(|row| write!(f, " {}", digits(row[2])))?;
-        write!(f, " and X along")?;
-        self.axes.iter().try_for_each(|row| write!(f, " {}", digits(row[0])))
-    }
-}
-
 impl Exec {
     /// What kinematics put between the program's zero and that of the linear axes.
     #[cold]

@@ -38,24 +38,24 @@ pub struct Compensation {
     pub radius: u32,
 }
 
+/// Where the radius of a compensated move is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompensationRadius {
+    /// In an entry of the table.
+    Entry(u32),
+    /// The program states the diameter, mm in nanos.
+    Diameter(Nanos),
+    /// In an edge of the tool that is no entry.
+    Edge,
+}
+
 impl Compensation {
-    /// In words: `off`, or side, plane and entry.
-    pub fn words(&self) -> String {
-        let Some(side) = self.side else { return "off".to_owned() };
-        let plane = match self.plane {
-            Plane::Xy => "XY",
-            Plane::Zx => "ZX",
-            Plane::Yz => "YZ",
-        };
-        let feed = if self.on_contour { ", F along the contour" } else { "" };
-        let feed = if self.again { format!(", switched on again{feed}") } else { feed.to_owned() };
+    /// Where its radius is.
+    pub fn radius_place(&self) -> CompensationRadius {
         match self.radius & (EDGE | STATED) {
-            0 => format!("{} in {plane} by entry {}{feed}", side.name(), self.radius),
-            STATED => {
-                let diameter = f64::from(self.radius & !STATED) / 1e5;
-                format!("{} in {plane} by diameter {diameter}{feed}", side.name())
-            }
-            _ => format!("{} in {plane} by an edge of the tool{feed}", side.name()),
+            0 => CompensationRadius::Entry(self.radius),
+            STATED => CompensationRadius::Diameter(Nanos::from(self.radius & !STATED) * STEP),
+            _ => CompensationRadius::Edge,
         }
     }
 }

@@ -135,7 +135,7 @@ fn over_one(
         }
         Op::SetData(data) => {
             if let Data::Offset { mode: DataMode::Here, words, .. } = &**data
-                && state.length
+                && (state.length || state.start)
                 && words[Axis::Z as usize].is_some()
             {
                 state.refuse_length(stmt.span, diags);

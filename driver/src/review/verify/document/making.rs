@@ -12,18 +12,19 @@ use sha2::{Digest, Sha256};
 
 use super::super::pair::{Found, Verdict, job_of};
 use super::{
-    Asked, Assumed, Call, Choice, Compared, Deviation, Document, FINER, First, Halves, Hashed, KIND, Mistake,
-    One, Place, Program, Row, VERSION, Word,
+    Asked, Assumed, Call, Choice, Compared, Deviation, Document, First, Halves, Hashed, KIND, Mistake, One,
+    Place, Program, Row, VERSION, Word, finer_note, verify,
 };
+use crate::render::events;
 use crate::render::messages::words::Context;
 use crate::render::report::hex;
-use crate::render::{About, summary};
+use crate::render::{About, spelled, summary};
 use crate::review::diff::motion::motion;
 use crate::review::diff::tell::{Account, Block, Blocks};
+use crate::review::diff::wording::entry;
 use crate::side::Side;
 use crate::source::Readable;
 use crate::source::called_files::CalledFile;
-use crate::translate::difference;
 use crate::verify_run::WORLDS;
 
 /// Differences that are listed; further ones are counted.
@@ -93,17 +94,14 @@ impl Document {
     ) -> io::Result<()> {
         let span = |event: &Option<ncc_exec::Event>| event.as_ref().map(|event| event.span);
         let [source, output] = places(sides, [span(&difference.source), span(&difference.target)])?;
-        let text = difference::describe(difference);
+        let text = events::describe(difference);
         self.first_difference = Some(First { text, block_skip: levels(skip), source, output });
         let account = Account::of(&motion(sides, call.tolerance)?, sides)?;
         let unsaid = self.output.unsaid.join(", ");
         self.summary = match (account.equal, unsaid.is_empty()) {
             (false, _) => account.summary.clone(),
-            (true, false) => format!("the output never says its {unsaid}"),
-            (true, true) => {
-                "not in what the programs themselves say: in offsets, lengths or tools of the machines"
-                    .to_owned()
-            }
+            (true, false) => verify("output-unstated").text("facts", unsaid).headline(),
+            (true, true) => verify("by-machine").headline(),
         };
         let place = |block: &Block| Place { line: block.line, text: block.text.clone() };
         let one = |d: &crate::review::diff::tell::Difference| One {
@@ -123,16 +121,15 @@ impl Document {
 
     fn without_difference(&self, found: &Found) -> String {
         match found.verdict {
-            Verdict::Equal | Verdict::WithinTolerance => "the same cut".to_owned(),
+            Verdict::Equal | Verdict::WithinTolerance => entry("same-cut").headline(),
             Verdict::Different => String::new(),
             Verdict::NotCompared => {
-                let refused: Vec<&str> = ["source", "output"]
-                    .into_iter()
-                    .zip(&found.courses)
-                    .filter(|(_, course)| course.refused)
-                    .map(|(side, _)| side)
-                    .collect();
-                format!("{} cannot be executed", refused.join(" and "))
+                let form = match [0, 1].map(|side: usize| found.courses[side].refused) {
+                    [true, true] => "both-unexecuted",
+                    [false, true] => "output-unexecuted",
+                    [true, false] | [false, false] => "source-unexecuted",
+                };
+                verify(form).headline()
             }
         }
     }
@@ -149,13 +146,13 @@ fn compared(found: &Found, sides: &[Side; 2]) -> Compared {
     if found.muted {
         let without = sides.iter().find(|side| !side.dialect().caps.modes.messages);
         let id = without.map_or("", |side| side.dialect().id.as_str());
-        notes.push(format!("messages are not compared: {id} has none"));
+        notes.push(entry("mute-control").text("dialect", id).headline());
     }
     if found.coarse && found.verdict == Verdict::Equal {
-        notes.push(FINER.to_owned());
+        notes.push(finer_note());
     }
     if found.parameters {
-        notes.push("the source control's parameters of cycles hold for both".to_owned());
+        notes.push(verify("cycle-parameters").headline());
     }
     Compared {
         events: found.events,
@@ -239,7 +236,7 @@ impl Told {
         }
         if let (Some(shared), Some(fact)) = (shared, fact(fault)) {
             let list = if holds(shared, fact) { &mut self.shared } else { &mut self.unsaid };
-            let name = named(fact).to_owned();
+            let name = spelled::mode(fact);
             if !list.contains(&name) {
                 list.push(name);
             }
@@ -274,20 +271,6 @@ fn holds(facts: &Modes, fact: ModeName) -> bool {
         ModeName::WorkOffset => facts.work_offset.is_some(),
         ModeName::LengthOffset => facts.length_offset.is_some(),
         ModeName::OriginShift => facts.no_origin_shift.is_some(),
-    }
-}
-
-fn named(fact: ModeName) -> &'static str {
-    match fact {
-        ModeName::Motion => "motion",
-        ModeName::Distance => "distance mode",
-        ModeName::Units => "units",
-        ModeName::Plane => "plane",
-        ModeName::FeedMode => "feed mode",
-        ModeName::ReturnLevel => "return level",
-        ModeName::WorkOffset => "work offset",
-        ModeName::LengthOffset => "length offset",
-        ModeName::OriginShift => "shift of the origin",
     }
 }
 

@@ -1,0 +1,19 @@
+# What a text is, if it is no milling program.
+looks-lathe = a lathe program
+looks-lathe-system = a lathe program ({ $system })
+looks-heidenhain = a Heidenhain program
+looks-okuma = an Okuma OSP program
+looks-mazatrol = a Mazatrol program
+looks-wire-edm = a wire EDM program
+looks-printer = a 3-D printer program
+looks-text = plain text, not a program
+looks-fanuc-a = FANUC system A
+looks-fanuc-b = FANUC system B
+looks-fanuc-c = FANUC system C
+looks-haas = Haas
+looks-sinumerik = Sinumerik
+looks-linuxcnc = LinuxCNC
+looks-read-as-milling = { $file }: looks like { $looks } (line { $line }); read as a milling program
+looks-not-translated = { $looks }, not translated
+looks-translated = a milling program, translated
+looks-reason = line { $line }: { $reason }

@@ -1,0 +1,42 @@
+# What keeps a command from being done, before any block is read.
+problem-file = cannot { $action } { $name }: { $reason }
+problem-not-found = there is no such file or folder
+problem-denied = permission denied
+problem-folder = it is a folder
+problem-no-store = cannot use the folder of temporary files, { $folder }: { $reason }
+    .help = name a folder with free space: { $variable }=/var/tmp ncc …
+problem-interrupted-at = interrupted at line { $line } of { $name }; nothing was written
+problem-interrupted = interrupted; { $name } was not written
+problem-is-source = { $name } is the source, and is never written over
+    .help = choose another name
+problem-stdout-is-source = stdout is { $name }, the source itself; the shell has emptied it
+    .help = write into another file, best with `-o NAME`
+
+problem-other-units = --units contradicts what is known: { $dialect } starts in { $units }
+    .help = leave --units out, or correct the profile of the machine
+problem-no-option = { $dialect } has no option `{ $option }`
+    .help = it has: { $options }
+    .help-none = it has no options at all
+problem-no-value = `{ $value }` is not a value of { $option }
+    .help = it takes: { $values }
+    .help-number = it takes a number from 0, such as 0.02
+
+problem-value-form = write it as NAME=NUMBER, such as _td=0.25 or 500=12
+problem-variables = { $file }: { $reason }
+    .help = write [variables], and below it a line for each: "#1" = {"{"} from = 1, to = 20 {"}"}
+    .help-or = or "#2" = [0, 1], or "R5" = 12.5
+problem-variable = the variable { $variable }: { $reason ->
+        [apart] `from` and `to` belong together, without `among`
+        [no-value] no value
+        [no-number] no number
+       *[range] `from` is above `to`, or `step` is not above 0
+    }
+problem-several-values = { $file }: the variable { $variable } has more than one value
+    .help = a program is executed with one value of each variable: "#1" = 20
+
+problem-two-files = program { $name } is in two files: { $first } and { $second }
+    .help = take one out of the folder, or name the right one { $file }
+problem-no-program = { $file } is named as program { $name }, but holds no whole program of { $dialect }
+    .help = look at its first and its last line
+problem-other-program = { $file } is named as program { $name }, but holds program { $other }
+    .help = name it as the program in it, or put the right one into the folder

@@ -1,0 +1,19 @@
+# Why block numbers cannot be changed: "block numbers cannot be changed because of …".
+renumber-unread = a block that ncc cannot parse
+renumber-no-label = the jump to { $name }, which is no label: it may be computed
+renumber-named-program = a return from a program with a name
+renumber-computed-jump = a computed jump
+renumber-two-or-computed = a block with two numbers, or a computed one
+renumber-two-numbers = a block with two numbers
+renumber-by-variable = a block named by a variable ({ $letter })
+renumber-call = a call with { $letter }: it may name a block
+renumber-word = { $word }: it may name a block
+renumber-in-text = { $word } in a text: it may name a block
+renumber-execstring = a block that is put together (EXECSTRING)
+renumber-action = a jump in a synchronised action or a macro
+renumber-too-high = block numbers beyond { $most }
+renumber-no-numbers = a dialect without block numbers
+renumber-return = a return to blocks that get different numbers
+renumber-caller = a return to block { $block } of a caller that is not in this text
+renumber-several = a jump to block { $block }, which is there more than once
+renumber-nowhere = a jump to block { $block }, which is not there
