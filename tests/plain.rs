@@ -395,7 +395,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::BeginAgain => Happening::BeginsAgain,
             Kind::Message(text) if text.is_empty() => Happening::MessageCleared,
             Kind::Message(_) => Happening::Message,
-            Kind::Output(written) => Happening::Output(hash_of(&written.to_string())),
+            Kind::Output(written) => Happening::Output(hash_of(&format!("{written:?}"))),
             Kind::Alarm(..) => Happening::Alarm,
             Kind::TextEnd => Happening::TextEnd,
             // The events under test are never narrated.

@@ -155,13 +155,13 @@ fn an_edit_is_told_as_what_it_is() {
         ("M03", "M04", "same path; spindle clockwise → counter-clockwise on"),
         ("Y0. M08", "Y0.", "same path; coolant flood → off on 22 moves of T3"),
         ("G54", "G55", "work offset 1 → 2 on"),
-        ("H3", "H4", "tool length entry 3 → entry 4 on"),
+        ("H3", "H4", "tool length offset entry 3 → entry 4 on"),
         ("T3", "T4", "same path; tool T3 → T4 on"),
         ("Z-12.", "Z-12.5", "4 holes of T3 0.5 mm off (Z-0.5) first at line 15"),
         (
             "G02 X20. Y0. I10. J0.",
             "G03 X20. Y0. I10. J0.",
-            "an arc of T3 with another centre, sense or sweep at line 23",
+            "an arc of T3 with another centre, direction or sweep at line 23",
         ),
         ("G02 X20. Y0. I10. J0.", "G01 X20. Y0.", "other kind of move: arc → feed move at line 23"),
         ("M05\nM30\n", "M05\n", "same path;"),
@@ -198,13 +198,8 @@ fn a_speed_is_told_with_what_it_counts() {
         ),
         (&surface, "S180", "S150", "same path; constant surface speed 180 → 150 m/min on"),
         (&surface, "G96 S180", "S180", "spindle speed 180 m/min constant surface speed → 180 rev/min on"),
-        (
-            &surface,
-            "S2500",
-            "S2000",
-            "same path; limit of the spindle's speed 2500 rev/min → 2000 rev/min on",
-        ),
-        (&surface, "G92 S2500\n", "", "same path; limit of the spindle's speed 2500 rev/min → none on"),
+        (&surface, "S2500", "S2000", "same path; highest spindle speed 2500 rev/min → 2000 rev/min on"),
+        (&surface, "G92 S2500\n", "", "same path; highest spindle speed 2500 rev/min → none on"),
     ];
     let mut failures = Failures::default();
     for (text, from, to, told) in cases {
@@ -235,7 +230,7 @@ fn a_way_in_very_short_moves_is_no_rounding() {
 fn lost_units_are_noted() {
     let inches = PART.replacen("G21", "G20", 1);
     let document = diff(("fanuc", PART.as_bytes()), ("fanuc", inches.as_bytes())).expect("executed");
-    assert_eq!(document["notes"][0], "one program is in inches where the other is in millimetres");
+    assert_eq!(document["notes"][0], "one program is in inches, the other in millimetres");
 }
 
 /// An insertion into a program that measures from where the tool stands shifts all that follows.

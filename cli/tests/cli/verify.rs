@@ -80,7 +80,7 @@ fn an_arc_is_not_the_rest_of_its_circle() {
     }
     run(&["fanuc:little.nc", "fanuc:more.nc", "--tolerance", "0.01"]).exits(0);
     let told = run(&["fanuc:little.nc", "fanuc:nearly.nc", "--tolerance", "0.01"]).exits(1).out;
-    assert!(told.contains("an arc of T1 with another centre, sense or sweep"), "{told}");
+    assert!(told.contains("an arc of T1 with another centre, direction or sweep"), "{told}");
     run(&["fanuc:nearly.nc", "fanuc:little.nc", "--tolerance", "0.01"]).exits(1);
     // The same for `ncc diff`.
     let diff = |other: &str| ncc(folder.path(), &["diff", "fanuc:little.nc", other, "--tolerance", "0.01"]);

@@ -11,7 +11,7 @@ guess-no-skip = `/` skips no block
 guess-flow-words = flow words after an `O`
 guess-named-variable = `#<` begins the name of a parameter
 guess-no-variable = `=` without a variable
-guess-no-sign = `{ $sign }` is not a sign of this dialect
+guess-foreign = `{ $sign }` is not a sign of this dialect
 guess-letters = letters without numbers
 guess-words-after = words after `{ $word }`
 guess-centre-words = `I`, `J` and `K` in one arc
@@ -29,7 +29,7 @@ guess-length-word = `{ $word }` activates a length offset
 guess-program-number = `{ $letter }` begins the program number
 guess-digits = `{ $word }` has { $digits } digits
 guess-comment = `{ $sign }` opens a comment
-guess-text-after-sign = text after `;`
+guess-comment-text = text after `;`
 guess-header = `%_N_` heads a program
 guess-own-word = `{ $word }` is a word of this dialect
 guess-foreign-word = `{ $word }` is not a word of this dialect

@@ -278,7 +278,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
         if !letter.is_ascii_uppercase() {
             if !b" \t/+-.0123456789%:".contains(&letter) && dialect.block.end.as_bytes() != [letter] {
                 let c = char::from(letter);
-                evidence.con(number, Sign::NoSign(c));
+                evidence.con(number, Sign::Foreign(c));
             }
             continue;
         }
@@ -321,7 +321,7 @@ fn first_block(dialect: &Dialect, number: usize, code: &[u8], framed: bool, evid
     let letters = [dialect.program.number, dialect.program.number_also];
     let numbered = letters.iter().flatten().any(|letter| *letter as u32 == u32::from(first));
     match dialect.program.number {
-        Some(_) if first == b':' && !numbered => evidence.con(number, Sign::NoSign(':')),
+        Some(_) if first == b':' && !numbered => evidence.con(number, Sign::Foreign(':')),
         Some(letter) if numbered && dialect.program.unnumbered_main => {
             evidence.con(number, Sign::NumberedMain(letter));
         }
@@ -421,7 +421,7 @@ fn without_comment(
             continue;
         }
         if rest[0] == b'(' {
-            evidence.con(number, Sign::NoSign('('));
+            evidence.con(number, Sign::Foreign('('));
             return None;
         }
         if dialect.comment.line.as_bytes() == &rest[..1] {
@@ -429,7 +429,7 @@ fn without_comment(
         }
         if rest[0] == b';' {
             if dialect.block.end != ";" || rest.iter().any(|b| !b"; ".contains(b)) {
-                evidence.con(number, Sign::TextAfterSign);
+                evidence.con(number, Sign::CommentText);
             }
             break;
         }

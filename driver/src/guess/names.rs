@@ -32,7 +32,7 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
             continue;
         }
         if c == b'(' && !after_name && !line[..at].contains(&b'=') {
-            evidence.con(number, Sign::NoSign('('));
+            evidence.con(number, Sign::Foreign('('));
             return;
         }
         if letters >= 2 {
@@ -66,7 +66,7 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
             continue;
         }
         if !b" \t/+-.0123456789:=,()[]*<>$'&".contains(&c) {
-            evidence.con(number, Sign::NoSign(char::from(c)));
+            evidence.con(number, Sign::Foreign(char::from(c)));
         }
         at += 1;
     }

@@ -1,6 +1,8 @@
 //! Dictionaries that build on others: what is merged how, and where a fault is told.
 
-use ncc_dialects::{Dialect, DialectError, DialectFault, Meaning, Quantity, Text, builtin, load, parse};
+use ncc_dialects::{
+    Dialect, DialectError, DialectFault, Meaning, Quantity, RowFault, Text, builtin, load, parse,
+};
 
 fn shop(rest: &str) -> Result<Dialect, DialectError> {
     parse(&format!("id = \"shop\"\ntitle = \"A shop\"\nbase = \"fanuc\"\n{rest}"))
@@ -87,7 +89,10 @@ fn cycles_of_bases_are_refused() {
     assert_eq!(at(&error, &own), (3, 8));
     let (a, b, c) = (on("aa", "bb"), on("bb", "cc"), on("cc", "aa"));
     let error = load(&[&a, &b, &c]).unwrap_err();
-    assert_eq!(error.to_string(), "a dictionary cannot build on itself: aa, on bb, on cc, on aa");
+    assert_eq!(
+        error.fault,
+        DialectFault::BaseCycle { chain: ["aa", "bb", "cc", "aa"].map(String::from).into() }
+    );
 }
 
 #[test]
@@ -112,27 +117,27 @@ fn faults_point_into_the_file() {
     for (rest, place, told) in [
         ("[[code]]\ncode = \"M24\"\nmeans = \"FLOD_ON\"\nsource = \"s\"\n", (6, 9), "no meaning: FLOD_ON"),
         ("[block]\nblank = true\n", (5, 1), "unknown field `blank`"),
-        ("[[code]]\ncode = \"M24\"\nsource = \"s\"\n", (5, 8), "row M24: needs either `means` or `refuse`"),
+        ("[[code]]\ncode = \"M24\"\nsource = \"s\"\n", (5, 8), "Row { row: \"M24\", wrong: MeansOrRefuse }"),
         (
             "[[code]]\ncode = \"M97\"\nrefuse = \"a call\"\nblocks = \"p\"\nsource = \"s\"\n",
             (5, 8),
-            "row M97: has `blocks` that are no letters",
+            "Row { row: \"M97\", wrong: BlockLetters }",
         ),
         (
             "[[code]]\ncode = \"M8\"\nsource = \"s\"\n[[code]]\ncode = \"M08\"\n",
             (8, 8),
-            "row M08: stands twice",
+            "RowTwice { row: \"M08\" }",
         ),
         (
             "[[code]]\ncode = \"M24\"\nremove = true\n",
             (6, 10),
-            "M24: `remove`, and the base has nothing of that name",
+            "NothingThere { row: \"M24\", word: \"remove\" }",
         ),
-        ("[[code]]\nsource = \"s\"\n", (4, 1), "a row of [[code]] needs `code`"),
+        ("[[code]]\nsource = \"s\"\n", (4, 1), "NoKey { table: \"code\", key: \"code\" }"),
         (
             "[[cycle]]\ncode = \"G88\"\nkind = \"drill\"\ndepth = \"Z\"\nretract = \"R\"\nsource = \"s\"\n",
             (5, 8),
-            "row G88: is a cycle, and no row of [[code]] starts it",
+            "Row { row: \"G88\", wrong: CycleNotStarted }",
         ),
         ("[comment\n", (4, 9), ""),
     ] {
@@ -149,7 +154,8 @@ fn faults_in_the_base_name_it() {
     let text =
         "id = \"shop\"\ntitle = \"A shop\"\nbase = \"fanuc\"\n[[cycle]]\ncode = \"G81\"\nremove = true\n";
     let error = parse(text).unwrap_err();
-    assert_eq!(error.to_string(), "row G81: has no [[cycle]] row");
+    let row = "G81".to_owned();
+    assert_eq!(error.fault, DialectFault::Row { row, wrong: RowFault::NoCycleRow });
     let fanuc = ncc_dialects::builtin_ids().position(|id| id == "fanuc").unwrap();
     let place = error.place.unwrap();
     assert_eq!(place.text, Text::BuiltIn(fanuc));

@@ -7,6 +7,7 @@
 //!
 //! Not here: which differences there are (`ncc_diff`).
 
+pub mod account;
 pub mod html;
 pub mod json;
 pub mod motion;

@@ -14,7 +14,7 @@ use ncc_diff::record::What;
 use ncc_ir::canon::{AXES, Axis, SpindleMode};
 use ncc_ir::expr::num::{Nanos, ONE};
 
-use super::tell::{Block, Difference};
+use super::account::{Block, Difference};
 use crate::render::events::compensation;
 use crate::render::messages::message::{Message, Part};
 use crate::review::words::{coolant, length, number, rounded, spindle};
@@ -259,7 +259,7 @@ pub(super) fn summary(groups: &[Group], differences: &[Difference], left_out: u6
 fn in_places(same: &[usize], groups: &[Group], differences: &[Difference]) -> String {
     let (group, difference) = (&groups[same[0]], &differences[same[0]]);
     let shown = difference.blocks.iter().flatten().next();
-    let block = shown.or(difference.beside.iter().flatten().next()).map(Block::called);
+    let block = shown.or(difference.beside.iter().flatten().next()).map(called);
     if same.len() > 1 {
         let mut all = group.clone();
         for other in &same[1..] {
@@ -285,6 +285,15 @@ fn in_places(same: &[usize], groups: &[Group], differences: &[Difference]) -> St
             entry(form).text("difference", difference.title.clone()).text("block", block).headline()
         }
         _ => difference.title.clone(),
+    }
+}
+
+/// How people call a block: by its number, else by its line.
+fn called(block: &Block) -> String {
+    let number: String = block.text.chars().skip(1).take_while(char::is_ascii_digit).collect();
+    match block.text.starts_with(['N', 'n']) && !number.is_empty() {
+        true => entry("block-number").text("number", number).headline(),
+        false => entry("block-line").text("line", block.line.to_string()).headline(),
     }
 }
 
