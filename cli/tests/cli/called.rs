@@ -75,7 +75,7 @@ fn a_sinumerik_finds_its_subprograms_by_name() {
     assert!(done.out.contains("O0012\n") && done.out.contains("M98 P21001"), "{}", done.out);
     fs::write(shop.path().join("sub/L12.SPF"), "%_N_L13_SPF\nM17\n").unwrap();
     let done = say(shop.path(), "siemens to fanuc main.mpf -I sub").exits(1);
-    assert!(done.err.contains("named as program 12, and holds program 13"), "{}", done.err);
+    assert!(done.err.contains("named as program 12, but holds program 13"), "{}", done.err);
 }
 
 #[test]

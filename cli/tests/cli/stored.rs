@@ -90,9 +90,8 @@ fn a_folder_for_temporary_files_is_named() {
             let err = String::from_utf8(done.stderr).unwrap();
             assert_eq!(done.status.code(), Some(4), "{err}");
             let shown = temporary.display();
-            let message = format!(
-                "cannot read <stdin>: the folder of temporary files, {shown}, cannot be used: {reason}"
-            );
+            let message =
+                format!("cannot read <stdin>: cannot use the folder of temporary files, {shown}: {reason}");
             assert!(err.contains(&message), "{err}");
             assert!(err.contains("help: name a folder with free space: TMPDIR=/var/tmp"), "{err}");
         }
