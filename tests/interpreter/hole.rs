@@ -1,6 +1,6 @@
 //! How a hole of a canned cycle is made: its moves, in machine coordinates.
 
-use super::{Halt, Machine, Place, Spindle, What};
+use super::{Halt, Machine, Per, Place, Spindle, What};
 
 /// How a hole is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,6 +95,11 @@ impl Machine {
                 let (Some(feed), Some(speed)) = (self.feed, self.speed.filter(|s| *s > 0.0)) else {
                     return self.halt("a thread without feed or speed");
                 };
+                let lead = match self.per {
+                    Per::Minute => feed / speed,
+                    Per::Turn => feed,
+                    Per::Move => return self.halt("a thread by inverse time"),
+                };
                 let back = match into {
                     Spindle::Clockwise => Spindle::Counterclockwise,
                     _ => Spindle::Clockwise,
@@ -102,13 +107,13 @@ impl Machine {
                 if rigid {
                     self.turn(into);
                 }
-                self.thread(level(self.at, z), feed / speed, !rigid);
+                self.thread(level(self.at, z), lead, !rigid);
                 if rigid {
                     self.turn(Spindle::Stopped);
                 }
                 self.stay(seconds);
                 self.turn(back);
-                self.thread(level(self.at, r), feed / speed, !rigid);
+                self.thread(level(self.at, r), lead, !rigid);
                 if rigid {
                     self.turn(Spindle::Stopped);
                 }

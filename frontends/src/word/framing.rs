@@ -82,11 +82,13 @@ impl Reader {
             return text.iter().all(|&b| b == CONTROL_Z) || self.text_after_end(span, out);
         }
         if self.frame.closed {
-            if may_be_block(line, self.frame.number)
+            let is_mark = !self.frame.mark.is_empty() && text.starts_with(self.frame.mark.as_bytes());
+            if (is_mark || may_be_block(line, self.frame.number))
                 && let Some(at) = self.frame.first_mark.take()
             {
-                // The control would execute these blocks, and skip those before the mark.
-                out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into(), follows: true }, at);
+                // The control would execute what follows the mark, and skip the blocks before it.
+                let mark = self.frame.mark.into();
+                out.report(Fault::OpeningMarkMissing { mark, follows: !is_mark }, at);
                 self.frame.faulty = true;
                 self.frame.after_end = true;
             }

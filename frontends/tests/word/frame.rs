@@ -81,6 +81,7 @@ fn text_before_the_first_mark_is_a_leader() {
         let between = ["OpeningMarkMissing { mark: '%', follows: true } at '%'"];
         assert_eq!(errors(id, "O1\nM30\n%\nNOTE\nO2\nG0 X1.\nM30\n%\n")[1..], between);
         assert_eq!(errors(id, "M30\n%\nG0 X1.\nM30\n%\n"), between);
+        assert_eq!(errors(id, "O1\nM30\n%\n%\n"), [between[0].replace("true", "false")]);
         assert!(errors(id, "%\nO1\nG0\0\nM30\n%\n").iter().any(|e| e.starts_with("NotText")));
     }
     assert!(!errors("linuxcnc", "NOTE\n%\nM2\n%\n").is_empty());
