@@ -105,9 +105,9 @@ const WRONG_ONCE: [(&str, &str, &str); 4] = [
     // The first tool change by hand moves Z to machine zero by its own words, and the moves after it rely on that.
     (
         "grbl",
-        "fanuc",
-        "G21 G90 G94 G17 G54\nM5 M9 G53 G0 Z0 T1 M0 (6 mm flat)\nS10000 M3\nG4 P3\nG0 X10 Y10\nG0 Z15\n\
-         G1 Z-6 F100\nG0 Z15\nM5\nM30\n",
+        "ir",
+        "G21 G90 G94 G17 G54\nM5 M9 G53 G0 Z0 T1 M0 (6 mm flat)\nS10000 M3\nG4 P3\nG28 G91 Z0\nG90\n\
+         G28 G91 X0 Y0\nG90 G94\nG0 X10 Y10\nZ15\nG1 Z-6 F100\nG0 Z15\nM5\nM30\n",
     ),
     // Under feed per revolution, F of a tap is its lead. (The second interpreter was wrong.)
     (
