@@ -16,6 +16,8 @@ reasons! {
         ToolOffsetWithoutZ,
         /// A tool-length offset with no absolute Z before this.
         ToolOffsetBeforeZ,
+        /// The zero of a work offset by where Z stands, with no absolute Z before this: the output calls a length off first.
+        ZeroBeforeZ,
         /// A tool's length in another plane than XY.
         OtherPlane,
         /// A tool's length by its value.

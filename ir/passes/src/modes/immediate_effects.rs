@@ -135,10 +135,14 @@ fn over_one(
         }
         Op::SetData(data) => {
             if let Data::Offset { mode: DataMode::Here, words, .. } = &**data
-                && (state.length || state.start)
                 && words[Axis::Z as usize].is_some()
             {
-                state.refuse_length(stmt.span, diags);
+                if state.length {
+                    state.refuse_length(stmt.span, diags);
+                } else if state.start {
+                    state.start = false;
+                    diags.push(Diagnostic::new(Fault::lacks(LengthsLack::ZeroBeforeZ), stmt.span));
+                }
             }
         }
         Op::Call(_) | Op::Return => {
