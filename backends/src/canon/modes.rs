@@ -18,6 +18,10 @@ impl Writer {
         diags: &mut Vec<Diagnostic>,
     ) -> Result<(), Fault> {
         let within = control.within.as_ref().map(arguments::literal).transpose()?;
+        if within.is_some() && matches!(control.mode, PathMode::ExactStop | PathMode::ExactPath) {
+            // An exact mode has no tolerance.
+            return Err(cannot(&s.op));
+        }
         if let Some(within) = within {
             self.use_units(within.unit, out);
         }

@@ -81,7 +81,7 @@ mod tests {
         let problem = Problem::file("translate", "part.nc", &full);
         let folder = std::env::temp_dir().display().to_string();
         let message = format!(
-            "cannot translate part.nc: the folder of temporary files, {folder}, cannot be used: it is full"
+            "cannot translate part.nc: cannot use the folder of temporary files, {folder}: it is full"
         );
         assert_eq!(problem.message, message);
         assert_eq!(problem.help.len(), 1);
