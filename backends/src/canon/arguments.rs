@@ -43,9 +43,12 @@ pub(super) fn literal(e: &Expr) -> Result<Num, Fault> {
     e.literal().ok_or(Fault::lacks(WordsLack::Expression))
 }
 
+/// Whole numbers are below this: the reader takes 18 digits.
+const BEYOND: u64 = 1_000_000_000_000_000_000;
+
 /// A whole number that is no less than zero.
 pub(super) fn count(e: &Expr, call: &str) -> Result<u64, Fault> {
-    let whole = literal(e)?.whole_number().and_then(|n| u64::try_from(n).ok());
+    let whole = literal(e)?.whole_number().and_then(|n| u64::try_from(n).ok()).filter(|n| *n < BEYOND);
     whole.ok_or(Fault::TargetRange { word: call.into() })
 }
 
