@@ -3,7 +3,7 @@
 use crate::render::messages::message::{Message, Part};
 use crate::render::text::visible;
 
-/// What was met in a text.
+/// A sign in a text for or against a dialect.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sign {
     TextForm,

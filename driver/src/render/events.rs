@@ -48,7 +48,7 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
     }
 }
 
-/// What an event is; `tool` is the one in the spindle after it.
+/// The name of an event; `tool` is the one in the spindle after it.
 pub(crate) fn kind(kind: &Kind, tool: i64) -> String {
     let message = match kind {
         Kind::Traverse => entry("rapid"),
@@ -163,7 +163,7 @@ pub(crate) fn plane(plane: Plane) -> &'static str {
     }
 }
 
-/// What was written to a device.
+/// Output to a device.
 pub(crate) fn written(written: &Written) -> String {
     match written {
         Written::Opened => entry("opened").headline(),

@@ -2,7 +2,7 @@
 
 use ncc_diff::record::{Length, Record, Style, What};
 use ncc_exec::{Coolant, Kind};
-use ncc_ir::canon::{AXES, Axis, Plane, Spindle, Turn};
+use ncc_ir::canon::{AXES, Axis, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 
 use crate::render::events;
@@ -35,15 +35,6 @@ pub fn place(at: &[Nanos; AXES]) -> String {
     let words: Vec<String> =
         axes.map(|axis| format!("{}{}", axis.letter() as char, number(at[axis as usize]))).collect();
     words.join(" ")
-}
-
-/// A plane's name.
-pub fn plane(plane: Plane) -> &'static str {
-    match plane {
-        Plane::Xy => "XY",
-        Plane::Zx => "ZX",
-        Plane::Yz => "YZ",
-    }
 }
 
 /// A spindle's sense.
@@ -98,7 +89,7 @@ pub fn event(record: &Record, style: &Style, kept: &[Kind]) -> String {
                     Turn::Clockwise => "clockwise",
                     Turn::Counterclockwise => "counter-clockwise",
                 },
-                plane(in_plane),
+                events::plane(in_plane),
                 first.letter() as char,
                 number(record.more[0]),
                 second.letter() as char,

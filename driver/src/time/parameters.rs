@@ -2,7 +2,7 @@
 //! them, in mm, degrees and seconds, from program zero.
 
 use ncc_exec::{Exec, Kind};
-use ncc_ir::canon::{AXES, Axis, Plane, Turn};
+use ncc_ir::canon::{AXES, Axis, Turn};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
@@ -11,6 +11,7 @@ use ncc_time::Act;
 use serde_json::{Map, Value};
 
 use super::columns::{micro, units};
+use crate::render::events;
 
 /// Parameters by name.
 type Parameters = Map<String, Value>;
@@ -34,7 +35,7 @@ pub fn arc(act: &Act) -> Parameters {
     }
     let sense = if *turn == Turn::Clockwise { "clockwise" } else { "counterclockwise" };
     found.insert("turn".to_owned(), sense.into());
-    found.insert("plane".to_owned(), plane_name(*plane).into());
+    found.insert("plane".to_owned(), events::plane(*plane).into());
     found.insert("full".to_owned(), (*full).into());
     found
 }
@@ -56,14 +57,6 @@ pub fn of(op: &Op, exec: &Exec) -> (&'static str, Parameters) {
 
 fn number(value: Option<Nanos>) -> Value {
     value.map_or(Value::Null, |nanos| micro(units(nanos)).into())
-}
-
-fn plane_name(plane: Plane) -> &'static str {
-    match plane {
-        Plane::Xy => "XY",
-        Plane::Zx => "ZX",
-        Plane::Yz => "YZ",
-    }
 }
 
 fn start(cycle: &Cycle, exec: &Exec) -> Parameters {

@@ -82,7 +82,8 @@ impl Reader {
             return text.iter().all(|&b| b == CONTROL_Z) || self.text_after_end(span, out);
         }
         if self.frame.closed {
-            let is_mark = !self.frame.mark.is_empty() && text.starts_with(self.frame.mark.as_bytes());
+            // A first mark is one of a dialect that has them.
+            let is_mark = text.starts_with(self.frame.mark.as_bytes());
             if (is_mark || may_be_block(line, self.frame.number))
                 && let Some(at) = self.frame.first_mark.take()
             {

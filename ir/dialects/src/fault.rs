@@ -139,9 +139,23 @@ pub enum Unreadable {
     Name,
 }
 
-/// What is wrong with a row that contradicts another, or names what is not there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RowFault {
+/// An enum of faults without data, and the list of them.
+macro_rules! row_faults {
+    ($( $(#[$doc:meta])* $name:ident, )*) => {
+        /// The fault of a row that contradicts another, or names something absent.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum RowFault {
+            $( $(#[$doc])* $name, )*
+        }
+
+        impl RowFault {
+            /// All of them.
+            pub const ALL: &'static [RowFault] = &[ $( RowFault::$name, )* ];
+        }
+    };
+}
+
+row_faults! {
     /// Its name is no behaviour, or its value is none of it.
     NoBehaviour,
     /// Its `others` are no values of the behaviour.
@@ -214,48 +228,6 @@ pub enum RowFault {
     NeitherGNorM,
     /// No letter.
     NoLetter,
-}
-
-impl RowFault {
-    /// All of them.
-    pub const ALL: &'static [RowFault] = &[
-        RowFault::NoBehaviour,
-        RowFault::OtherValues,
-        RowFault::NoOption,
-        RowFault::NoOptionValue,
-        RowFault::DefaultValue,
-        RowFault::SeveralCodes,
-        RowFault::MeansOrRefuse,
-        RowFault::FeedModeAlone,
-        RowFault::TurnsAxis,
-        RowFault::CountAlone,
-        RowFault::NoCycleRow,
-        RowFault::NoPatternRow,
-        RowFault::NoDataRow,
-        RowFault::BlockLetters,
-        RowFault::NoSource,
-        RowFault::NoNumberDefault,
-        RowFault::HandOfTap,
-        RowFault::ShiftOfBore,
-        RowFault::ShrinkingAlone,
-        RowFault::DwellBy,
-        RowFault::Twice,
-        RowFault::CycleNotStarted,
-        RowFault::PatternNotStarted,
-        RowFault::NoCodeWithWord,
-        RowFault::TableNotSet,
-        RowFault::ValuesOfTools,
-        RowFault::NoEntries,
-        RowFault::NoCapitals,
-        RowFault::OneUse,
-        RowFault::RoleQuantity,
-        RowFault::ArgumentsEffect,
-        RowFault::ParameterUse,
-        RowFault::RoleTwice,
-        RowFault::NoCode,
-        RowFault::NeitherGNorM,
-        RowFault::NoLetter,
-    ];
 }
 
 impl DialectFault {

@@ -44,23 +44,23 @@ pub(crate) enum Part {
     Dialect,
     /// Faults of dictionaries, and what their test says.
     Dictionary,
-    /// What a comparison of two programs found.
+    /// The result of a comparison of two programs.
     Difference,
     /// Events of an execution.
     Event,
     /// The comment that opens an emitted program.
     Head,
-    /// What tells the dialect of a program.
+    /// Signs of a dialect in a program.
     Guess,
-    /// What a text is, if it is no milling program.
+    /// Kinds of texts that are no milling programs.
     Looks,
-    /// What keeps a command from being done.
+    /// Problems before any block is read.
     Problem,
     /// Questions, and what their answers make of a program.
     Question,
     /// Why block numbers cannot be changed.
     Renumber,
-    /// What is stated of a machine, and its test.
+    /// Facts of a machine profile, and the result of its test.
     Machine,
     /// Files for one tool each.
     PerTool,
@@ -70,7 +70,7 @@ pub(crate) enum Part {
     Summary,
     /// Assumptions of `ncc time`.
     Time,
-    /// What `ncc verify` prints.
+    /// The text of `ncc verify`.
     Verify,
     /// Checks that `ncc check` left out, with the reason.
     Unchecked,
