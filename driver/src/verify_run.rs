@@ -115,6 +115,9 @@ impl Verifier {
             let rules = job.compensating().rules;
             runs.iter_mut().for_each(|run| run.source.compute_compensation(rules));
         }
+        if job.from.dialect.can.change_by_hand {
+            runs.iter_mut().for_each(|run| run.target.counts_z_at_start());
+        }
         if job.between_controls() {
             runs.iter_mut()
                 .flat_map(|run| [&mut run.source, &mut run.target])

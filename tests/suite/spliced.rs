@@ -88,7 +88,7 @@ fn blocks_in_other_programs() {
 }
 
 /// Programs that were held back once, and are sayable.
-const WRONG_ONCE: [(&str, &str, &str); 3] = [
+const WRONG_ONCE: [(&str, &str, &str); 4] = [
     // The safe start calls a length off, which the thread would have taken up.
     (
         "linuxcnc",
@@ -101,6 +101,13 @@ const WRONG_ONCE: [(&str, &str, &str); 3] = [
         "fanuc",
         "G17 G90 G71 G94 G40\nG54\nT5 M6\nD1\nS600 M3\nG0 X0 Y0\nZ20\nF200\nG17 G90 G71 G94 G40\n\
          MCALL CYCLE84(20,0,3,-18,,,3,,1.25,,500,500)\nX10 Y10\nMCALL\nG1 X40\nG0 Z50\nM30\n",
+    ),
+    // The first tool change by hand moves Z to machine zero by its own words, and the moves after it rely on that.
+    (
+        "grbl",
+        "ir",
+        "G21 G90 G94 G17 G54\nM5 M9 G53 G0 Z0 T1 M0 (6 mm flat)\nS10000 M3\nG4 P3\nG28 G91 Z0\nG90\n\
+         G28 G91 X0 Y0\nG90 G94\nG0 X10 Y10\nZ15\nG1 Z-6 F100\nG0 Z15\nM5\nM30\n",
     ),
     // Under feed per revolution, F of a tap is its lead. (The second interpreter was wrong.)
     (

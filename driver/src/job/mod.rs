@@ -250,6 +250,9 @@ impl Job {
         let all =
             SideEffects::new(self.source_behaviours(), self.target_behaviours(), self.from.fine_increments());
         let all = if self.takes_way_up() { all.with_way_up_taken() } else { all };
+        // A change by hand is a block that moves Z, and no control's own doing.
+        let by_hand = [&self.from, &self.to].iter().any(|side| side.dialect.can.change_by_hand);
+        let all = if by_hand { all.with_words_at_change() } else { all };
         let says = |value| self.to.dialect.caps.advises(AdviceKind::CompensatedFeed, value);
         match (0..AdviceKind::CompensatedFeed.values().len() as u8).all(says) {
             true => all.with_arc_feed(),

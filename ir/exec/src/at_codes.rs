@@ -263,6 +263,12 @@ impl Exec {
         moved
     }
 
+    /// Z counts before this program moves it. The other program moves Z to machine zero in words before its first tool
+    /// change, and its later moves may rely on that: this program must do the same.
+    pub fn counts_z_at_start(&mut self) {
+        self.said_by_program(by_control::Z_AT_START);
+    }
+
     /// A move that takes Z from where the control or the operator left it. A cut from there is reported.
     #[cold]
     pub(super) fn emit_first_of_z(

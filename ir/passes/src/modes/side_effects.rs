@@ -177,6 +177,13 @@ impl SideEffects {
         }
     }
 
+    /// Where words move Z to machine zero before each tool change, on either side, the first one is no exception.
+    #[must_use]
+    pub fn with_words_at_change(mut self) -> SideEffects {
+        self.z_home = false;
+        self
+    }
+
     /// Passes over statements that go along lines alone, if none of them would be rewritten.
     pub fn passes(&mut self, lines: Lines) -> bool {
         let busy = self.fine.is_used()
