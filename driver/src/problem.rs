@@ -47,6 +47,58 @@ pub struct Problem {
     pub help: Vec<String>,
 }
 
+/// What is wrong with a request for the compiler as a library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RequestFault {
+    /// It is not of the form; the reader's words.
+    Unread(String),
+    /// No message has this code.
+    NoMessage(String),
+    /// No profile has this name.
+    NoMachine(String),
+    /// A profile has so many errors.
+    Profile(String, usize),
+    /// No dialect has this name; the names that there are.
+    NoDialect(String, Vec<&'static str>),
+    /// No verdict has this name.
+    NoVerdict(String),
+    /// No target is named.
+    NoTarget,
+    /// The value of a variable is not of the form; why.
+    Value(String, String),
+    /// No pass has this name.
+    NoPass(String),
+    /// The output would be several files.
+    SeveralFiles,
+    /// The tolerance is no length.
+    NoTolerance,
+}
+
+impl From<RequestFault> for Problem {
+    fn from(fault: RequestFault) -> Problem {
+        let mut help = None;
+        let message = match fault {
+            RequestFault::Unread(reason) => problem("unread-request").text("reason", reason),
+            RequestFault::NoMessage(name) => problem("no-message").text("name", name),
+            RequestFault::NoMachine(name) => problem("no-machine").text("name", name),
+            RequestFault::Profile(name, errors) => {
+                problem("profile").text("name", name).count("count", errors as u64)
+            }
+            RequestFault::NoDialect(name, among) => {
+                help = Some(vec![Help::new("help").text("among", among.join(", "))]);
+                problem("no-dialect").text("name", name)
+            }
+            RequestFault::NoVerdict(name) => problem("no-verdict").text("name", name),
+            RequestFault::NoTarget => problem("no-target"),
+            RequestFault::Value(name, reason) => problem("value").text("name", name).text("reason", reason),
+            RequestFault::NoPass(name) => problem("no-pass").text("name", name),
+            RequestFault::SeveralFiles => problem("several-files"),
+            RequestFault::NoTolerance => problem("no-tolerance"),
+        };
+        Problem::of(Exit::Usage, &message, help)
+    }
+}
+
 /// An entry about a command that cannot be done.
 pub(crate) fn problem(form: &'static str) -> Message {
     Message::part(Part::Problem, form)

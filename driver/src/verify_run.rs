@@ -220,7 +220,7 @@ impl Verifier {
         found.iter().any(|diagnostic| {
             matches!(
                 diagnostic.fault,
-                Fault::AssumedParameter { .. } | Fault::PatternFolded { .. } | Fault::MachineCutFolded { .. }
+                Fault::AssumedFact { .. } | Fault::PatternFolded { .. } | Fault::MachineCutFolded { .. }
             )
         })
     }
@@ -232,7 +232,7 @@ impl Verifier {
         let mut parameters = false;
         for diagnostic in found {
             match diagnostic.fault {
-                Fault::AssumedParameter { .. } => parameters = true,
+                Fault::AssumedFact { .. } => parameters = true,
                 Fault::PatternFolded { digits, inch, .. } | Fault::MachineCutFolded { digits, inch } => {
                     let all = self.runs.iter_mut().chain(&mut self.others);
                     all.for_each(|run| run.comparison.rounded(digits, inch));

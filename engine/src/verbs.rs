@@ -14,7 +14,7 @@ use ncc_driver::job::given::{self, Given};
 use ncc_driver::job::options::{choose, state_units};
 use ncc_driver::job::{Job, file_per_tool};
 use ncc_driver::machines::pair::Machines;
-use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::problem::{Exit, Problem, RequestFault};
 use ncc_driver::questions::Policy;
 use ncc_driver::render::{About, explain, report, tell};
 use ncc_driver::render::{Loudness, human};
@@ -48,10 +48,7 @@ pub(crate) fn run(request: &str, files: &Files) -> (u8, Outputs) {
     let mut messages = Buffer::no_color();
     let done = match serde_json::from_str(request) {
         Ok(request) => verb(&request, files, &mut messages),
-        Err(error) => Err(Problem::usage(
-            format!("the request cannot be read: {error}"),
-            "it is a JSON object with a verb: { \"verb\": \"translate\", \"file\": \"part.nc\", … }",
-        )),
+        Err(error) => Err(RequestFault::Unread(error.to_string()).into()),
     };
     let (exit, mut outputs) = done.unwrap_or_else(|problem| {
         // Into memory everything can be written.
@@ -71,7 +68,7 @@ fn verb(request: &Request, files: &Files, messages: &mut Buffer) -> Result<(Exit
         Request::Verify(two) => verified(two, files, messages),
         Request::Explain(Explain { code }) => match explain::page(code) {
             Some(page) => Ok((Exit::Done, vec![("output", page.as_bytes().to_vec())])),
-            None => Err(Problem::usage(format!("there is no message {code}"), "codes look like NC0107")),
+            None => Err(RequestFault::NoMessage(code.clone()).into()),
         },
         Request::Dialects(_) => {
             let all: Vec<_> = ncc_dialects::builtins()
@@ -117,15 +114,10 @@ fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Profile>>, Pr
         return Ok(Some(Arc::new(profile.clone())));
     }
     let text = files.get(name).and_then(|text| std::str::from_utf8(text).ok());
-    let text =
-        text.ok_or_else(|| Problem::usage(format!("there is no machine `{name}`"), "put its profile"))?;
+    let text = text.ok_or_else(|| RequestFault::NoMachine(name.to_owned()))?;
     let profile = Profile::parse(text, &ncc_dialects::builtin);
-    profile.map(|profile| Some(Arc::new(profile))).map_err(|wrong| {
-        Problem::usage(
-            format!("the profile {name} has {} errors", wrong.len()),
-            "ncc machines test shows them",
-        )
-    })
+    let wrong = |wrong: Vec<_>| RequestFault::Profile(name.to_owned(), wrong.len()).into();
+    profile.map(|profile| Some(Arc::new(profile))).map_err(wrong)
 }
 
 /// The texts that a dialect is made of: its own, then its base's and so on.
@@ -143,11 +135,8 @@ fn texts(id: &str) -> Vec<Named<'static>> {
 
 /// A dialect by its name; of no name and of `auto`, none.
 fn named(id: Option<&str>) -> Result<Option<&'static Dialect>, Problem> {
-    let dialect = |id| {
-        let ids: Vec<&str> = ncc_dialects::builtin_ids().collect();
-        let none = || {
-            Problem::usage(format!("there is no dialect `{id}`"), format!("there are: {}", ids.join(", ")))
-        };
+    let dialect = |id: &str| {
+        let none = || RequestFault::NoDialect(id.to_owned(), ncc_dialects::builtin_ids().collect()).into();
         ncc_dialects::builtin(id).ok_or_else(none)
     };
     id.filter(|id| *id != "auto").map(dialect).transpose()
@@ -189,8 +178,7 @@ fn unit(units: request::Units) -> Units {
 fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
     let verdict = |name: &String| {
         let found = Verdict::ALL.into_iter().find(|verdict| verdict.name() == name);
-        found
-            .ok_or_else(|| Problem::usage(format!("there is no verdict `{name}`"), "such as dropped, manual"))
+        found.ok_or_else(|| RequestFault::NoVerdict(name.clone()).into())
     };
     names.iter().map(verdict).collect()
 }
@@ -203,7 +191,7 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         to: profile(asked.machine_to.as_deref(), files)?,
     };
     let to = named(asked.to.as_deref())?.or(machines.to.as_ref().map(|profile| profile.dialect));
-    let to = to.ok_or_else(|| Problem::usage("translate into what?", "\"to\": \"siemens\""))?;
+    let to = to.ok_or(RequestFault::NoTarget)?;
     let to = choose(machines.settings(Whose::To, to), &pairs(&asked.to_option))?;
     let (from, rivals) =
         settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, asked.units)?;
@@ -211,17 +199,14 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     gather(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
     let (mut given, mut values) = (Given::default(), Vec::new());
     for (name, value) in &asked.value {
-        let wrong = |why| Problem::usage(format!("the value of {name}: {why}"), "\"_td\": \"0.25\"");
+        let wrong = |why| RequestFault::Value(name.clone(), why);
         let (name, value) = given::value(&format!("{name}={value}")).map_err(wrong)?;
         if let Some(value) = value {
             given.put(&name, value);
             values.push((name, value));
         }
     }
-    let pass = |name: &String| {
-        let none = || Problem::usage(format!("there is no pass `{name}`"), "`ncc passes` lists them");
-        rewrite::pass(name).ok_or_else(none)
-    };
+    let pass = |name: &String| rewrite::pass(name).ok_or_else(|| RequestFault::NoPass(name.clone()));
     let mut job = Job {
         layout: Layout { numbering: machines.numbering(), crlf },
         machines,
@@ -240,10 +225,7 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         ..Job::new(from, to, &source.name)
     };
     if file_per_tool(&job.to) {
-        return Err(Problem::usage(
-            "`tool_change=file-per-tool` writes several files: a request gives one",
-            "ask for `manual`, one file that stops for each tool",
-        ));
+        return Err(RequestFault::SeveralFiles.into());
     }
     tools_by_name::number(&mut job, &mut source.file).map_err(cannot)?;
     source.rewind()?;
@@ -323,7 +305,7 @@ fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outpu
 
 /// Both programs of a comparison, and how far lengths may be apart.
 fn sides(two: &Two, files: &Files, messages: &mut Buffer) -> Result<([Side; 2], Option<i64>), Problem> {
-    let wrong = || Problem::usage("the tolerance is no length in mm", "\"tolerance\": \"0.01\"");
+    let wrong = || RequestFault::NoTolerance;
     let tolerance =
         two.tolerance.as_deref().map(|text| given::decimal(text).ok_or_else(wrong)).transpose()?;
     Ok(([side(&two.a, files, messages)?, side(&two.b, files, messages)?], tolerance))

@@ -6,6 +6,7 @@
 use crate::behaviour::{Behaviour, Kept};
 use crate::canon::{Axis, Turn};
 use crate::compensated::kind::{CompensationRefusal, Kind};
+use crate::control_fact::ControlFact;
 use crate::expr::num::Num;
 use crate::expr::value::Wrong;
 use crate::geometry::offset_path::Unreachable;
@@ -368,8 +369,8 @@ faults! {
     AssumedRow { code: Box<str>, meaning: Box<str> } = 306, verdict(Verdict::Assumed);
     /// A dictionary option decides.
     AssumedOption { option: Box<str>, value: Box<str> } = 307, verdict(Verdict::Assumed);
-    /// A parameter of the machine has this value.
-    AssumedParameter { parameter: Box<str>, value: Box<str> } = 308, verdict(Verdict::Assumed);
+    /// A fact of the control or the machine that nothing states.
+    AssumedFact { fact: ControlFact } = 308, verdict(Verdict::Assumed);
 
     /// A pattern whose order of holes a control may choose by where the tool stands is made in the
     /// order of its parameters.

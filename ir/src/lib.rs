@@ -165,6 +165,7 @@ pub mod canon;
 pub mod caps;
 pub mod compensated;
 pub mod computed;
+pub mod control_fact;
 pub mod diag;
 pub mod expr;
 pub mod geometry;

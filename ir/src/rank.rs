@@ -111,7 +111,7 @@ impl Fault {
 
             Fault::AssumedMode { fact, .. } => of_mode(*fact),
             Fault::AssumedOption { .. }
-            | Fault::AssumedParameter { .. }
+            | Fault::AssumedFact { .. }
             | Fault::AssumedHoleOrder { .. } => Rank::Usual,
 
             Fault::CommentReformatted

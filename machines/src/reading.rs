@@ -7,9 +7,8 @@
 
 use std::fmt;
 
-use ncc_dialects::{
-    BLOCK_WITHOUT_WAY, BREAK_LIFT, CallRow, Dialect, FIRST_TOOL, PECK_CLEARANCE, Role, WAITING_TOOL,
-};
+use ncc_dialects::{BLOCK_WITHOUT_WAY, BREAK_LIFT, CallRow, Dialect, FIRST_TOOL, PECK_CLEARANCE, Role};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::lack::{Lack, ToolsLack, WordsLack};
 use ncc_ir::program::numbered::Numbered;
@@ -166,14 +165,12 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedToolChange { .. } => (Side::From, Place::Option("tool_with_change".to_owned())),
         Fault::AssumedCycle { .. } => (Side::From, Place::Option("cycle_beside_motion".to_owned())),
         Fault::AssumedReturn { .. } => (Side::From, Place::Option("return_distance".to_owned())),
-        Fault::AssumedParameter { parameter, .. } => match &**parameter {
-            "clearance of peck drilling" => (Side::From, Place::Option(PECK_CLEARANCE.to_owned())),
-            "lift of chip-breaking drilling" => (Side::From, Place::Option(BREAK_LIFT.to_owned())),
-            "block of a compensated contour that goes nowhere" => {
-                (Side::From, Place::Option(BLOCK_WITHOUT_WAY.to_owned()))
-            }
-            WAITING_TOOL => (Side::From, Place::Option(FIRST_TOOL.to_owned())),
-            other => (side, Place::Confirmed(slug(other))),
+        Fault::AssumedFact { fact } => match fact {
+            ControlFact::PeckClearance { .. } => (Side::From, Place::Option(PECK_CLEARANCE.to_owned())),
+            ControlFact::BreakLift { .. } => (Side::From, Place::Option(BREAK_LIFT.to_owned())),
+            ControlFact::StillBlock => (Side::From, Place::Option(BLOCK_WITHOUT_WAY.to_owned())),
+            ControlFact::WaitingTool { .. } => (Side::From, Place::Option(FIRST_TOOL.to_owned())),
+            other => (side, Place::Confirmed(key(other))),
         },
         Fault::UnknownCode { code } if is_m_code(code) => (Side::From, Place::Code(code.to_string())),
         Fault::TargetLacks { lack } => match lack {
@@ -259,18 +256,85 @@ fn slug(words: &str) -> String {
     key
 }
 
-/// What programs that compute take for granted of a control, as it is told.
+/// The key under which a profile confirms an assumption.
+fn key(fact: &ControlFact) -> String {
+    use ControlFact as A;
+    let fixed = match fact {
+        A::PeckClearance { .. } => "clearance-of-peck-drilling",
+        A::BreakLift { .. } => "lift-of-chip-breaking-drilling",
+        A::StillBlock => "block-of-a-compensated-contour-that-goes-nowhere",
+        A::WaitingTool { .. } => "tool-that-waits-at-the-start",
+        A::WordIncrement { .. } => WORD_INCREMENT,
+        A::CallersFeed => "F-where-the-subprogram-begins",
+        A::CallersUnit { .. } => "unit-of-length-of-its-caller",
+        A::NoCycleOfCaller => "a-cycle-of-the-caller-s-where-a-subprogram-that-may-not-move-begins",
+        A::ElseIf => "elseif-can-be-worked-out-where-it-is-passed-over",
+        A::NoSuchAxes => NO_SUCH_AXES,
+        A::AlarmsEnd => ALARMS,
+        A::SwivelRecord { .. } => SWIVEL_RECORD,
+        A::QuickCode => "QU-of-an-M-code",
+        A::InexactComparison => COMPARISON,
+        A::RoundUpNegative => ROUND_UP,
+        A::HalfRounded => HALF,
+        A::RepeatCount => REPEAT,
+        A::MasterSpindle => MASTER_SPINDLE,
+        A::ManyVariables { .. } => VARIABLES,
+        A::FineShifts => "fine-shifts-of-work-offsets-P_UIFR-FI-",
+        A::DeviceValue => DEVICE_VALUE,
+        A::NearNumbers | A::NearerNumbers => "numbers-that-are-compared",
+        A::WholeRemainder => "numbers-divided-for-a-remainder",
+        A::RoundedUp => ROUNDED_UP,
+        A::RoundedDown => "what-is-rounded-down",
+        A::Divided => "what-is-divided-for-a-remainder",
+        A::RoundedIncrements => "increments-that-the-control-rounds",
+        A::Orientation { .. } => "orientation-of-the-spindle",
+        A::SpindleZero => "zero-of-angles-of-the-spindle",
+        A::BoreShift { .. } => "direction-of-the-shift-of-fine-boring",
+        A::ToolCodeAtStart { letter, .. } => {
+            return format!("{letter}-code-of-the-tool-in-the-spindle-at-the-start");
+        }
+        A::LengthCodeAtStart { letter, .. } => return format!("{letter}-code-in-force-at-the-start"),
+        A::SystemVariable { fact } => return slug(fact),
+        A::VariableAtStart { name, .. } => return slug(&format!("variable-{name}-at-the-start")),
+        A::ReturnsToCaller { code } => return format!("{code}-goes-back-to-a-program-that-calls-this-one"),
+        A::AfterMove { code } => return format!("{code}{AFTER}"),
+        A::EndsMain { code } => return format!("{code}-ends-a-main-program"),
+        A::Argument { name, .. } => return slug(name),
+        A::AutomaticClearance { name, .. } | A::ComputedClearance { name } => {
+            return format!("{}{AUTOMATIC}", slug(name));
+        }
+        A::ComputedRadius { name } => return format!("{}-computed", slug(name)),
+        A::AxisAtStart { axis, .. } => return format!("{}-at-the-start", char::from(axis.letter())),
+        A::MachineValue { asked } => {
+            return slug(&format!("the-machine-s-{asked}-which-the-program-asks-for"));
+        }
+    };
+    fixed.to_owned()
+}
+
+const WORD_INCREMENT: &str = "increment-to-which-computed-words-are-rounded";
+const NO_SUCH_AXES: &str = "axes-U-V-and-W-which-the-machine-does-not-have";
+const ALARMS: &str = "alarms-61000-to-61999-and-65000-to-66999";
+const COMPARISON: &str = "MD-10280-PROG_FUNCTION_MASK-bit-0";
+const VARIABLES: &str = "MD-28050-MM_NUM_R_PARAM";
+const ROUND_UP: &str = "ROUNDUP-of-a-negative-number";
+const HALF: &str = "half-of-a-negative-number-rounded";
+const ROUNDED_UP: &str = "what-is-rounded-up";
+const REPEAT: &str = "P-of-REPEAT-computed";
+const DEVICE_VALUE: &str = "a-value-that-is-written-to-a-device";
+
+/// Keys of what programs that compute rely on.
 const COMPUTING: [&str; 10] = [
-    "increment to which computed words are rounded",
-    "axes U, V and W, which the machine does not have",
-    "alarms 61000 to 61999 and 65000 to 66999",
-    "MD 10280 PROG_FUNCTION_MASK bit 0",
-    "MD 28050 MM_NUM_R_PARAM",
-    "ROUNDUP of a negative number",
-    "half of a negative number, rounded",
-    "what is rounded up",
-    "P of REPEAT, computed",
-    "a value that is written to a device",
+    WORD_INCREMENT,
+    NO_SUCH_AXES,
+    ALARMS,
+    COMPARISON,
+    VARIABLES,
+    ROUND_UP,
+    HALF,
+    ROUNDED_UP,
+    REPEAT,
+    DEVICE_VALUE,
 ];
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
@@ -289,7 +353,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         TIP,
         TILT,
     ];
-    if COMPUTING.iter().any(|parameter| slug(parameter) == key) {
+    if COMPUTING.contains(&key) {
         return true;
     }
     if readings.contains(&key) || [MASTER_SPINDLE, SWIVEL_RECORD].contains(&key) {

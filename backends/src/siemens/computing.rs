@@ -8,6 +8,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use ncc_ir::canon::Modes;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::lack::{FlowLack, HolesLack};
@@ -117,9 +118,8 @@ impl Writer {
         if number.is_some_and(|n| n > LAST_EVERYWHERE)
             && !std::mem::replace(&mut self.computing.told_number, true)
         {
-            let parameter = "MD 28050 MM_NUM_R_PARAM".into();
-            let value = format!("more than {}", number.unwrap_or_default()).into();
-            sink.report(Fault::AssumedParameter { parameter, value }, span);
+            let assumption = ControlFact::ManyVariables { number: number.unwrap_or_default() };
+            sink.report(Fault::AssumedFact { fact: assumption }, span);
         }
     }
 
@@ -127,9 +127,7 @@ impl Writer {
     pub(super) fn tell_comparison(&mut self, condition: &str, span: Span, sink: &mut Sink) {
         let exact = condition.contains(['<', '>']);
         if exact && !std::mem::replace(&mut self.computing.told_comparison, true) {
-            let parameter = "MD 10280 PROG_FUNCTION_MASK bit 0".into();
-            let value = "0: real numbers that are nearly equal are not less or greater".into();
-            sink.report(Fault::AssumedParameter { parameter, value }, span);
+            sink.report(Fault::AssumedFact { fact: ControlFact::InexactComparison }, span);
         }
     }
 

@@ -5,6 +5,7 @@
 
 use ncc_dialects::{DataKind, DataRow, Meaning, Quantity};
 use ncc_ir::canon::{Axis, Units};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
@@ -164,8 +165,7 @@ impl Writer {
 
     pub(super) fn tell_fine_shifts(&mut self, span: Span, sink: &mut Sink) {
         if self.reported.insert("fine shifts") {
-            let parameter = "fine shifts of work offsets ($P_UIFR[…,FI])".into();
-            sink.report(Fault::AssumedParameter { parameter, value: "0".into() }, span);
+            sink.report(Fault::AssumedFact { fact: ControlFact::FineShifts }, span);
         }
     }
 

@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::NameMeaning;
 use ncc_ir::computed::assigned_variables::AssignedVariables;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::types::Types;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
@@ -423,8 +424,7 @@ impl Writer {
             return Err(cannot(OperatorLack::AlarmQuotation));
         }
         if !std::mem::replace(&mut self.variables.told_alarm, true) {
-            let parameter = "alarms 61000 to 61999 and 65000 to 66999".into();
-            sink.report(Fault::AssumedParameter { parameter, value: "end the program".into() }, span);
+            sink.report(Fault::AssumedFact { fact: ControlFact::AlarmsEnd }, span);
         }
         let text = if alarm.text.is_empty() { String::new() } else { format!(",\"{}\"", alarm.text) };
         self.alone(&format!("SETAL({number}{text})"), sink)

@@ -1,3 +1,3 @@
-NC0308 = { $parameter } assumed to be { $value }
+NC0308 = assumed: { $fact }
     .label = a parameter of the machine decides
     .help = compare with the parameter on your machine

@@ -40,3 +40,30 @@ problem-no-program = { $file } is named as program { $name }, but holds no whole
     .help = look at its first and its last line
 problem-other-program = { $file } is named as program { $name }, but holds program { $other }
     .help = name it as the program in it, or put the right one into the folder
+
+# What a request for the compiler as a library lacks.
+problem-unread-request = the request cannot be read: { $reason }
+    .help = it is a JSON object with a verb: {"{"} "verb": "translate", "file": "part.nc", … {"}"}
+problem-no-message = there is no message { $name }
+    .help = codes look like NC0107
+problem-no-machine = there is no machine `{ $name }`
+    .help = put its profile among the files
+problem-profile = the profile { $name } has { $count ->
+        [one] 1 error
+       *[other] { $count } errors
+    }
+    .help = `ncc machines test` shows them
+problem-no-dialect = there is no dialect `{ $name }`
+    .help = there are: { $among }
+problem-no-verdict = there is no verdict `{ $name }`
+    .help = such as dropped, manual
+problem-no-target = translate into what?
+    .help = "to": "siemens"
+problem-value = the value of { $name }: { $reason }
+    .help = "_td": "0.25"
+problem-no-pass = there is no pass `{ $name }`
+    .help = `ncc passes` lists them
+problem-several-files = `tool_change=file-per-tool` writes several files: a request gives one
+    .help = ask for `manual`, one file that stops for each tool
+problem-no-tolerance = the tolerance is no length in mm
+    .help = "tolerance": "0.01"

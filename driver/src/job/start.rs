@@ -6,6 +6,7 @@
 use ncc_backends::Writer;
 use ncc_exec::Exec;
 use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::expr::system::System;
@@ -42,9 +43,8 @@ impl Start {
 /// Where the axes stand before the program begins, as assumptions for head and report.
 pub fn assumed(at: &[Option<Nanos>; AXES]) -> Vec<Diagnostic> {
     let stated = Axis::ALL.iter().zip(at).filter_map(|(axis, at)| Some((axis, (*at)?)));
-    let fault = |(axis, at): (&Axis, Nanos)| Fault::AssumedParameter {
-        parameter: format!("{} at the start", char::from(axis.letter())).into(),
-        value: signed(at).into(),
+    let fault = |(axis, at): (&Axis, Nanos)| Fault::AssumedFact {
+        assumption: ControlFact::AxisAtStart { axis: *axis, place: signed(at).into() },
     };
     stated.map(|stated| Diagnostic::new(fault(stated), Span::default())).collect()
 }

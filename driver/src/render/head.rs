@@ -119,9 +119,10 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedRow { code, meaning } => {
             head("fact").text("name", &**code).text("value", spelled::row_meaning(code, meaning, dialects))
         }
-        Fault::AssumedOption { option: name, value } | Fault::AssumedParameter { parameter: name, value } => {
-            head("fact").text("name", &**name).text("value", &**value)
+        Fault::AssumedOption { option, value } => {
+            head("fact").text("name", &**option).text("value", &**value)
         }
+        Fault::AssumedFact { fact } => return Some(spelled::assumed_fact(fact)),
         // The head has a line of its own about them.
         Fault::ToolNumbered { .. } => return None,
         Fault::AssumedHoleOrder { pattern } => head("hole-order").text("pattern", &**pattern),

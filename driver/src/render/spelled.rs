@@ -71,6 +71,11 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
     if words.is_empty() { plain(meaning) } else { words }
 }
 
+/// An assumption: `clearance of peck drilling = 1 mm`.
+pub(crate) fn assumed_fact(fact: &ControlFact) -> String {
+    Message::part(Part::ControlFact, "").reason(fact).headline()
+}
+
 /// What begins otherwise in the next run, where an open fact of the program's end decides it.
 pub fn next_run(behaviour: Behaviour) -> String {
     let form = match behaviour {

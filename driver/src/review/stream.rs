@@ -22,6 +22,7 @@ use ncc_exec::world::World;
 use ncc_exec::{Event, Exec, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, Units};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::expr::system::System;
@@ -111,9 +112,8 @@ pub struct Reading {
 
 /// What is taken for granted where a program asks for a value of the machine's own.
 pub fn as_stated(asked: &System, at: Span) -> Diagnostic {
-    let parameter = format!("the machine's {asked}, which the program asks for").into();
-    let value = "what its profile states, else nothing".into();
-    Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)
+    let assumption = ControlFact::MachineValue { asked: asked.to_string().into() };
+    Diagnostic::new(Fault::AssumedFact { fact: assumption }, at)
 }
 
 /// What a program has somewhere in its text.

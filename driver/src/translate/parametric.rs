@@ -9,6 +9,7 @@ use ncc_dialects::{
 use ncc_ir::canon::Modes;
 use ncc_ir::computed::computes::{ComputeFeature, Computes};
 use ncc_ir::computed::free_variables::free_variables;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
 use ncc_ir::expr::{self, Expr};
@@ -51,9 +52,9 @@ pub fn begin_with(job: &Job, program: &mut Program) -> Vec<Diagnostic> {
         let Some((_, value)) = job.values.iter().find(|(own, _)| job.given.is_name(own, &name)) else {
             continue;
         };
-        let parameter = format!("variable {name} at the start").into();
-        let shown = decimal(*value).into();
-        found.push(Diagnostic::new(Fault::AssumedParameter { parameter, value: shown }, read));
+        let assumption =
+            ControlFact::VariableAtStart { name: name.as_ref().into(), value: decimal(*value).into() };
+        found.push(Diagnostic::new(Fault::AssumedFact { fact: assumption }, read));
         sets.push(Stmt::new(at, Op::Assign(expr::Target::Var(var), Expr::Num(*value))));
     }
     let at = behind_the_modes(&main.body);

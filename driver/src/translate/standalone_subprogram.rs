@@ -6,6 +6,7 @@ use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::computed::computes::{Handed, LETTERS};
 use ncc_ir::computed::free_variables::free_variables;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::lack::{FlowLack, HolesLack};
@@ -45,9 +46,9 @@ impl Translation<'_> {
         let stated = self.job.from.dialect.power_on.units.as_ref().is_some_and(|fact| fact.always);
         if let (Some(units), true) = (source.assumed.units, stated) {
             // The user has said it of the program, whose caller has it.
-            let value = if units == Units::Inch { "inch" } else { "mm" }.into();
-            let parameter = "unit of length of its caller".into();
-            self.take(vec![Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)], Told::Writer);
+            let unit = if units == Units::Inch { "inch" } else { "mm" };
+            let fault = Fault::AssumedFact { fact: ControlFact::CallersUnit { unit } };
+            self.take(vec![Diagnostic::new(fault, at)], Told::Writer);
         }
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {
@@ -60,8 +61,7 @@ impl Translation<'_> {
             && moves(main);
         if moves_end_cycles && !begins_by_a_move(main) {
             // A way without a move would leave it in force.
-            let parameter = "a cycle of the caller's, where a subprogram that may not move begins".into();
-            let fault = Fault::AssumedParameter { parameter, value: "none".into() };
+            let fault = Fault::AssumedFact { fact: ControlFact::NoCycleOfCaller };
             self.take(vec![Diagnostic::new(fault, at)], Told::Writer);
         }
         self.legaliser.stands_alone();

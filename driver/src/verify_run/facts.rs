@@ -11,6 +11,7 @@ use ncc_exec::{Event, Exec, by_control, touched};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::canon::Modes;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::lack::{CompensationLack, Lack};
@@ -166,7 +167,7 @@ impl Verifier {
     /// reading does.
     pub fn note_assumed(&mut self) {
         for Diagnostic { fault, .. } in self.batch.diagnostics.drain(..) {
-            let is_new = matches!(fault, Fault::AssumedParameter { .. })
+            let is_new = matches!(fault, Fault::AssumedFact { .. })
                 && self.notes.iter().all(|note| note.fault != fault);
             if is_new {
                 self.notes.push(Diagnostic::new(fault, self.last));
@@ -196,13 +197,13 @@ impl Verifier {
         });
         let told: Vec<Diagnostic> = told.collect();
         let mut notes = std::mem::take(&mut self.notes);
-        let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedParameter { .. });
+        let assumed = |note: &Diagnostic| matches!(note.fault, Fault::AssumedFact { .. });
         notes.retain(|note| !assumed(note) || reported.iter().all(|own| own.fault != note.fault));
         // A value that tells which code a block has is read with the text.
         let with_text = |name: &str| {
-            let start = format!("variable {name} at the start");
-            reported.iter().any(|own| {
-                matches!(&own.fault, Fault::AssumedParameter { parameter, .. } if **parameter == *start)
+            reported.iter().any(|own| match &own.fault {
+                Fault::AssumedFact { fact: ControlFact::VariableAtStart { name: own, .. } } => **own == *name,
+                _ => false,
             })
         };
         notes.retain(|note| !matches!(&note.fault, Fault::ValueNotRead { name } if with_text(name)));

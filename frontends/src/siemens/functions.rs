@@ -5,6 +5,7 @@
 
 use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
 use ncc_ir::canon::{Fact, FeedMode, PathMode, SpindleMode, Units};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
@@ -430,8 +431,8 @@ impl Lower {
     /// Machine data decide whether these come before, with or after a move of their block.
     fn after_the_move(&mut self, code: &Code, out: &mut Batch) {
         if self.first_time(code.name) {
-            let parameter = format!("{} in a block with a move", code.name).into();
-            out.report(Fault::AssumedParameter { parameter, value: "after the move".into() }, code.span);
+            let assumption = ControlFact::AfterMove { code: code.name.into() };
+            out.report(Fault::AssumedFact { fact: assumption }, code.span);
         }
     }
 
@@ -477,15 +478,15 @@ impl Lower {
             // There is no other use for it.
             Meaning::Return if code.name == "RET" => {
                 if !sub && self.assume && self.first_time("RET") {
-                    let parameter = "RET goes back to a program that calls this one".into();
-                    out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, code.span);
+                    let assumption = ControlFact::ReturnsToCaller { code: "RET" };
+                    out.report(Fault::AssumedFact { fact: assumption }, code.span);
                 }
                 true
             }
             Meaning::Return => {
                 if self.unit.is_none() && self.assume && self.first_time(code.name) {
-                    let parameter = format!("{} ends a main program", code.name).into();
-                    out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, code.span);
+                    let assumption = ControlFact::EndsMain { code: code.name.into() };
+                    out.report(Fault::AssumedFact { fact: assumption }, code.span);
                 }
                 sub
             }

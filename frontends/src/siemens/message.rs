@@ -6,6 +6,7 @@
 //!
 //! Refused by name: alarms of ranges that do not end the program, or of which that is not known.
 
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Alarm, Op, Piece, Text};
@@ -122,8 +123,7 @@ impl Lower {
     /// That an alarm ends the program is taken for granted, by the range of its number.
     fn ends_program(&mut self, at: Span, out: &mut Batch) {
         if self.first_time("SETAL") {
-            let parameter = "alarms 61000 to 61999 and 65000 to 66999".into();
-            out.report(Fault::AssumedParameter { parameter, value: "end the program".into() }, at);
+            out.report(Fault::AssumedFact { fact: ControlFact::AlarmsEnd }, at);
         }
     }
 }

@@ -10,6 +10,7 @@
 //! path could call.
 
 use ncc_dialects::Settings;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
@@ -222,8 +223,7 @@ impl Reader {
         match self.lower.callers_feed.take() {
             Some(at) if !out.subprogram => out.report(Fault::NoFeed, at),
             Some(at) if self.lower.assume => {
-                let parameter = "F where the subprogram begins".into();
-                out.report(Fault::AssumedParameter { parameter, value: "that of its caller".into() }, at);
+                out.report(Fault::AssumedFact { fact: ControlFact::CallersFeed }, at);
             }
             _ => {}
         }

@@ -6,6 +6,7 @@
 
 use ncc_dialects::{NameMeaning, NameRole, Quantity, Role};
 use ncc_ir::canon::{Distance, FeedMode, RotaryWay};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
@@ -328,8 +329,7 @@ impl Lower {
             // The same function, without a wait for it.
             Value::Qualified(Qualifier::Quick, expr) if src.bytes(span).first() == Some(&b'M') => {
                 if self.first_time("QU") {
-                    let (parameter, value) = ("QU of an M code".into(), "with a wait for it".into());
-                    out.report(Fault::AssumedParameter { parameter, value }, span);
+                    out.report(Fault::AssumedFact { fact: ControlFact::QuickCode }, span);
                 }
                 (None, expr)
             }

@@ -6,6 +6,7 @@
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Role};
 use ncc_ir::canon::AdviceKind;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Advice, Op, Text};
@@ -70,8 +71,7 @@ impl Lower {
     /// Which spindle the words without a number mean is taken for granted, and told once.
     pub(super) fn master_spindle(&mut self, at: Span, out: &mut Batch) {
         if self.first_time(MASTER) {
-            let (parameter, value) = (MASTER.into(), "1".into());
-            out.report(Fault::AssumedParameter { parameter, value }, at);
+            out.report(Fault::AssumedFact { fact: ControlFact::MasterSpindle }, at);
         }
     }
 

@@ -9,6 +9,7 @@
 //! A program that begins again with another of these than what was stated is refused. Not here: what a program asks of
 //! the control while it runs; that is execution's.
 
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::system::System;
@@ -54,12 +55,11 @@ impl Lower {
         let (_, stated) = self.settings.stated_of(asked)?;
         let stated = u32::try_from(stated).ok()?;
         self.tools.at_start.used[which] = Some(stated);
-        let parameter = match which {
-            TOOL => format!("{} code of the tool in the spindle at the start", char::from(self.roles.tool)),
-            _ => format!("{} code in force at the start", char::from(self.roles.length_entry)),
+        let assumption = match which {
+            TOOL => ControlFact::ToolCodeAtStart { letter: self.roles.tool.into(), number: stated },
+            _ => ControlFact::LengthCodeAtStart { letter: self.roles.length_entry.into(), number: stated },
         };
-        let parameter = parameter.into();
-        out.report(Fault::AssumedParameter { parameter, value: stated.to_string().into() }, at);
+        out.report(Fault::AssumedFact { fact: assumption }, at);
         Some(stated)
     }
 

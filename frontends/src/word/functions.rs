@@ -3,8 +3,9 @@
 //!
 //! Moves, cycles and calls have files of their own.
 
-use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, FIRST_TOOL, Meaning, Quantity, WAITING_TOOL};
+use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, FIRST_TOOL, Meaning, Quantity};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
@@ -378,8 +379,8 @@ impl Lower {
             Some(first) => {
                 self.state.modes.tool = Know::Said(Some(first));
                 self.push(at, Op::SelectTool(Expr::int(first.into())), out);
-                let (parameter, value) = (WAITING_TOOL.into(), first.to_string().into());
-                out.report(Fault::AssumedParameter { parameter, value }, at);
+                let assumption = ControlFact::WaitingTool { tool: first };
+                out.report(Fault::AssumedFact { fact: assumption }, at);
             }
             None => self.fault(Fault::NoToolSelected, at, out),
         }

@@ -140,9 +140,6 @@ pub const BLOCK_WITHOUT_WAY: &str = "block_without_way";
 /// Value of [`BLOCK_WITHOUT_WAY`]: the control looks over it, to the next move in the plane.
 pub const LOOKED_OVER: &str = "looked-over";
 
-/// The name of [`FIRST_TOOL`] in messages.
-pub const WAITING_TOOL: &str = "tool that waits at the start";
-
 /// Option of a dictionary: clearance of its peck cycle.
 pub const PECK_CLEARANCE: &str = "peck_clearance";
 

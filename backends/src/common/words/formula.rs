@@ -1,6 +1,7 @@
 //! Words of a block whose value is an expression.
 
 use ncc_dialects::{ANGLE_RANGE, MACHINE_UNITS, SystemRow};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
@@ -68,8 +69,8 @@ impl Words {
             }
             if !row.assumes.is_empty() && !self.told_options.contains(&&*row.assumes) {
                 self.told_options.push(&row.assumes);
-                let parameter = row.assumes.as_str().into();
-                sink.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+                let assumption = ControlFact::SystemVariable { fact: row.assumes.as_str().into() };
+                sink.report(Fault::AssumedFact { fact: assumption }, span);
             }
         }
     }

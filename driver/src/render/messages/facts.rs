@@ -17,7 +17,7 @@ use super::context::Context;
 use super::file_needs;
 use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
-use crate::render::spelled::{character, found_words, kept, mode, row_meaning, work_offset};
+use crate::render::spelled::{assumed_fact, character, found_words, kept, mode, row_meaning, work_offset};
 use crate::render::text::{plain, plain_upto, shown};
 
 /// So much is shown of the words of a block in a headline, in characters.
@@ -160,9 +160,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("code", shown(code)).text("meaning", row_meaning(code, meaning, [at.from, at.to]))
         }
         Fault::AssumedOption { option, value } => m.text("option", shown(option)).text("value", shown(value)),
-        Fault::AssumedParameter { parameter, value } => {
-            m.text("parameter", plain(parameter)).text("value", plain(value))
-        }
+        Fault::AssumedFact { fact } => m.text("fact", assumed_fact(fact)),
         Fault::AssumedHoleOrder { pattern } => m.text("pattern", plain(pattern)),
         Fault::AssumedPath { path } => m.text("path", plain(path)),
         Fault::AssumedMilling { looks_like, .. } => m.text("looks", plain(looks_like)),

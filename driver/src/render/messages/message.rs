@@ -38,6 +38,8 @@ enum Home {
 pub(crate) enum Part {
     /// Words that accompany a message of any code.
     Common,
+    /// Facts of a control that ncc assumes.
+    ControlFact,
     /// What rows of a dictionary mean, where no manual confirms them.
     Meaning,
     /// The tables of a dictionary.
@@ -80,6 +82,7 @@ impl Part {
     fn name(self) -> &'static str {
         match self {
             Part::Common => "common",
+            Part::ControlFact => "control-fact",
             Part::Meaning => "meaning",
             Part::Dialect => "dialect",
             Part::Dictionary => "dictionary",
@@ -104,6 +107,7 @@ impl Part {
     fn words(self) -> &'static str {
         match self {
             Part::Common => include_str!("../../../messages/common/en.ftl"),
+            Part::ControlFact => include_str!("../../../messages/control-fact/en.ftl"),
             Part::Meaning => include_str!("../../../messages/meaning/en.ftl"),
             Part::Dialect => include_str!("../../../messages/dialect/en.ftl"),
             Part::Dictionary => include_str!("../../../messages/dictionary/en.ftl"),

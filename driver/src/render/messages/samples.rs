@@ -6,6 +6,7 @@ use ncc_dialects::Dialect;
 use ncc_ir::behaviour::{Behaviour, Kept};
 use ncc_ir::canon::{Axis, Turn};
 use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{ArgumentCheck, Fault, FileNeeds, ModeName};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::geometry::offset_path::Unreachable;
@@ -138,7 +139,7 @@ fn assumed() -> Vec<Fault> {
         AssumedWorkOffset { offset: 1 },
         AssumedRow { code: "G12".into(), meaning: "pocket".into() },
         AssumedOption { option: "first_tool".into(), value: "none".into() },
-        AssumedParameter { parameter: "MD 10280 bit 0".into(), value: "0".into() },
+        AssumedFact { fact: ControlFact::InexactComparison },
         AssumedHoleOrder { pattern: "grid".into() },
         AssumedEdge { tool: 12 },
         AssumedPath { path: "exact stop".into() },

@@ -2,6 +2,7 @@
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_ir::canon::PathMode;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::cycle::{Clearance, CycleKind};
 use ncc_ir::program::{Op, Stmt};
@@ -97,9 +98,12 @@ impl<'d> Drive<'d> {
                 } else {
                     self.exec.set_break_lift(nanos);
                 }
-                let value = format!("{} mm", nanos as f64 / 1e9).into();
-                let fault = Fault::AssumedParameter { parameter: name.into(), value };
-                self.take(Diagnostic::new(fault, span));
+                let length = (nanos as f64 / 1e9).to_string().into();
+                let assumption = match drill {
+                    true => ControlFact::PeckClearance { length },
+                    false => ControlFact::BreakLift { length },
+                };
+                self.take(Diagnostic::new(Fault::AssumedFact { fact: assumption }, span));
             }
             None => {
                 let what = match drill {

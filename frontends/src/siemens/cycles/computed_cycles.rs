@@ -7,6 +7,7 @@
 
 use ncc_dialects::{CallKind, ParameterRole as Role};
 use ncc_ir::canon::Fact;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
@@ -222,9 +223,8 @@ impl Lower {
         }
         let units = self.known_units(a.span, out)?;
         if self.first_time("clearance") {
-            let parameter = format!("{}, automatic", a.name(Role::Clearance)).into();
-            let value = "1/50 of the hole, 0.6 to 7 mm".into();
-            out.report(Fault::AssumedParameter { parameter, value }, a.span);
+            let assumption = ControlFact::ComputedClearance { name: a.name(Role::Clearance).into() };
+            out.report(Fault::AssumedFact { fact: assumption }, a.span);
         }
         Some(clearance_by_depth(&reference.minus(depth), units))
     }

@@ -7,6 +7,7 @@
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole, Quantity};
 use ncc_ir::canon::{Fact, Plane, Units};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, ONE, Unit};
@@ -87,10 +88,10 @@ impl Lower {
                         self.not_supported(&row.name, what, *span, out);
                     }
                     if !parameter.sure && !value.is_zero() && self.first_time(&parameter.name) {
-                        let what = parameter.name.as_str().into();
+                        let name = parameter.name.as_str().into();
                         let value =
                             value.whole_number().map_or_else(|| "?".into(), |value| value.to_string().into());
-                        out.report(Fault::AssumedParameter { parameter: what, value }, *span);
+                        out.report(Fault::AssumedFact { fact: ControlFact::Argument { name, value } }, *span);
                     }
                     Some(Given { digits: *digits, distance: None, way: None, computed: None, span: *span })
                 }
@@ -526,8 +527,8 @@ impl Lower {
         let clearance = if hole <= 30 * ONE { 6 * ONE / 10 } else { (hole / 50).min(7 * ONE) };
         let num = Num::from_nanos(clearance, 9, Unit::Mm);
         if matters && self.first_time("clearance") {
-            let parameter = format!("{}, automatic", a.name(ParameterRole::Clearance)).into();
-            out.report(Fault::AssumedParameter { parameter, value: spell(num).into() }, a.span);
+            let (name, length) = (a.name(ParameterRole::Clearance).into(), spell(num).into());
+            out.report(Fault::AssumedFact { fact: ControlFact::AutomaticClearance { name, length } }, a.span);
         }
         Some(num)
     }

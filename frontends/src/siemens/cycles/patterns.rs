@@ -6,6 +6,7 @@
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole};
 use ncc_ir::canon::{Axis, Plane};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, ONE, Unit};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
@@ -131,11 +132,8 @@ impl Lower {
             Some(_) => {}
             None => {
                 // The cycle ends the program by an alarm where it is not (reference, 9).
-                let parameter = format!("{}, computed", a.name(Role::Radius)).into();
-                out.report(
-                    Fault::AssumedParameter { parameter, value: "more than 0".into() },
-                    a.at(Role::Radius),
-                );
+                let assumption = ControlFact::ComputedRadius { name: a.name(Role::Radius).into() };
+                out.report(Fault::AssumedFact { fact: assumption }, a.at(Role::Radius));
             }
         }
         let count = self.count(a, Role::Count, src, out)?;

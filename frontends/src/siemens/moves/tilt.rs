@@ -8,6 +8,7 @@
 
 use ncc_dialects::Quantity;
 use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr as Value;
 use ncc_ir::program::{FrameSlot, Op, Point, Reference, ReferencePoint, Slot, Tilt, Toward};
@@ -23,9 +24,6 @@ use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::spindles::number;
 use crate::siemens::text::tree::Expr;
-
-/// What the name of a record of kinematics stands for.
-const SWIVEL_RECORD: &str = "only swivel data record";
 
 /// Places of the arguments of a swivelled plane.
 const RETRACT: usize = 0;
@@ -154,9 +152,9 @@ impl Lower {
         let Expr::Text(span) = record else { return false };
         let bytes = src.bytes(*span);
         let name = decode(bytes.get(1..bytes.len().saturating_sub(1)).unwrap_or_default());
-        if !name.is_empty() && self.first_time(SWIVEL_RECORD) {
-            let (parameter, value) = (SWIVEL_RECORD.into(), name.clone());
-            out.report(Fault::AssumedParameter { parameter, value }, *span);
+        if !name.is_empty() && self.first_time("swivel-record") {
+            let assumption = ControlFact::SwivelRecord { name: name.as_ref().into() };
+            out.report(Fault::AssumedFact { fact: assumption }, *span);
         }
         *name != *"0"
     }

@@ -11,6 +11,7 @@
 //! Refused by name: calls by path, calls while a subprogram is called after each move
 //! (it would be called after the moves in them as well), and subprograms that leave a cycle in force.
 
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr as Value, Many, Node, Var};
 use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
@@ -405,9 +406,7 @@ impl Lower {
                 let known =
                     typed.expr.literal().is_some() || matches!(typed.kind, Formed::Text | Formed::Bool);
                 // Nothing found says what the control does with other numbers.
-                let parameter = "P of REPEAT, computed".into();
-                let value = "a whole number, 1 or more".into();
-                out.report(Fault::AssumedParameter { parameter, value }, other.span());
+                out.report(Fault::AssumedFact { fact: ControlFact::RepeatCount }, other.span());
                 Some(typed.expr).filter(|_| !known)
             }
         };

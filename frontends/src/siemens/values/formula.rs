@@ -9,6 +9,7 @@
 use std::borrow::Cow;
 
 use ncc_ir::computed::computes::NEARLY;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
@@ -194,9 +195,7 @@ impl Lower {
             return Typed::new(Node::Binary(plain, a.expr, b.expr), Kind::Bool);
         }
         if matches!(operator, Operator::Less | Operator::Greater) && self.first_time("MD 10280") {
-            let parameter = "MD 10280 PROG_FUNCTION_MASK bit 0".into();
-            let value = "0: real numbers that are nearly equal are not less or greater".into();
-            out.report(Fault::AssumedParameter { parameter, value }, span);
+            out.report(Fault::AssumedFact { fact: ControlFact::InexactComparison }, span);
         }
         let equal = |a: &Typed, b: &Typed| {
             let arguments = vec![a.expr.clone(), b.expr.clone(), Expr::Num(NEARLY)];
@@ -265,9 +264,7 @@ impl Lower {
             "ROUNDUP" => {
                 if self.first_time("ROUNDUP") {
                     // The manual's words say the next smaller one of negative numbers, its examples this one.
-                    let parameter = "ROUNDUP of a negative number".into();
-                    let value = "towards zero".into();
-                    out.report(Fault::AssumedParameter { parameter, value }, span);
+                    out.report(Fault::AssumedFact { fact: ControlFact::RoundUpNegative }, span);
                 }
                 Some(Typed { expr: call_function(Function::Ceiling, a.expr), kind: Kind::Int })
             }
@@ -293,8 +290,7 @@ impl Lower {
             return Expr::int(whole);
         }
         if self.first_time("ROUND") {
-            let parameter = "half of a negative number, rounded".into();
-            out.report(Fault::AssumedParameter { parameter, value: "away from zero".into() }, at);
+            out.report(Fault::AssumedFact { fact: ControlFact::HalfRounded }, at);
         }
         call_function(Function::Round, value.expr)
     }

@@ -3,6 +3,7 @@
 //! After a call every fact is lost: the subprogram may have changed it.
 
 use ncc_dialects::Statement;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
@@ -140,8 +141,8 @@ impl Lower {
         } else if let Some(begins) = self.main_ending.begins_again {
             self.endless(begins, "M99".into(), out);
         } else if self.assume {
-            let parameter = "M99 goes back to a program that calls this one".into();
-            out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, at);
+            let assumption = ControlFact::ReturnsToCaller { code: "M99" };
+            out.report(Fault::AssumedFact { fact: assumption }, at);
         }
     }
 
@@ -150,8 +151,7 @@ impl Lower {
         match self.main_ending.feed.take() {
             Some(at) if !out.subprogram || self.main_ending.ends => out.report(Fault::NoFeed, at),
             Some(at) if self.assume => {
-                let parameter = "F where the subprogram begins".into();
-                out.report(Fault::AssumedParameter { parameter, value: "that of its caller".into() }, at);
+                out.report(Fault::AssumedFact { fact: ControlFact::CallersFeed }, at);
             }
             _ => {}
         }

@@ -11,6 +11,7 @@ use std::mem::discriminant;
 use ncc_dialects::{Statement as Says, SystemRow};
 use ncc_ir::canon::Motion;
 use ncc_ir::computed::computed_code::of_number;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Node, Target, Var};
@@ -75,8 +76,8 @@ impl Lower {
             return None;
         }
         let number = self.settings.stated_value(&var.name())?;
-        let parameter = format!("variable {} at the start", var.name()).into();
-        out.report(Fault::AssumedParameter { parameter, value: number.to_string().into() }, word.span);
+        let (name, value) = (var.name().into(), number.to_string().into());
+        out.report(Fault::AssumedFact { fact: ControlFact::VariableAtStart { name, value } }, word.span);
         self.computes.saved.stated.push((word.span, src.text(word.span), var.clone()));
         let value = Value::Number(Digits { mantissa: number, scale: 0, point: false });
         Some(Word { value, ..*word })

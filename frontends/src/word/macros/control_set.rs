@@ -7,6 +7,7 @@
 
 use ncc_dialects::{Quantity, SystemRow};
 use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Expr, Function, Node, Var};
@@ -117,8 +118,8 @@ impl Lower {
         let told = &mut self.reported.values;
         if self.assume && !row.assumes.is_empty() && !told.contains(&&*row.assumes) {
             told.push(&row.assumes);
-            let parameter = row.assumes.as_str().into();
-            out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, at);
+            let assumption = ControlFact::SystemVariable { fact: row.assumes.as_str().into() };
+            out.report(Fault::AssumedFact { fact: assumption }, at);
         }
     }
 

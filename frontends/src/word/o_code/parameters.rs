@@ -7,6 +7,7 @@
 //! Not here: settings of parameters, and blocks that decide where the program goes (`o_words`).
 
 use ncc_dialects::{MACHINE_UNITS, Quantity, SystemRow};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Var};
@@ -125,8 +126,7 @@ impl Lower {
             if row.machine_units { self.option(MACHINE_UNITS, at, out).to_owned() } else { String::new() };
         if row.zero {
             if self.assume && !std::mem::replace(&mut self.o.no_such_axes, true) {
-                let parameter = "axes U, V and W, which the machine does not have".into();
-                out.report(Fault::AssumedParameter { parameter, value: "0".into() }, at);
+                out.report(Fault::AssumedFact { fact: ControlFact::NoSuchAxes }, at);
             }
             return Some(Expr::int(0));
         }

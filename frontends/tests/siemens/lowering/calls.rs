@@ -56,14 +56,9 @@ fn ends_of_programs() {
     let main = ends.map(str::to_owned).to_vec();
     assert_eq!(of_file("SLOT.spf", "G90\nM17\n"), (sub.clone(), none.clone()));
     assert_eq!(of_file("SLOT.MPF", "G90\nM17\n"), (main.clone(), none.clone()));
-    let taken = |what: &str| {
-        vec![format!("AssumedParameter {{ parameter: '{what}', value: 'yes' }} at '{}'", &what[..3])]
-    };
-    assert_eq!(of_file("SLOT.TXT", "G90\nM17\n"), (main, taken("M17 ends a main program")));
-    assert_eq!(
-        of_file("SLOT.MPF", "G90\nRET\n"),
-        (sub, taken("RET goes back to a program that calls this one"))
-    );
+    let taken = |what: &str, code: &str| vec![format!("AssumedFact {{ fact: {what} }} at '{}'", code)];
+    assert_eq!(of_file("SLOT.TXT", "G90\nM17\n"), (main, taken("EndsMain { code: 'M17' }", "M17")));
+    assert_eq!(of_file("SLOT.MPF", "G90\nRET\n"), (sub, taken("ReturnsToCaller { code: 'RET' }", "RET")));
     let (subs, errors) = with_subs("B_B\n", "%_N_B_B_SPF\nM8\nM30\n");
     assert_eq!((subs, errors), (vec!["B_B: FloodOn | Return".to_owned()], vec![]));
     assert_eq!(units("G90\n").1, ["NoProgramEnd at 'G90'"]);

@@ -86,7 +86,9 @@ fn deep_holes() {
         assumptions(&text),
         [
             "AssumedRow { code: 'CYCLE83', meaning: 'START_CYCLE' } at 'CYCLE83'".to_owned(),
-            format!("AssumedParameter {{ parameter: '_DIS1, automatic', value: '0.84 mm' }} at '{long}'")
+            format!(
+                "AssumedFact {{ fact: AutomaticClearance {{ name: '_DIS1', length: '0.84 mm' }} }} at '{long}'"
+            )
         ]
     );
 }

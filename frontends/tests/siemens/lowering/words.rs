@@ -202,8 +202,8 @@ fn functions_whose_time_machine_data_decide() {
     assert_eq!(
         assumptions(&text),
         [
-            "AssumedParameter { parameter: 'M5 in a block with a move', value: 'after the move' } at 'M5'",
-            "AssumedParameter { parameter: 'M9 in a block with a move', value: 'after the move' } at 'M9'"
+            "AssumedFact { fact: AfterMove { code: 'M5' } } at 'M5'",
+            "AssumedFact { fact: AfterMove { code: 'M9' } } at 'M9'"
         ]
     );
 }

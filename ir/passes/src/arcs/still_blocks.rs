@@ -14,6 +14,7 @@ use crate::pass::{Moment, Pass, Step};
 use crate::support::walk::Walk;
 use crate::support::write::{Rebuild, rebuild};
 use ncc_ir::canon::Axis;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Stmt};
 
@@ -48,9 +49,6 @@ pub(crate) struct StillBlocksState {
     reported: bool,
 }
 
-/// The fact that the blocks rest on, in messages.
-const WITHOUT_WAY: &str = "block of a compensated contour that goes nowhere";
-
 /// Leaves them out.
 pub(crate) fn drop_still_blocks(
     body: &mut Vec<Stmt>,
@@ -63,8 +61,7 @@ pub(crate) fn drop_still_blocks(
         let still = goes_nowhere(walk, &stmt);
         walk.step(&stmt);
         if still && !std::mem::replace(&mut state.reported, true) {
-            let (parameter, value) = (WITHOUT_WAY.into(), "looked over".into());
-            diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+            diags.push(Diagnostic::new(Fault::AssumedFact { fact: ControlFact::StillBlock }, stmt.span));
         }
         if still { made.leave_out(stmt) } else { made.push(stmt) }
     });

@@ -30,6 +30,7 @@ use crate::support::walk::each_body;
 use crate::support::write::{Rebuild, at, cut, is_absolute, only, rebuild, traverse};
 use crate::target::Target;
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::lack::HolesLack;
@@ -308,33 +309,31 @@ fn bores_out(kind: &CycleKind) -> bool {
 fn reported(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     let Op::StartCycle(cycle) = &stmt.op else { return };
     diags.push(Diagnostic::new(Fault::CycleExpanded { kind: cycle.kind.name().into() }, stmt.span));
-    let (parameter, value) = match &cycle.kind {
+    let length =
+        |value: ncc_ir::expr::num::Num| (value.nanos(false).unwrap_or(0) as f64 / 1e9).to_string().into();
+    let assumption = match &cycle.kind {
         CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
-            ("clearance of peck drilling", target.peck_clearance)
+            target.peck_clearance.map(|value| ControlFact::PeckClearance { length: length(value) })
         }
         CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
-            ("lift of chip-breaking drilling", target.break_lift)
+            target.break_lift.map(|value| ControlFact::BreakLift { length: length(value) })
         }
         CycleKind::FineBore(bore) => {
             if let (None, Some(angle)) = (&bore.angle, target.orientation) {
-                let (parameter, degrees) = ("orientation of the spindle".into(), angle.nanos(false));
-                let value = format!("{} degrees", degrees.unwrap_or(0) as f64 / 1e9).into();
-                diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+                let degrees = (angle.nanos(false).unwrap_or(0) as f64 / 1e9).to_string().into();
+                let assumption = ControlFact::Orientation { degrees };
+                diags.push(Diagnostic::new(Fault::AssumedFact { fact: assumption }, stmt.span));
             }
             if let (Shift::Parameter(_), Some(direction)) = (&bore.shift, target.bore_shift) {
-                let parameter = "direction of the shift of fine boring".into();
-                let value = direction.name().into();
-                diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+                let assumption = ControlFact::BoreShift { direction: direction.name() };
+                diags.push(Diagnostic::new(Fault::AssumedFact { fact: assumption }, stmt.span));
             }
             return;
         }
         _ => return,
     };
-    if let Some(value) = value {
-        let nanos = value.nanos(false).unwrap_or(0);
-        let value = format!("{} mm", nanos as f64 / 1e9).into();
-        let parameter = parameter.into();
-        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+    if let Some(assumption) = assumption {
+        diags.push(Diagnostic::new(Fault::AssumedFact { fact: assumption }, stmt.span));
     }
 }
 

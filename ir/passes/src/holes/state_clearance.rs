@@ -10,6 +10,7 @@ use crate::support::walk::each_body;
 use crate::support::write::rounded;
 use crate::target::Target;
 use ncc_ir::canon::Units;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::{Clearance, CycleKind};
@@ -51,11 +52,9 @@ pub(crate) fn state_clearance(
         if !states {
             continue;
         }
-        let (clearance, value, parameter) = match &mut cycle.kind {
-            CycleKind::DrillPeck { clearance, .. } => {
-                (clearance, target.peck_clearance, "clearance of peck drilling")
-            }
-            CycleKind::DrillBreak { lift, .. } => (lift, target.break_lift, "lift of chip-breaking drilling"),
+        let (clearance, value, is_peck) = match &mut cycle.kind {
+            CycleKind::DrillPeck { clearance, .. } => (clearance, target.peck_clearance, true),
+            CycleKind::DrillBreak { lift, .. } => (lift, target.break_lift, false),
             CycleKind::Drill
             | CycleKind::DrillDwell { .. }
             | CycleKind::Bore { .. }
@@ -65,7 +64,7 @@ pub(crate) fn state_clearance(
         };
         if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
             *clearance = Clearance::Stated(in_unit(value, walk.at.modes.units, target).into());
-            diags.push(Diagnostic::new(reported(parameter, value), stmt.span));
+            diags.push(Diagnostic::new(reported(is_peck, value), stmt.span));
         }
     }
 }
@@ -79,10 +78,11 @@ fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
 }
 
 /// What is told of a parameter that was taken for granted.
-pub(crate) fn reported(parameter: &str, value: Num) -> Fault {
-    let nanos = value.nanos(false).unwrap_or(0);
-    Fault::AssumedParameter {
-        parameter: parameter.into(),
-        value: format!("{} mm", nanos as f64 / 1e9).into(),
-    }
+fn reported(is_peck: bool, value: Num) -> Fault {
+    let length = (value.nanos(false).unwrap_or(0) as f64 / 1e9).to_string().into();
+    let fact = match is_peck {
+        true => ControlFact::PeckClearance { length },
+        false => ControlFact::BreakLift { length },
+    };
+    Fault::AssumedFact { fact }
 }

@@ -4,6 +4,7 @@
 use crate::pass::Pass;
 use ncc_ir::caps::Caps;
 use ncc_ir::computed::computes::ComputeFeature;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::lack::OperatorLack;
 use ncc_ir::program::{Op, Output, Piece, Program, Stmt, Text};
@@ -100,11 +101,7 @@ pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
     let unopened = line
         .filter(|_| opened && !opens)
         .map(|at| Diagnostic::new(Fault::lacks(OperatorLack::DeviceNotOpened), at));
-    let digits = value.map(|at| {
-        let parameter = "a value that is written to a device".into();
-        let value = "not empty, of no more digits than it has places, blanks before it".into();
-        Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)
-    });
+    let digits = value.map(|at| Diagnostic::new(Fault::AssumedFact { fact: ControlFact::DeviceValue }, at));
     unopened.into_iter().chain(digits).collect()
 }
 

@@ -6,6 +6,7 @@
 
 use crate::pass::{Moment, Pass, Step};
 use crate::target::Target;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::lack::SpindleLack;
@@ -58,15 +59,13 @@ pub(crate) fn stop_at_angle(
             *angle = Some(Expr::Num(own));
             if !std::mem::replace(&mut state.own, true) {
                 let degrees = own.nanos(false).unwrap_or(0) as f64 / 1e9;
-                let (parameter, value) = ("orientation of the spindle", format!("{degrees} degrees"));
-                let fault = Fault::AssumedParameter { parameter: parameter.into(), value: value.into() };
-                diags.push(Diagnostic::new(fault, stmt.span));
+                let assumption = ControlFact::Orientation { degrees: degrees.to_string().into() };
+                diags.push(Diagnostic::new(Fault::AssumedFact { fact: assumption }, stmt.span));
             }
         }
         if angle.is_some() && target.other_control && !std::mem::replace(&mut state.zero, true) {
-            let (parameter, value) = ("zero of angles of the spindle", "that of the other machine");
-            let fault = Fault::AssumedParameter { parameter: parameter.into(), value: value.into() };
-            diags.push(Diagnostic::new(fault, stmt.span));
+            let assumption = ControlFact::SpindleZero;
+            diags.push(Diagnostic::new(Fault::AssumedFact { fact: assumption }, stmt.span));
         }
     }
 }

@@ -11,6 +11,7 @@
 use crate::pass::Pass;
 use crate::values::variables::expressions;
 use ncc_ir::computed::computes::{Computes, counted};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::compared;
 use ncc_ir::expr::decimals::Decimals;
@@ -37,15 +38,15 @@ pub fn run(program: &mut Program, computes: &Computes, own: Option<Num>, diags: 
         expressions(&mut procedure.body, &mut |stmt, expr| {
             let mut over = Over { computes, own, decimals: &decimals, taken: None };
             over.expr(expr);
-            taken.extend(over.taken.map(|what| (what, stmt.span)));
+            taken.extend(over.taken.map(|assumption| (assumption, stmt.span)));
         });
-        taken.into_iter().for_each(|((what, how), at)| tell(what, how, at, diags));
+        taken.into_iter().for_each(|(assumption, at)| tell(assumption, at, diags));
     }
 }
 
 /// Tells once what is taken for granted.
-fn tell(what: &str, how: &str, at: Span, diags: &mut Vec<Diagnostic>) {
-    let fault = Fault::AssumedParameter { parameter: what.into(), value: how.into() };
+fn tell(assumption: ControlFact, at: Span, diags: &mut Vec<Diagnostic>) {
+    let fault = Fault::AssumedFact { fact: assumption };
     if !diags.iter().any(|reported| reported.fault == fault) {
         diags.push(Diagnostic::new(fault, at));
     }
@@ -85,8 +86,8 @@ struct Over<'c> {
     computes: &'c Computes,
     own: Option<Num>,
     decimals: &'c Decimals,
-    /// What is taken for granted, and how it is.
-    taken: Option<(&'static str, &'static str)>,
+    /// What is assumed.
+    taken: Option<ControlFact>,
 }
 
 impl Over<'_> {
@@ -194,8 +195,7 @@ impl Over<'_> {
             (Function::NearRatio, [a, b, _]) if !self.computes.near => {
                 let tolerance = self.computes.equal_within?;
                 if !self.decimals.is_whole(a) || !self.decimals.is_whole(b) {
-                    let how = "the same to more digits than either control looks at, or further apart";
-                    self.taken.get_or_insert(("numbers that are compared", how));
+                    self.taken.get_or_insert(ControlFact::NearerNumbers);
                 }
                 Some(within(Binary::Equal, a.clone(), b.clone(), tolerance))
             }
@@ -225,15 +225,15 @@ impl Over<'_> {
                 Some(binary_node(Binary::Add, one, binary_node(Binary::Multiply, first, a.clone())))
             }
             (Function::Floor, [a]) if self.has(Function::Truncate) => {
-                self.never_negative(a, "what is rounded down");
+                self.never_negative(a, ControlFact::RoundedDown);
                 Some(call(Function::Truncate, a.clone()))
             }
             (Function::Ceiling, [a]) if self.has(Function::RoundUp) => {
-                self.never_negative(a, "what is rounded up");
+                self.never_negative(a, ControlFact::RoundedUp);
                 Some(call(Function::RoundUp, a.clone()))
             }
             (Function::Remainder, [a, b]) => {
-                self.never_negative(a, "what is divided for a remainder");
+                self.never_negative(a, ControlFact::Divided);
                 Some(binary_node(Binary::Modulo, a.clone(), b.clone()))
             }
             _ => None,
@@ -245,9 +245,9 @@ impl Over<'_> {
         self.computes.worth && self.has(Function::Floor) && self.has(Function::Ceiling)
     }
 
-    fn never_negative(&mut self, a: &Expr, what: &'static str) {
+    fn never_negative(&mut self, a: &Expr, assumption: ControlFact) {
         if self.decimals.may_be_negative(a) {
-            self.taken.get_or_insert((what, "never negative, as in this program"));
+            self.taken.get_or_insert(assumption);
         }
     }
 

@@ -7,6 +7,7 @@
 use crate::pass::Pass;
 use crate::values::variables::expressions;
 use ncc_ir::computed::computes::Computes;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Unary};
 use ncc_ir::program::Program;
@@ -36,9 +37,7 @@ pub fn run(program: &mut Program, computes: &Computes, diags: &mut Vec<Diagnosti
         });
     }
     if let Some(at) = reported {
-        let parameter = "numbers that are compared".into();
-        let value = "the same, or further apart than the control's tolerance".into();
-        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
+        diags.push(Diagnostic::new(Fault::AssumedFact { fact: ControlFact::NearNumbers }, at));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Operator, Quantity, RemainderRule};
 use ncc_ir::canon::Units;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::system::System;
@@ -65,9 +66,8 @@ impl Lower {
         };
         let counted = matches!(quantity, Quantity::Length | Quantity::Angle);
         if counted && self.assume && !std::mem::replace(&mut self.reported.increment, true) {
-            let parameter = "increment to which computed words are rounded".into();
-            let value = spell(Num { mantissa: 1, scale: digits, point: true, unit: Unit::One }).into();
-            out.report(Fault::AssumedParameter { parameter, value }, word.span);
+            let increment = spell(Num { mantissa: 1, scale: digits, point: true, unit: Unit::One }).into();
+            out.report(Fault::AssumedFact { fact: ControlFact::WordIncrement { increment } }, word.span);
         }
         let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
         self.mean(&mut expr, &rounded, word.span, out);

@@ -1,5 +1,6 @@
 //! Bodies of decisions and loops: how they are opened, closed and left.
 
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, partial_expr};
 use ncc_ir::program::{Control, Op, Stmt};
@@ -152,8 +153,7 @@ impl Lower {
             *now = next;
             if now.as_ref().is_some_and(partial_expr::may_fail) {
                 // The control works it out and stops, whatever held before.
-                let parameter = "elseif can be worked out where it is passed over".into();
-                out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+                out.report(Fault::AssumedFact { fact: ControlFact::ElseIf }, span);
             }
         }
         open.at = None;

@@ -7,6 +7,7 @@
 
 use crate::values::variables::expressions;
 use ncc_ir::computed::computes::{Computes, Remainders};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::decimals::Decimals;
 use ncc_ir::expr::types::Types;
@@ -49,9 +50,7 @@ pub(super) fn run(program: &mut Program, from: &Computes, to: &Computes, diags: 
 }
 
 fn tell(at: Span, diags: &mut Vec<Diagnostic>) {
-    let parameter = "numbers divided for a remainder".into();
-    let value = "whole, as in this program".into();
-    diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
+    diags.push(Diagnostic::new(Fault::AssumedFact { fact: ControlFact::WholeRemainder }, at));
 }
 
 /// The angle of an arc, brought between 0 and a turn: a function of the control does that, and no operator.

@@ -5,6 +5,7 @@ use std::cell::Cell;
 
 use crate::values::variables::{each_value, expressions};
 use ncc_ir::canon::Distance;
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::decimals::Decimals;
 use ncc_ir::expr::num::{Num, Unit};
@@ -47,9 +48,7 @@ pub(super) fn up(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     };
     program.procedures.iter_mut().for_each(|procedure| expressions(&mut procedure.body, every));
     if let Some(at) = at {
-        let parameter = "what is rounded up".into();
-        let value = "never negative, as in this program".into();
-        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
+        diags.push(Diagnostic::new(Fault::AssumedFact { fact: ControlFact::RoundedUp }, at));
     }
 }
 
@@ -135,9 +134,7 @@ pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec
         round_in(&mut procedure.body, digits, incremental, &decimals, &mut adds_up);
     }
     if let Some(at) = adds_up {
-        let parameter = "increments that the control rounds".into();
-        let value = "no further off together than its last digit, as in this program".into();
-        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
+        diags.push(Diagnostic::new(Fault::AssumedFact { fact: ControlFact::RoundedIncrements }, at));
     }
 }
 
