@@ -143,6 +143,22 @@ pub enum What {
         /// Its name.
         name: Text,
     },
+    /// A thread with a pitch of no standard.
+    ThreadPitch {
+        /// Its pitch, nanos of a millimetre.
+        pitch: Nanos,
+        /// The standard pitch nearest to it, in proportion.
+        nearest: StandardPitch,
+    },
+}
+
+/// A pitch of a standard, as the standard states it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StandardPitch {
+    /// Nanos of a millimetre.
+    Metric(Nanos),
+    /// Threads in two inches: 23 are 11½ per inch.
+    InTwoInches(u8),
 }
 
 impl What {
@@ -165,6 +181,7 @@ impl What {
             What::JumpNowhere { .. } => Rule::JumpNowhere,
             What::AfterEnd | What::AfterJump => Rule::Unreachable,
             What::NeverCalled { .. } => Rule::NeverCalled,
+            What::ThreadPitch { .. } => Rule::ThreadPitch,
         }
     }
 }

@@ -24,7 +24,7 @@ mod seen;
 mod watch;
 mod watched;
 
-pub use finding::{Finding, Findings, LeftOn, Outside, Setting, What};
+pub use finding::{Finding, Findings, LeftOn, Outside, Setting, StandardPitch, What};
 pub use limits::{Limits, Unchecked};
 pub use rule::{Rule, Severity};
 pub use watch::{Checked, Checker, Refusal};

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use ncc_ir::canon::AXES;
-use ncc_ir::expr::num::Num;
+use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::source::Span;
 
 use crate::limits::Unchecked;
@@ -38,6 +38,12 @@ impl SpindleMet {
     pub(crate) fn held() -> SpindleMet {
         SpindleMet { reported: true, ..SpindleMet::default() }
     }
+}
+
+/// Pitches of no standard since the last tool change: the pitch, its last place, and its finding.
+#[derive(Debug, Default)]
+pub(crate) struct ThreadMet {
+    pub(crate) reported: Vec<(Nanos, Span, usize)>,
 }
 
 /// Numbers that were met.

@@ -77,6 +77,8 @@ rules! {
     Unreachable = 813, "unreachable", Warning, "Blocks that are never executed.";
     /// A subprogram of the text that nothing calls.
     NeverCalled = 814, "never-called", Note, "A subprogram of the text that nothing calls.";
+    /// A tap or a thread with a pitch of no standard.
+    ThreadPitch = 815, "thread-pitch", Warning, "A tap is fed with a pitch that no standard thread has.";
 }
 
 impl Rule {

@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 use crate::finding::{Finding, LeftOn, What};
 use crate::limits::{Limits, Unchecked};
 use crate::met::SpindleMet;
-use crate::rules::{feed, left, length, points, rapid, speed, spindle, travel};
+use crate::rules::{feed, left, length, points, rapid, speed, spindle, thread, travel};
 use crate::seen::Known;
 use crate::watched::{Step, Watched};
 
@@ -246,6 +246,7 @@ impl Checker {
             }
             Kind::Synchronised { .. } => {
                 spindle::cut(&mut self.watched, event, self.last);
+                thread::cut(&mut self.watched, event);
                 self.moved(step, event);
             }
             Kind::Orient(_) => {
@@ -255,6 +256,7 @@ impl Checker {
             }
             Kind::ToolChange => {
                 spindle::changed(&mut self.watched);
+                thread::changed(&mut self.watched);
                 length::changed(&mut self.watched, event);
             }
             // Spindle and coolant stay on for the next pass.

@@ -9,7 +9,7 @@ use ncc_ir::source::Span;
 
 use crate::finding::{Finding, Findings, What};
 use crate::limits::{Limits, Unchecked};
-use crate::met::{FeedMet, PointsMet, SpindleMet, TravelMet};
+use crate::met::{FeedMet, PointsMet, SpindleMet, ThreadMet, TravelMet};
 use crate::seen::Seen;
 
 /// The data that the rules share while one program is checked.
@@ -22,6 +22,7 @@ pub(crate) struct Watched {
     pub(crate) travel: TravelMet,
     pub(crate) feed: FeedMet,
     pub(crate) spindle: SpindleMet,
+    pub(crate) thread: ThreadMet,
     pub(crate) points: PointsMet,
     /// Work offset and length that `seen.base` was found out for.
     pub(crate) based: Option<Based>,
@@ -56,6 +57,7 @@ impl Watched {
             travel: TravelMet::default(),
             feed: FeedMet::default(),
             spindle: SpindleMet::default(),
+            thread: ThreadMet::default(),
             points: PointsMet::default(),
             based: None,
             cancels_length: false,

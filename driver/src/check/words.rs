@@ -1,6 +1,6 @@
 //! Chooses the entry of `messages/` for a finding, with its values. Lists the checks that were not made.
 
-use ncc_check::{Checked, Finding, LeftOn, Outside, Unchecked, What};
+use ncc_check::{Checked, Finding, LeftOn, Outside, StandardPitch, Unchecked, What};
 use ncc_ir::expr::num::Nanos;
 
 use crate::render::messages::message::{Message, Part};
@@ -8,6 +8,13 @@ use crate::render::messages::message::{Message, Part};
 /// A value in nanos, as a decimal without zeros at its end.
 pub fn decimal(nanos: Nanos) -> String {
     let text = format!("{:.6}", nanos as f64 / 1e9);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A pitch that was computed from F and S, to a micrometre, or to three figures where it is smaller.
+fn pitch_of(nanos: Nanos) -> String {
+    let digits = if nanos < 100_000_000 { 6 } else { 3 };
+    let text = format!("{:.digits$}", nanos as f64 / 1e9);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -62,6 +69,18 @@ pub(super) fn message(finding: &Finding) -> Message {
             m.text("name", name.to_string())
         }
         What::AfterEnd => m.form("end"),
+        What::ThreadPitch { pitch, nearest } => {
+            let m = m.text("pitch", pitch_of(*pitch));
+            match nearest {
+                StandardPitch::Metric(nearest) => m.text("nearest", decimal(*nearest)),
+                StandardPitch::InTwoInches(threads) => {
+                    let nearest = 50.8 / f64::from(*threads);
+                    m.form("inch")
+                        .text("nearest", format!("{nearest:.3}"))
+                        .text("threads", decimal(Nanos::from(*threads) * 500_000_000))
+                }
+            }
+        }
     }
 }
 
@@ -149,6 +168,8 @@ mod tests {
             What::AfterEnd,
             What::AfterJump,
             What::NeverCalled { name: name() },
+            What::ThreadPitch { pitch: nanos, nearest: StandardPitch::Metric(nanos) },
+            What::ThreadPitch { pitch: nanos, nearest: StandardPitch::InTwoInches(23) },
         ];
         all.extend(left.map(What::Left));
         let mut codes: Vec<u16> = all.iter().map(|what| what.rule().code()).collect();

@@ -13,4 +13,5 @@ pub(crate) mod points;
 pub(crate) mod rapid;
 pub(crate) mod speed;
 pub(crate) mod spindle;
+pub(crate) mod thread;
 pub(crate) mod travel;

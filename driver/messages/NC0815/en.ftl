@@ -1,0 +1,6 @@
+NC0815 = thread pitch { $pitch } mm: no standard thread has it
+    .label = the nearest standard pitch is { $nearest } mm
+    .help = feed = speed × pitch: compare F and S with the tap
+NC0815-inch = thread pitch { $pitch } mm: no standard thread has it
+    .label = the nearest is { $nearest } mm ({ $threads } threads per inch)
+    .help = feed = speed × pitch: compare F and S with the tap
