@@ -40,6 +40,9 @@ pub struct CodeRow {
     /// The name by which it is refused.
     #[serde(default)]
     pub refuse: Option<String>,
+    /// Where it is refused, what to do instead.
+    #[serde(default)]
+    pub help: Option<RefusalHelp>,
     /// Its modal group: two codes of a group exclude each other in a block. Empty for one-shots.
     #[serde(default)]
     pub group: String,
@@ -123,6 +126,18 @@ impl CodeRow {
         let axes: Vec<Axis> = self.turns.bytes().filter_map(linear).collect();
         axes.try_into().ok().filter(|_| self.turns.len() == 3 && self.words.len() == 3)
     }
+}
+
+/// What to do instead of something that is refused, where a name and a manual do not suffice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RefusalHelp {
+    /// Post a pocket as moves: the control computes its path.
+    Pocket,
+    /// Delete the blocks that set and read a timer.
+    Timer,
+    /// Probe with a code that stops if nothing is touched.
+    Probe,
 }
 
 /// When a code acts that is refused under cutter radius compensation, in a block with a code of compensation.

@@ -11,7 +11,7 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::ToolValue;
 
-use crate::codes::{CodeIndex, CodeRow};
+use crate::codes::{CodeIndex, CodeRow, RefusalHelp};
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
 use crate::schema::{Dialect, OptionRow};
@@ -30,6 +30,7 @@ impl Dialect {
             count: None,
             means: Some(means),
             refuse: None,
+            help: None,
             group: String::new(),
             words: String::new(),
             turns: String::new(),
@@ -90,6 +91,15 @@ impl Dialect {
     pub(crate) fn sets_offsets(&self) -> [bool; 3] {
         let any = |kind: DataKind, adds: bool| self.data.iter().any(|r| r.kind == kind && (r.adds || !adds));
         [any(DataKind::Offset, false), any(DataKind::Offset, true), any(DataKind::OffsetHere, false)]
+    }
+
+    /// What to do instead of what is refused by this name.
+    pub fn refusal_help(&self, name: &str) -> Option<RefusalHelp> {
+        let codes = self.code.iter().map(|row| (&row.refuse, row.help));
+        let names = self.name.iter().map(|row| (&row.refuse, row.help));
+        let system = self.system.iter().map(|row| (&row.refuse, row.help));
+        let mut all = codes.chain(names).chain(system);
+        all.find_map(|(refuse, help)| help.filter(|_| refuse.as_deref() == Some(name)))
     }
 
     /// Values of the control's own that have numbers, with these; in the unit in force.

@@ -40,6 +40,9 @@ const WHEN: &str = "when";
 /// Fields of a row that exclude each other.
 const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
 
+/// The field of a row that goes with `refuse`.
+const HELP: &str = "help";
+
 /// Fields that a dictionary does not inherit.
 pub(crate) const OWN: [&str; 3] = ["id", "title", "base"];
 
@@ -215,7 +218,7 @@ fn merge_rows<'i>(
                 if EXCLUSIVE.iter().any(|word| over.contains_key(*word))
                     && matches!(table, "code" | "name" | "system")
                 {
-                    for word in EXCLUSIVE {
+                    for word in EXCLUSIVE.into_iter().chain([HELP]) {
                         merged.remove(word);
                     }
                 }

@@ -9,6 +9,7 @@ use std::str::FromStr;
 use ncc_ir::canon::RotaryWay;
 use serde::Deserialize;
 
+use crate::codes::RefusalHelp;
 use crate::meaning::Meaning;
 use crate::words::Quantity;
 
@@ -32,6 +33,9 @@ pub struct NameRow {
     /// The name by which it is refused.
     #[serde(default)]
     pub refuse: Option<String>,
+    /// Where it is refused, what to do instead.
+    #[serde(default)]
+    pub help: Option<RefusalHelp>,
     /// Its modal group, shared with the codes; empty for one-shots and addresses.
     #[serde(default)]
     pub group: String,

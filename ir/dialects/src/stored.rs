@@ -10,6 +10,8 @@ use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::ToolValue;
 use serde::Deserialize;
 
+use crate::codes::RefusalHelp;
+
 /// A table that a code with a number puts values into: `G10 L2`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -163,6 +165,8 @@ pub struct SystemRow {
     pub zero: bool,
     /// What it is, if it is not translated.
     pub refuse: Option<String>,
+    /// Where it is refused, what to do instead.
+    pub help: Option<RefusalHelp>,
     /// Who says so.
     pub source: String,
 }

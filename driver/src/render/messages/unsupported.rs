@@ -1,7 +1,7 @@
 //! What to type where a code is not supported.
 
 use ncc_dialects::{
-    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, Role,
+    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, RefusalHelp, Role,
 };
 use ncc_ir::expr::system::System;
 use ncc_ir::unsupported::{
@@ -20,7 +20,7 @@ pub(super) fn helps(code: &str, what: &Unsupported, from: &Dialect) -> Option<Ve
         return Some(vec![typed]);
     }
     let all = match what {
-        Code(CodeUnsupported::Named { name }) => vec![Help::new(of_name(name)?)],
+        Code(CodeUnsupported::Named { name }) => vec![Help::new(of_refusal(from.refusal_help(name)?))],
         Call(CallUnsupported::MainReturn) => vec![Help::new("help-run-once"), Help::new("help-subprogram")],
         Cycle(CycleUnsupported::DwellByOption { option, .. })
         | Spindle(SpindleUnsupported::AngleByOption { option, .. }) => vec![of_option(option, from)?],
@@ -46,18 +46,13 @@ pub(super) fn helps(code: &str, what: &Unsupported, from: &Dialect) -> Option<Ve
     Some(all)
 }
 
-/// The help for what a dictionary refuses by this name.
-fn of_name(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "time that goes on while it is read" => "help-timer",
-        "whether a probe has touched" => "help-probe",
-        "pocket milling"
-        | "circular pocket clockwise"
-        | "circular pocket counter-clockwise"
-        | "circular pocket, clockwise"
-        | "circular pocket, counterclockwise" => "help-pocket",
-        _ => return None,
-    })
+/// The entry of a help that a dictionary names.
+fn of_refusal(help: RefusalHelp) -> &'static str {
+    match help {
+        RefusalHelp::Pocket => "help-pocket",
+        RefusalHelp::Timer => "help-timer",
+        RefusalHelp::Probe => "help-probe",
+    }
 }
 
 /// A help that names an option and a value of it.
