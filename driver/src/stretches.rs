@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 use ncc_ir::expr::Expr;
 use ncc_ir::program::packed::PackedLines;
-use ncc_ir::program::shapes::WordShape;
+use ncc_ir::program::shapes::{WordRole, WordShape};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 
@@ -137,22 +137,28 @@ impl Became<'_> {
             for (from, to) in from.to.axes.iter_mut().zip(&to.to.axes) {
                 let (Some(from), Some(to)) = (from, to) else { continue };
                 if matches!(from.value, Expr::Node(_)) {
-                    if !self.became(&from.value, &to.value) {
+                    if !self.became(WordRole::Axis, &from.value, &to.value) {
                         return false;
                     }
                     from.value = to.value.clone();
                 }
             }
         }
+        if let (Op::SetFeedRate(from @ Expr::Node(_)), Op::SetFeedRate(to)) = (&mut own.op, &there.op) {
+            if !self.became(WordRole::Feed, from, to) {
+                return false;
+            }
+            *from = to.clone();
+        }
         own.op == there.op && own.skip == there.skip && own.joined == there.joined
     }
 
     /// Whether a word has become this, with the same numbers, as all of its shape have.
-    fn became(&mut self, from: &Expr, to: &Expr) -> bool {
-        let Some(own) = WordShape::of(from) else { return from == to };
+    fn became(&mut self, role: WordRole, from: &Expr, to: &Expr) -> bool {
+        let Some(own) = WordShape::of(role, from) else { return from == to };
         let Some(new) = own.become_of(from, to) else { return false };
-        match self.shapes.iter().find(|[own, _]| own.fits(from)) {
-            Some([_, known]) => known.fits(to),
+        match self.shapes.iter().find(|[own, _]| own.fits(role, from)) {
+            Some([_, known]) => known.fits(role, to),
             None => {
                 self.shapes.push([own, new]);
                 true
@@ -161,7 +167,7 @@ impl Became<'_> {
     }
 
     fn of(&self, shape: &WordShape) -> Option<WordShape> {
-        let found = self.shapes.iter().find(|[own, _]| own.fits(shape.expr()));
+        let found = self.shapes.iter().find(|[own, _]| own.fits(shape.role(), shape.expr()));
         found.map(|[_, new]| new.clone())
     }
 }
@@ -291,9 +297,13 @@ mod tests {
         assert!(stand(&stretches, &body).is_none());
     }
 
-    /// Moves by what is computed, of two shapes.
+    /// Moves and feeds by what is computed, of three shapes; the feed has one that an axis has too.
     fn computed() -> String {
-        let word = |n: u32| if n.is_multiple_of(3) { format!("Y[#2-{}.]", n % 7) } else { String::new() };
+        let word = |n: u32| match n % 3 {
+            0 => format!("Y[#2-{}.]", n % 7),
+            1 => format!("F[#1+{}.]", n % 50 + 200),
+            _ => "F#3".to_owned(),
+        };
         (0..300).map(|n| format!("X[#1+{n}.5]{}\n", word(n))).collect()
     }
 
@@ -307,8 +317,10 @@ mod tests {
             }
             expr.parts_mut().for_each(rename);
         }
-        if let Op::StraightFeed(to) = &mut stmt.op {
-            to.to.axes.iter_mut().flatten().for_each(|word| rename(&mut word.value));
+        match &mut stmt.op {
+            Op::StraightFeed(to) => to.to.axes.iter_mut().flatten().for_each(|word| rename(&mut word.value)),
+            Op::SetFeedRate(feed) => rename(feed),
+            _ => {}
         }
     }
 
@@ -352,7 +364,7 @@ mod tests {
             let mut other = body.clone();
             let Op::StraightFeed(to) = &mut other[place].op else { panic!("a move") };
             let word = to.to.axes[0].as_mut().expect("its X");
-            let numbered = WordShape::of(&word.value).expect("a shape");
+            let numbered = WordShape::of(WordRole::Axis, &word.value).expect("a shape");
             word.value = numbered.with(&[Num { scale: 1, point: true, ..Num::int(1, Unit::One) }]);
             assert!(stand(&stretches, &other).is_none());
         }
@@ -375,7 +387,9 @@ mod tests {
             let came = runner.run(&mut exec, usize::MAX, &mut events);
             (events, came)
         };
-        for before in ["", "#1=1.\n", "#1=1.2345\n#2=-3.00051\n", "#1=1E14\n#2=1.\n"] {
+        let none = ["", "#1=1.\n", "#1=1.2345\n#2=-3.00051\n", "#3=70.5\n"];
+        let faulty = ["#1=1E14\n#2=1.\n", "#1=-240.\n#3=9.\n", "#3=0.\n", "#3=-1.\n"];
+        for before in none.into_iter().chain(faulty) {
             assert_eq!(events(before, true), events(before, false), "{before}");
         }
         let (events, came) = events("#1=2.\n#2=7.\n", true);

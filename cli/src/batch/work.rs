@@ -277,7 +277,7 @@ impl Bench<'_> {
             let range = store.lock().unwrap_or_else(PoisonError::into_inner).put(write);
             let range = range.map_err(|e| cannot(&path, &e))?;
             row.outputs.push(path.display().to_string());
-            Ok(Held { path, otherwise: None, range, shared })
+            Ok::<Held, Problem>(Held { path, otherwise: None, range, shared })
         };
         for file in &mut outcome.files {
             let path = main.with_file_name(file.name(&file_name(&main)));

@@ -224,7 +224,7 @@ impl Loaded {
     ) -> Result<InForce, Problem> {
         let row = &self.project.rows[at];
         let mut machine = |machine: &Option<MachineRef>| match machine {
-            None => Ok(None),
+            None => Ok::<_, Problem>(None),
             Some(MachineRef::Inline(profile, span)) => {
                 let profile = Arc::new(Profile::clone(profile));
                 Ok(Some(Row { profile, named: None, found: None, line: self.line(span.start) }))

@@ -44,7 +44,7 @@ impl Start {
 pub fn assumed(at: &[Option<Nanos>; AXES]) -> Vec<Diagnostic> {
     let stated = Axis::ALL.iter().zip(at).filter_map(|(axis, at)| Some((axis, (*at)?)));
     let fault = |(axis, at): (&Axis, Nanos)| Fault::AssumedFact {
-        assumption: ControlFact::AxisAtStart { axis: *axis, place: signed(at).into() },
+        fact: ControlFact::AxisAtStart { axis: *axis, place: signed(at).into() },
     };
     stated.map(|stated| Diagnostic::new(fault(stated), Span::default())).collect()
 }

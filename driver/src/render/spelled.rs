@@ -2,6 +2,7 @@
 
 use ncc_dialects::{CycleRow, Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Kept};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::ModeName;
 
 use super::messages::message::{Message, Part};

@@ -6,7 +6,7 @@ use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::packing::packs;
-use ncc_ir::program::shapes::{WordShape, each_number};
+use ncc_ir::program::shapes::{WordRole, WordShape, each_number};
 use ncc_ir::program::{Op, Stmt};
 
 /// Which words are packed.
@@ -40,18 +40,22 @@ impl Kinds {
         let own = bits(stmt);
         let mut more = own & !self.bits != 0;
         self.bits |= own;
-        if let Op::StraightFeed(to) | Op::StraightTraverse(to) = &stmt.op {
-            for word in to.to.axes.iter().flatten().filter(|word| matches!(word.value, Expr::Node(_))) {
-                more |= self.has_more_words(&word.value);
+        match &stmt.op {
+            Op::StraightFeed(to) | Op::StraightTraverse(to) => {
+                for word in to.to.axes.iter().flatten().filter(|word| matches!(word.value, Expr::Node(_))) {
+                    more |= self.has_more_words(WordRole::Axis, &word.value);
+                }
             }
+            Op::SetFeedRate(feed @ Expr::Node(_)) => more |= self.has_more_words(WordRole::Feed, feed),
+            _ => {}
         }
         more
     }
 
-    fn has_more_words(&mut self, word: &Expr) -> bool {
-        let shape = self.shapes.iter().position(|shape| shape.fits(word)).unwrap_or_else(|| {
-            self.shapes.extend(WordShape::of(word));
-            self.shapes.len()
+    fn has_more_words(&mut self, role: WordRole, word: &Expr) -> bool {
+        let shape = self.shapes.iter().position(|shape| shape.fits(role, word)).unwrap_or_else(|| {
+            self.shapes.extend(WordShape::of(role, word));
+            self.shapes.len().saturating_sub(1)
         });
         let (mut numbers, mut digits) = (0, 0);
         each_number(word, &mut |num| {
@@ -84,6 +88,7 @@ pub(super) fn computes(stmt: &Stmt) -> bool {
         Op::StraightFeed(to) | Op::StraightTraverse(to) => {
             to.to.axes.iter().flatten().any(|word| matches!(word.value, Expr::Node(_)))
         }
+        Op::SetFeedRate(feed) => matches!(feed, Expr::Node(_)),
         _ => false,
     }
 }
@@ -94,7 +99,8 @@ pub(super) fn bits(stmt: &Stmt) -> u32 {
     let (words, feed) = match &stmt.op {
         Op::StraightFeed(to) => (&to.to, true),
         Op::StraightTraverse(to) => (&to.to, false),
-        _ => return 1 << 6,
+        Op::SetFeedRate(Expr::Node(_)) => return 1 << 6 | 1 << 16,
+        _ => return 1 << 6 | 1 << 17,
     };
     let mut bits = 0;
     for (axis, word) in words.axes[..Axis::A as usize].iter().enumerate() {

@@ -5,7 +5,7 @@
 use std::convert::Infallible;
 
 use super::packed::{InForce, PackedLines};
-use super::shapes::{MOST_NUMBERS, WordShape, each_number, has_shape, packs_num};
+use super::shapes::{MOST_NUMBERS, WordRole, WordShape, each_number, has_shape, packs_num};
 use super::{Coord, Move, Op, Point, Stmt};
 use crate::canon::{AXES, Axis, Distance, Fact};
 use crate::expr::Expr;
@@ -35,6 +35,11 @@ fn place<T: PartialEq>(all: &[T], value: &T) -> u8 {
     all.iter().position(|own| own == value).unwrap_or(0) as u8
 }
 
+/// Words that may be computed: three axes, and the feed.
+const WORDS: usize = 4;
+/// Place of the feed among them.
+const FEED_WORD: usize = Axis::A as usize;
+
 /// Most shapes of a stretch; 0 is that of a literal.
 const MOST_SHAPES: usize = 255;
 
@@ -43,8 +48,8 @@ fn packs_number(value: &Expr) -> bool {
 }
 
 /// Whether a statement may be packed: a straight move in X, Y and Z by words that are no increments (moves behind a
-/// stretch could not say again where it leaves the tool), literals or computed ones that have a shape, or a feed by a
-/// literal, without a comment, that no switch leaves out.
+/// stretch could not say again where it leaves the tool), literals or computed ones that have a shape, or a feed by
+/// such a word, without a comment, that no switch leaves out.
 pub fn packs(stmt: &Stmt) -> bool {
     stmt.skip.is_none()
         && stmt.comment.is_none()
@@ -63,7 +68,7 @@ pub fn packs(stmt: &Stmt) -> bool {
                 }) && linear.iter().flatten().all(packs)
                     && rotary.iter().all(Option::is_none)
             }
-            Op::SetFeedRate(feed) => packs_number(feed),
+            Op::SetFeedRate(feed) => packs_number(feed) || has_shape(feed),
             _ => false,
         }
 }
@@ -80,11 +85,11 @@ fn form_of(axes: &[Option<Coord>], before: (u8, u8)) -> (u8, u8) {
 }
 
 /// The place of a word's shape among those that are known, from 1 on; `None` where there are too many.
-fn shape_of(word: &Expr, shapes: &mut Vec<WordShape>) -> Option<u8> {
-    if let Some(at) = shapes.iter().position(|shape| shape.fits(word)) {
+fn shape_of(role: WordRole, word: &Expr, shapes: &mut Vec<WordShape>) -> Option<u8> {
+    if let Some(at) = shapes.iter().position(|shape| shape.fits(role, word)) {
         return Some(at as u8 + 1);
     }
-    shapes.push(WordShape::of(word)?);
+    shapes.push(WordShape::of(role, word)?);
     (shapes.len() <= MOST_SHAPES).then_some(shapes.len() as u8)
 }
 
@@ -114,7 +119,7 @@ pub struct Packing {
     end: u32,
     number: u32,
     form: (u8, u8),
-    shaped: [u8; 3],
+    shaped: [u8; WORDS],
     last: Span,
     statements: u32,
     blocks: u32,
@@ -153,7 +158,13 @@ impl Packing {
             let Some(word) = word else { continue };
             *shaped = match &word.value {
                 Expr::Num(_) => 0,
-                value => shape_of(value, &mut self.shapes)?,
+                value => shape_of(WordRole::Axis, value, &mut self.shapes)?,
+            };
+        }
+        if let Op::SetFeedRate(feed) = &stmt.op {
+            shaped[FEED_WORD] = match feed {
+                Expr::Num(_) => 0,
+                value => shape_of(WordRole::Feed, value, &mut self.shapes)?,
             };
         }
         let form = form_of(axes, self.form);
@@ -188,9 +199,13 @@ impl Packing {
                 value => each_number(value, &mut |num| put_number(bytes, num)),
             }
         }
-        if let Op::SetFeedRate(Expr::Num(num)) = &stmt.op {
-            bytes.push(place(&UNITS, &num.unit));
-            put_number(bytes, *num);
+        match &stmt.op {
+            Op::SetFeedRate(Expr::Num(num)) => {
+                bytes.push(place(&UNITS, &num.unit));
+                put_number(bytes, *num);
+            }
+            Op::SetFeedRate(feed) => each_number(feed, &mut |num| put_number(bytes, num)),
+            _ => {}
         }
         self.last = stmt.span;
         self.statements += 1;
@@ -235,7 +250,7 @@ impl PackedLines {
             end: 0,
             number: 0,
             form: (0, 0),
-            shaped: [0; 3],
+            shaped: [0; WORDS],
             in_force: self.in_force,
         }
     }
@@ -249,7 +264,7 @@ pub struct Unpack<'p> {
     end: u32,
     number: u32,
     form: (u8, u8),
-    shaped: [u8; 3],
+    shaped: [u8; WORDS],
     in_force: InForce,
 }
 
@@ -291,8 +306,18 @@ impl Unpack<'_> {
         Some(Num { mantissa, scale: (value & 15) as u8, point: value >> 4 & 1 == 1, unit })
     }
 
+    /// The numbers of a computed word, as many as its shape has.
+    fn numbers(&mut self, shape: usize) -> Option<([Num; MOST_NUMBERS], usize)> {
+        let mut numbers = [Num::int(0, Unit::One); MOST_NUMBERS];
+        let many = self.shapes.get(shape).map_or(0, WordShape::numbers);
+        for number in &mut numbers[..many] {
+            *number = self.num(Unit::One)?;
+        }
+        Some((numbers, many))
+    }
+
     /// The next statement. What the words are that are computed, `word` says of their shape's place and their numbers;
-    /// `None` leaves them out.
+    /// `None` leaves them out, and of a feed alone [`Op::Blank`] is left.
     ///
     /// # Errors
     /// The first of `word`, with the statement's place.
@@ -303,10 +328,20 @@ impl Unpack<'_> {
     ) -> Result<Option<Stmt>, (Span, E)> {
         let Some((first, span, number)) = self.head() else { return Ok(None) };
         let op = if first & 3 == RATE {
-            let feed = self.byte().and_then(|unit| self.num(UNITS[usize::from(unit)]));
-            let Some(mut feed) = feed else { return Ok(None) };
-            feed.unit = self.in_force.unit(feed.unit);
-            Op::SetFeedRate(feed.into())
+            match self.shaped[FEED_WORD] {
+                0 => {
+                    let feed = self.byte().and_then(|unit| self.num(UNITS[usize::from(unit)]));
+                    let Some(mut feed) = feed else { return Ok(None) };
+                    feed.unit = self.in_force.unit(feed.unit);
+                    Op::SetFeedRate(feed.into())
+                }
+                shape => {
+                    let shape = usize::from(shape) - 1;
+                    let Some((numbers, many)) = self.numbers(shape) else { return Ok(None) };
+                    let feed = word(shape, &numbers[..many]).map_err(|why| (span, why))?;
+                    feed.map_or(Op::Blank, Op::SetFeedRate)
+                }
+            }
         } else {
             let unit = self.in_force.unit(UNITS[usize::from(self.form.0)]);
             let distance = self.in_force.distance(DISTANCES[usize::from(self.form.1)]);
@@ -322,12 +357,7 @@ impl Unpack<'_> {
                     }
                     shape => {
                         let shape = usize::from(shape) - 1;
-                        let mut numbers = [Num::int(0, Unit::One); MOST_NUMBERS];
-                        let many = self.shapes.get(shape).map_or(0, WordShape::numbers);
-                        for number in &mut numbers[..many] {
-                            let Some(num) = self.num(Unit::One) else { return Ok(None) };
-                            *number = num;
-                        }
+                        let Some((numbers, many)) = self.numbers(shape) else { return Ok(None) };
                         word(shape, &numbers[..many]).map_err(|why| (span, why))?
                     }
                 };
@@ -347,7 +377,7 @@ impl Unpack<'_> {
             if first & SAID == 0 {
                 self.form = (self.byte()?, self.byte()?);
             } else {
-                self.shaped = [self.byte()?, self.byte()?, self.byte()?];
+                self.shaped = [self.byte()?, self.byte()?, self.byte()?, self.byte()?];
             }
             first = self.byte()?;
         }
@@ -424,12 +454,16 @@ mod tests {
                 };
                 *axis = word.map(|num| Coord { value: value(num), distance: DISTANCES[distance] });
             }
-            let rate = words[0].map_or(Num::int(1, Unit::Mm), |num| Num { unit: UNITS[unit], ..num });
+            let literal = words[0].map_or(Num::int(1, Unit::Mm), |num| Num { unit: UNITS[unit], ..num });
+            let rate = match (words[1], shapes[1]) {
+                (Some(num), Some(shape)) => shaped(shape, num),
+                _ => literal.into(),
+            };
             let to = Move { to: Point { axes }, said };
             let op = match kind {
                 FEED => Op::StraightFeed(to),
                 TRAVERSE => Op::StraightTraverse(to),
-                _ => Op::SetFeedRate(rate.into()),
+                _ => Op::SetFeedRate(rate),
             };
             Stmt { span: Span::new(start, start + length), number, skip: None, joined, comment: None, op }
         }
@@ -475,7 +509,7 @@ mod tests {
             Op::StraightFeed(to)
         };
         let num = Num::int(1, Unit::One);
-        assert!(packed(computed(shaped(2, num))));
+        assert!(packed(computed(shaped(2, num))) && packed(Op::SetFeedRate(shaped(2, num))));
         assert!(!packed(computed(shaped(2, Num { unit: Unit::Mm, ..num }))));
         assert!(!packed(computed(Expr::Node(Box::new(Node::Call(Function::Sin, vec![shaped(0, num)]))))));
     }

@@ -20,9 +20,19 @@ pub(super) fn packs_num(num: Num) -> bool {
     num.mantissa.unsigned_abs() < MOST && num.scale < 16
 }
 
+/// What a computed word says: steps may write the same expression in another way in each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WordRole {
+    /// Where an axis goes.
+    Axis,
+    /// The feed.
+    Feed,
+}
+
 /// The shape of computed words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WordShape {
+    role: WordRole,
     expr: Expr,
     numbers: usize,
 }
@@ -30,10 +40,15 @@ pub struct WordShape {
 impl WordShape {
     /// The shape of an expression; `None` where it is a literal, or more than sums, differences, products and quotients
     /// of variables and of numbers without a unit, and their rounding to some digits. How many digits is of the shape.
-    pub fn of(expr: &Expr) -> Option<WordShape> {
+    pub fn of(role: WordRole, expr: &Expr) -> Option<WordShape> {
         let mut numbers = 0;
         let packs = matches!(expr, Expr::Node(_)) && is_plain(expr, &mut numbers);
-        (packs && numbers <= MOST_NUMBERS).then(|| WordShape { expr: expr.clone(), numbers })
+        (packs && numbers <= MOST_NUMBERS).then(|| WordShape { role, expr: expr.clone(), numbers })
+    }
+
+    /// What such a word says.
+    pub fn role(&self) -> WordRole {
+        self.role
     }
 
     /// How many numbers such a word has.
@@ -47,8 +62,8 @@ impl WordShape {
     }
 
     /// Whether a word is such a one.
-    pub fn fits(&self, word: &Expr) -> bool {
-        is_alike(&self.expr, word)
+    pub fn fits(&self, role: WordRole, word: &Expr) -> bool {
+        self.role == role && is_alike(&self.expr, word)
     }
 
     /// The word with these numbers.
@@ -58,8 +73,8 @@ impl WordShape {
 
     /// The shape of a word that stands for one of this shape: `None` where not all of its numbers are the same.
     pub fn become_of(&self, from: &Expr, to: &Expr) -> Option<WordShape> {
-        let there = WordShape::of(to)?;
-        (self.fits(from) && numbers_of(from).eq(&numbers_of(to))).then_some(there)
+        let there = WordShape::of(self.role, to)?;
+        (self.fits(self.role, from) && numbers_of(from).eq(&numbers_of(to))).then_some(there)
     }
 }
 

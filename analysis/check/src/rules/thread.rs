@@ -9,15 +9,14 @@ use crate::watched::Watched;
 
 /// Standard pitches in micrometres: ISO 261, and ISO 1501 for the smallest.
 const METRIC: [Nanos; 32] = [
-    80, 90, 100, 125, 150, 175, 200, 225, 250, 300, 350, 400, 450, 500, 600, 700, 750, 800, 1000, 1250, 1500, 1750,
-    2000, 2500, 3000, 3500, 4000, 4500, 5000, 5500, 6000,
-    8000,
+    80, 90, 100, 125, 150, 175, 200, 225, 250, 300, 350, 400, 450, 500, 600, 700, 750, 800, 1000, 1250, 1500,
+    1750, 2000, 2500, 3000, 3500, 4000, 4500, 5000, 5500, 6000, 8000,
 ];
 
 /// Threads in two inches: Unified (ASME B1.1), Whitworth (BS 84), and pipe threads (ISO 228, ASME B1.20.1).
 const IN_TWO_INCHES: [u8; 31] = [
-    8, 9, 10, 12, 14, 16, 18, 20, 22, 23, 24, 26, 28, 32, 36, 38, 40, 48, 52, 54, 56, 64, 72, 80, 88, 96, 112, 128,
-    144, 160, 200,
+    8, 9, 10, 12, 14, 16, 18, 20, 22, 23, 24, 26, 28, 32, 36, 38, 40, 48, 52, 54, 56, 64, 72, 80, 88, 96,
+    112, 128, 144, 160, 200,
 ];
 
 /// How far a pitch may be from a standard one, in thousandths of it: F has few digits.
@@ -47,7 +46,8 @@ pub(crate) fn cut(checker: &mut Watched, event: &Event) {
         (own.max(pitch) as f64 / own.min(pitch) as f64 * 1e9) as Nanos
     };
     let Some(nearest) = all().min_by_key(apart) else { return };
-    if let Some(index) = checker.findings.add(Finding::new(What::ThreadPitch { pitch, nearest }, event.span)) {
+    if let Some(index) = checker.findings.add(Finding::new(What::ThreadPitch { pitch, nearest }, event.span))
+    {
         checker.thread.reported.push((pitch, event.span, index));
     }
 }

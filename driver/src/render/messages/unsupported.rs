@@ -1,7 +1,8 @@
 //! What to type where a code is not supported.
 
 use ncc_dialects::{
-    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID, RefusalHelp, Role,
+    CodeRow, DWELL_REFUSED, Dialect, MACHINE_WITHOUT_AXIS, Meaning, NO_RADIUS, NOTHING, RADIUS_UNSAID,
+    RefusalHelp, Role,
 };
 use ncc_ir::expr::system::System;
 use ncc_ir::unsupported::{

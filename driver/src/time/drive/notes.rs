@@ -74,13 +74,9 @@ impl<'d> Drive<'d> {
 
     /// Takes the control's own parameters of a cycle from the dictionary.
     pub(super) fn parameters(&mut self, kind: &CycleKind, span: Span) {
-        let (option, name, drill) = match kind {
-            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
-                (PECK_CLEARANCE, "clearance of peck drilling", true)
-            }
-            CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
-                (BREAK_LIFT, "lift of chip-breaking drilling", false)
-            }
+        let (option, drill) = match kind {
+            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => (PECK_CLEARANCE, true),
+            CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => (BREAK_LIFT, false),
             CycleKind::Drill
             | CycleKind::DrillDwell { .. }
             | CycleKind::DrillPeck { .. }
@@ -99,11 +95,11 @@ impl<'d> Drive<'d> {
                     self.exec.set_break_lift(nanos);
                 }
                 let length = (nanos as f64 / 1e9).to_string().into();
-                let assumption = match drill {
+                let fact = match drill {
                     true => ControlFact::PeckClearance { length },
                     false => ControlFact::BreakLift { length },
                 };
-                self.take(Diagnostic::new(Fault::AssumedFact { fact: assumption }, span));
+                self.take(Diagnostic::new(Fault::AssumedFact { fact }, span));
             }
             None => {
                 let what = match drill {

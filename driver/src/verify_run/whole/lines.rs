@@ -29,10 +29,11 @@ impl Verifier {
         runners: &mut [Runner<'p>; 2],
         forks: Option<&Forks<'p>>,
     ) -> Result<bool, Diagnostic> {
-        let there = runners.iter_mut().any(|runner| !runner.lines_ahead().is_empty());
+        let [one, other] = runners;
+        let there = !one.lines_ahead(&run.source).is_empty() || !other.lines_ahead(&run.target).is_empty();
         runners.iter_mut().for_each(|runner| runner.halt_at_lines(!there));
         let [one, other] = runners;
-        let [source, target] = [one.lines_ahead(), other.lines_ahead()];
+        let [source, target] = [one.lines_ahead(&run.source), other.lines_ahead(&run.target)];
         let same = source.iter().zip(target).take_while(|(a, b)| same_plain(a, b)).count();
         let (source, target) = (&source[..same], &target[..same]);
         let level = run.source_events.is_empty() && run.target_events.is_empty();

@@ -10,6 +10,7 @@ use crate::run::term::{Indexed, Names, Place, Term};
 use ncc_ir::expr::{Expr, Target};
 use ncc_ir::program::arguments;
 use ncc_ir::program::packed::PackedLines;
+use ncc_ir::program::shapes::{WordRole, WordShape};
 use ncc_ir::program::{Call, Control, Declare, Op, Procedure, Program, Stmt};
 
 /// The place of a step in [`Code::steps`].
@@ -139,7 +140,7 @@ pub(crate) struct Code<'p> {
     pub(crate) steps: Vec<Step<'p>>,
     pub(crate) computed: Vec<Computed<'p>>,
     /// Shapes of words of packed moves.
-    pub(crate) shapes: Vec<Box<[Term]>>,
+    pub(crate) shapes: Vec<Box<[(Term, WordRole)]>>,
     pub(crate) names: Names,
 }
 
@@ -293,7 +294,9 @@ impl<'p> Maker<'p> {
             }
             Op::Return => Step::Return(stmt),
             Op::Lines(lines) => {
-                let shapes = lines.shapes().iter().map(|shape| self.code.names.term(shape.expr())).collect();
+                let names = &mut self.code.names;
+                let term = |shape: &WordShape| (names.term(shape.expr()), shape.role());
+                let shapes = lines.shapes().iter().map(term).collect();
                 self.code.shapes.push(shapes);
                 Step::Lines(stmt, lines, self.code.shapes.len() as u32 - 1)
             }

@@ -54,7 +54,7 @@ impl Runner<'_> {
         out: &mut Vec<Event>,
         halts: impl Fn(&Exec, &Stmt) -> bool,
     ) -> Result<Halt, Diagnostic> {
-        while out.len() < enough && !self.is_before_lines() {
+        while out.len() < enough && !self.is_before_lines(exec) {
             let Some(stmt) = self.next(exec)? else { return Ok(Halt::Done) };
             if halts(exec, stmt) {
                 return Ok(Halt::Before(stmt.clone()));

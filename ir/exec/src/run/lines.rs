@@ -7,10 +7,12 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::value::{self, Value};
 use ncc_ir::expr::{Expr, Unary};
-use ncc_ir::program::Stmt;
 use ncc_ir::program::packed::PackedLines;
 use ncc_ir::program::packing::Unpack;
+use ncc_ir::program::shapes::WordRole;
+use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::unexecuted::ValueUnexecuted;
 
 use crate::run::term::{Names, Term, Variables, Why, literal, real};
 
@@ -30,17 +32,26 @@ pub(crate) struct LinesAhead<'p> {
 /// The values of the words of a run's packed moves.
 #[derive(Clone, Copy)]
 pub(crate) struct Worth<'a> {
-    pub(crate) shapes: &'a [Term],
+    pub(crate) shapes: &'a [(Term, WordRole)],
     pub(crate) names: &'a Names,
     pub(crate) variables: &'a Variables,
+    /// Whether feeds are inverse times.
+    pub(crate) per_time: bool,
 }
 
 impl Worth<'_> {
     /// A word of a shape with these numbers.
     fn word(self, shape: usize, numbers: &[Num]) -> Result<Option<Expr>, Fault> {
-        let Some(term) = self.shapes.get(shape) else { return Ok(None) };
+        let Some((term, role)) = self.shapes.get(shape) else { return Ok(None) };
         let value = self.value(term, &mut numbers.iter()).map_err(|why| self.names.fault(why))?;
-        Ok(literal(value, Unit::Entry)?.map(Expr::Num))
+        let unit = match role {
+            WordRole::Feed if matches!(value, Value::Number(feed) if feed <= 0.0) => {
+                return Err(Fault::not_executed(ValueUnexecuted::NotPositive));
+            }
+            WordRole::Feed if self.per_time => Unit::One,
+            WordRole::Axis | WordRole::Feed => Unit::Entry,
+        };
+        Ok(literal(value, unit)?.map(Expr::Num))
     }
 
     /// As [`Variables::value`], with these numbers.
@@ -93,6 +104,8 @@ impl<'p> LinesAhead<'p> {
         self.done = 0;
         while self.now.len() < AT_ONCE {
             match rest.next_by(&mut |shape, numbers| worth.word(shape, numbers)) {
+                // A feed without a value says nothing.
+                Ok(Some(Stmt { op: Op::Blank, .. })) => {}
                 Ok(Some(stmt)) => self.now.push(stmt),
                 Ok(None) => break,
                 Err((span, fault)) => {

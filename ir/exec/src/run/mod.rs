@@ -31,6 +31,7 @@ use crate::run::nesting::{Blocks, Frame};
 pub use crate::run::repeated::again;
 use crate::run::required_arguments::required_arguments;
 use crate::run::term::{Asked, Indexed, Place, Term, Variables, Why};
+use ncc_ir::canon::FeedMode;
 use ncc_ir::computed::computed_code::is_last;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
@@ -246,7 +247,7 @@ impl<'p> Runner<'p> {
             }
             let step = &code.steps[self.at as usize];
             if let Step::Lines(..) = step {
-                match self.lines_ahead().first().map(|stmt| stmt.span) {
+                match self.lines_ahead(exec).first().map(|stmt| stmt.span) {
                     Some(span) => return self.next_line(before, span),
                     None => match self.lines.fault() {
                         Some(fault) => return Err(fault.clone()),
@@ -361,13 +362,18 @@ impl<'p> Runner<'p> {
     }
 
     /// Some of the packed moves that come next, if they do.
-    pub fn lines_ahead(&mut self) -> &[Stmt] {
+    pub fn lines_ahead(&mut self, exec: &Exec) -> &[Stmt] {
         if self.at == self.end {
             return &[];
         }
         let Code { steps, shapes, names, .. } = &*self.code;
         let Some(Step::Lines(_, lines, at)) = steps.get(self.at as usize) else { return &[] };
-        let worth = Worth { shapes: &shapes[*at as usize], names, variables: &self.variables };
+        let worth = Worth {
+            shapes: &shapes[*at as usize],
+            names,
+            variables: &self.variables,
+            per_time: exec.state.feed_mode == FeedMode::InverseTime,
+        };
         if self.lines.of(lines, worth).is_empty() && self.lines.fault().is_none() {
             self.lines.leave();
             self.at += 1;
@@ -383,8 +389,8 @@ impl<'p> Runner<'p> {
 
     /// Whether the run halts here: before packed moves, or behind the first of them where control has come to it.
     #[inline]
-    fn is_before_lines(&mut self) -> bool {
-        self.halts_at_lines && !self.lines_ahead().is_empty()
+    fn is_before_lines(&mut self, exec: &Exec) -> bool {
+        self.halts_at_lines && !self.lines_ahead(exec).is_empty()
     }
 
     /// Another run has executed so many of [`Runner::lines_ahead`] for this one as well, and so many events came of it.
