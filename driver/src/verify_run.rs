@@ -76,6 +76,17 @@ fn own_facts(job: &Job) -> Modes {
 }
 
 impl Verifier {
+    /// A verifier of what ncc itself writes. Where the source's operator changes tools, its words move Z to machine zero
+    /// before the first tool, too, and later moves may rely on that: the output must do the same. Of two programs that
+    /// somebody has written, the first change is passed over, because the target's machine may stand up there anyway.
+    pub(crate) fn of_translation(job: &Job) -> Verifier {
+        let mut verifier = Verifier::new(job);
+        if job.from.dialect.can.change_by_hand {
+            verifier.runs.iter_mut().for_each(|run| run.target.counts_z_at_start());
+        }
+        verifier
+    }
+
     pub(crate) fn new(job: &Job) -> Verifier {
         let renaming = job.renaming();
         let mut finest = resolution(&job.to);
@@ -114,9 +125,6 @@ impl Verifier {
         if job.works_compensation_out() {
             let rules = job.compensating().rules;
             runs.iter_mut().for_each(|run| run.source.compute_compensation(rules));
-        }
-        if job.from.dialect.can.change_by_hand {
-            runs.iter_mut().for_each(|run| run.target.counts_z_at_start());
         }
         if job.between_controls() {
             runs.iter_mut()

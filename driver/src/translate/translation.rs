@@ -132,7 +132,7 @@ impl<'j> Translation<'j> {
             legaliser,
             writer,
             text: Vec::new(),
-            verifier: job.verify.then(|| Verifier::new(job)),
+            verifier: job.verify.then(|| Verifier::of_translation(job)),
             beside: None,
             goes_beside: false,
             pieces_here: 0,
