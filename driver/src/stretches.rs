@@ -373,8 +373,8 @@ mod tests {
     /// Packed moves are executed as all of them are: to the same events, and to the same fault in the same place.
     #[test]
     fn packed_moves_are_worth_what_their_words_are() {
-        let events = |before: &str, packs: bool| {
-            let mut body = read(&format!("{HEAD}{before}{}", computed()));
+        let events = |before: &str, moves: &str, packs: bool| {
+            let mut body = read(&format!("{HEAD}{before}{moves}"));
             if packs {
                 pack(&mut body, SHORTEST, Words::All);
             }
@@ -389,10 +389,19 @@ mod tests {
         };
         let none = ["", "#1=1.\n", "#1=1.2345\n#2=-3.00051\n", "#3=70.5\n"];
         let faulty = ["#1=1E14\n#2=1.\n", "#1=-240.\n#3=9.\n", "#3=0.\n", "#3=-1.\n"];
+        let moves = computed();
         for before in none.into_iter().chain(faulty) {
-            assert_eq!(events(before, true), events(before, false), "{before}");
+            assert_eq!(events(before, &moves, true), events(before, &moves, false), "{before}");
         }
-        let (events, came) = events("#1=2.\n#2=7.\n", true);
-        assert!(events.len() > 290 && came.is_ok());
+        let (all, came) = events("#1=2.\n#2=7.\n", &moves, true);
+        assert!(all.len() > 290 && came.is_ok());
+        // An inverse time has no unit of length.
+        let timed: String = (0..300).map(|n| format!("X{n}.5 F[#2+{}.]\n", n % 9 + 1)).collect();
+        for modes in ["G93\n", "G20\nG93\n", "G20\n"] {
+            let before = format!("{modes}#2=0.25\n");
+            let packed = events(&before, &timed, true);
+            assert!(packed.0.len() > 290 && packed.1.is_ok(), "{modes}");
+            assert_eq!(packed, events(&before, &timed, false), "{modes}");
+        }
     }
 }
