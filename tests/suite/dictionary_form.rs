@@ -59,6 +59,7 @@ const VALUES: &[(&str, &str)] = &[
     ("DataKind", "[[data]]\nname = \"G10 L2\"\nkind = \"@\""),
     ("ValueName", "[[data]]\nname = \"G10 L2\"\nvalues = [{ of = \"@\" }]"),
     ("Sureness", "[[behaviour]]\nname = \"spindle-at-change\"\nsure = \"@\""),
+    ("RefusalHelp", "[[code]]\ncode = \"G1\"\nhelp = \"@\""),
     ("SafeStart", "safe_start = [\"@\"]"),
     ("Statement", "[formula]\nstatements = [\"@\"]"),
     ("Operator", "[formula.operators]\n@ = \"zz\""),

@@ -241,6 +241,6 @@ fn the_output_tells_what_it_takes_for_granted() {
         "%\nO1\nG21 G17 G90 G94 G54\nG00 X0. Y0. Z5.\n#1 = ROUND[#500 * 1.5]\nG01 X#1 F100.\nM30\n%\n";
     std::fs::write(folder.path().join("half.nc"), program).unwrap();
     let done = ncc(folder.path(), &["fanuc", "to", "siemens", "half.nc", "-v"]).exits(0);
-    let told = "half of a negative number, rounded assumed to be away from zero";
+    let told = "not stated: half of a negative number, rounded\n";
     assert_eq!(done.err.matches(told).count(), 1, "{}", done.err);
 }

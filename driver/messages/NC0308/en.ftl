@@ -1,3 +1,3 @@
-NC0308 = assumed: { $fact }
-    .label = a parameter of the machine decides
+NC0308 = not stated: { $name }
+    .label = assumed: { $value }
     .help = compare with the parameter on your machine

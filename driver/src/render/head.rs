@@ -122,7 +122,10 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedOption { option, value } => {
             head("fact").text("name", &**option).text("value", &**value)
         }
-        Fault::AssumedFact { fact } => return Some(spelled::assumed_fact(fact)),
+        Fault::AssumedFact { fact } => {
+            let [name, value] = spelled::assumed_fact(fact);
+            head("fact").text("name", name).text("value", value)
+        }
         // The head has a line of its own about them.
         Fault::ToolNumbered { .. } => return None,
         Fault::AssumedHoleOrder { pattern } => head("hole-order").text("pattern", &**pattern),

@@ -72,9 +72,10 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
     if words.is_empty() { plain(meaning) } else { words }
 }
 
-/// An assumption: `clearance of peck drilling = 1 mm`.
-pub(crate) fn assumed_fact(fact: &ControlFact) -> String {
-    Message::part(Part::ControlFact, "").reason(fact).headline()
+/// What ncc assumes of a control, and its value: `clearance of peck drilling`, `1 mm`.
+pub(crate) fn assumed_fact(fact: &ControlFact) -> [String; 2] {
+    let entry = Message::part(Part::ControlFact, "").reason(fact);
+    [entry.headline(), entry.attribute("value")]
 }
 
 /// What begins otherwise in the next run, where an open fact of the program's end decides it.

@@ -14,7 +14,7 @@ use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow};
 use crate::power_on::FeedModeName;
-use crate::words::{Address, Quantity, yes};
+use crate::words::{Address, Quantity, RefusalHelp, yes};
 
 /// A G or M code.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -126,18 +126,6 @@ impl CodeRow {
         let axes: Vec<Axis> = self.turns.bytes().filter_map(linear).collect();
         axes.try_into().ok().filter(|_| self.turns.len() == 3 && self.words.len() == 3)
     }
-}
-
-/// What to do instead of something that is refused, where a name and a manual do not suffice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RefusalHelp {
-    /// Post a pocket as moves: the control computes its path.
-    Pocket,
-    /// Delete the blocks that set and read a timer.
-    Timer,
-    /// Probe with a code that stops if nothing is touched.
-    Probe,
 }
 
 /// When a code acts that is refused under cutter radius compensation, in a block with a code of compensation.

@@ -63,4 +63,4 @@ pub use settings::{
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord, VariableName};
 
 pub use variants::{VariantBlock, VariantCan, VariantRow};
-pub use words::{Address, Bare, NumberRules, PointRule, Quantity, Role};
+pub use words::{Address, Bare, NumberRules, PointRule, Quantity, RefusalHelp, Role};

@@ -11,11 +11,12 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::ToolValue;
 
-use crate::codes::{CodeIndex, CodeRow, RefusalHelp};
+use crate::codes::{CodeIndex, CodeRow};
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
 use crate::schema::{Dialect, OptionRow};
 use crate::stored::{DataKind, DataRow, SystemRow};
+use crate::words::RefusalHelp;
 
 impl Dialect {
     /// Puts what an M code means on one machine in; where a row has its number, in the place of that one.

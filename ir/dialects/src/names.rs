@@ -9,9 +9,8 @@ use std::str::FromStr;
 use ncc_ir::canon::RotaryWay;
 use serde::Deserialize;
 
-use crate::codes::RefusalHelp;
 use crate::meaning::Meaning;
-use crate::words::Quantity;
+use crate::words::{Quantity, RefusalHelp};
 
 /// A word of several letters: `TRANS`, `SUPA`, `CR`. It has a meaning of its own, or it is an
 /// address with a value behind `=`, or it is refused by a name.

@@ -10,7 +10,7 @@ use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::ToolValue;
 use serde::Deserialize;
 
-use crate::codes::RefusalHelp;
+use crate::words::RefusalHelp;
 
 /// A table that a code with a number puts values into: `G10 L2`.
 #[derive(Clone, Debug, Deserialize)]

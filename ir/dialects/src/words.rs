@@ -142,3 +142,15 @@ pub enum Role {
 pub(crate) fn yes() -> bool {
     true
 }
+
+/// What to do instead of something that is refused, where a name and a manual do not suffice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RefusalHelp {
+    /// Post a pocket as moves: the control computes its path.
+    Pocket,
+    /// Delete the blocks that set and read a timer.
+    Timer,
+    /// Probe with a code that stops if nothing is touched.
+    Probe,
+}

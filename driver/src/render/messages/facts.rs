@@ -160,7 +160,10 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("code", shown(code)).text("meaning", row_meaning(code, meaning, [at.from, at.to]))
         }
         Fault::AssumedOption { option, value } => m.text("option", shown(option)).text("value", shown(value)),
-        Fault::AssumedFact { fact } => m.text("fact", assumed_fact(fact)),
+        Fault::AssumedFact { fact } => {
+            let [name, value] = assumed_fact(fact);
+            m.text("name", name).text("value", value)
+        }
         Fault::AssumedHoleOrder { pattern } => m.text("pattern", plain(pattern)),
         Fault::AssumedPath { path } => m.text("path", plain(path)),
         Fault::AssumedMilling { looks_like, .. } => m.text("looks", plain(looks_like)),

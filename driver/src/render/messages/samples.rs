@@ -22,7 +22,7 @@ use super::codes::typed;
 use super::context::Context;
 use super::facts::message;
 use super::files::{FILES, Files};
-use super::message::{Help, Message};
+use super::message::{Help, Message, Part};
 use super::words::words;
 
 /// A headline has at most so many characters, and a label: the form of a message, with short values.
@@ -402,6 +402,25 @@ fn every_reason_has_its_words() {
     known.sort_unstable();
     entries.sort_unstable();
     assert_eq!(entries, known);
+}
+
+/// Each fact of a control that ncc may assume has its words and a value, and both fit into NC0308; no entry is without one.
+#[test]
+fn every_control_fact_has_its_words() {
+    let words = include_str!("../../../messages/control-fact/en.ftl");
+    let mut entries: Vec<&str> = words.lines().filter_map(|line| line.strip_prefix("control-fact-")).collect();
+    entries.iter_mut().for_each(|line| *line = line.split(' ').next().unwrap_or_default());
+    let mut known: Vec<&str> = ControlFact::VARIANTS.iter().map(|(name, _)| *name).collect();
+    entries.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(entries, known);
+    for (name, fields) in ControlFact::VARIANTS {
+        let entry = Message::part(Part::ControlFact, "").reason(&Sample { name, fields, nested: None });
+        let shown = Message::new(308).text("name", entry.headline()).text("value", entry.attribute("value"));
+        let lengths = [shown.headline(), shown.label()].map(|words| words.chars().count());
+        assert!(lengths[0] <= HEADLINE && lengths[1] <= LABEL, "{name}: {lengths:?}");
+        assert!(!entry.attribute("value").is_empty(), "{name}");
+    }
 }
 
 /// A reason by its name.
