@@ -4,7 +4,7 @@
 //! G73 on a control whose machine has the lift    BreakLift { length: "0.5" }
 //! ```
 //!
-//! The driver alone has the words (`messages/assumption`). Lengths are mm, spelt.
+//! The driver alone has the words (`messages/control-fact`). Lengths are mm, spelt.
 
 use crate::canon::Axis;
 use crate::reason::reasons;

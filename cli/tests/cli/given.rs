@@ -236,7 +236,7 @@ fn an_elseif_that_may_stop_its_control_is_told() {
     };
     fs::write(folder.join("stops.ngc"), program("4 / #1")).unwrap();
     fs::write(folder.join("goes.ngc"), program("4 * #1")).unwrap();
-    let told = "elseif can be worked out where it is passed over = yes";
+    let told = "elseif has a value where it is passed over = yes";
     ncc(folder, &["linuxcnc", "to", "fanuc", "stops.ngc"]).exits(0).says(told);
     ncc(folder, &["linuxcnc", "to", "fanuc", "stops.ngc", "-v"]).exits(0).says("stops.ngc:5:");
     let goes = ncc(folder, &["linuxcnc", "to", "fanuc", "goes.ngc"]).exits(0).err;

@@ -197,7 +197,7 @@ fn text_for_a_device() {
     write("sizes.nc", source);
     for to in ["fanuc", "haas"] {
         let told = run(&["fanuc", "to", to, "sizes.nc", "-o", "out.nc"]).exits(0).err;
-        let blanks = "not empty, of no more digits than it has places, blanks before it (`-v` lists them)";
+        let blanks = "never empty or too long; blanks stand before them";
         assert_eq!(told.contains(blanks), to == "haas", "{told}");
         let written = read("out.nc");
         let lines =

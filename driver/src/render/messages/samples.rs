@@ -408,7 +408,8 @@ fn every_reason_has_its_words() {
 #[test]
 fn every_control_fact_has_its_words() {
     let words = include_str!("../../../messages/control-fact/en.ftl");
-    let mut entries: Vec<&str> = words.lines().filter_map(|line| line.strip_prefix("control-fact-")).collect();
+    let mut entries: Vec<&str> =
+        words.lines().filter_map(|line| line.strip_prefix("control-fact-")).collect();
     entries.iter_mut().for_each(|line| *line = line.split(' ').next().unwrap_or_default());
     let mut known: Vec<&str> = ControlFact::VARIANTS.iter().map(|(name, _)| *name).collect();
     entries.sort_unstable();
