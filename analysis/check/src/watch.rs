@@ -74,20 +74,12 @@ impl Checker {
             tilted: exec.is_tilted(),
         };
         self.before(stmt);
-        let saved = (exec.feed() == 0 && cuts(&stmt.op, exec)).then(|| exec.clone());
         let mut events = std::mem::take(&mut self.events);
         events.clear();
-        let mut done = exec.step(stmt, &mut events);
-        if let (Err(Diagnostic { fault: Fault::NoFeed, .. }), Some(saved)) = (&done, saved) {
-            feed::missing(&mut self.watched, stmt.span);
-            *exec = saved;
-            events.clear();
-            let one = Expr::Num(Num { mantissa: 1, scale: 0, point: true, unit: Unit::Mm });
-            // It cannot fail; the feed that follows from it is not looked at.
-            let _ = exec.step(&Stmt::new(stmt.span, Op::SetFeedRate(one)), &mut events);
-            events.clear();
-            done = exec.step(stmt, &mut events);
-        }
+        let done = match exec.feed() == 0 && cuts(&stmt.op, exec) {
+            true => self.step_without_feed(stmt, exec, &mut events),
+            false => exec.step(stmt, &mut events),
+        };
         if let Err(refusal) = done {
             self.events = events;
             self.last = exec.machine();
@@ -102,6 +94,30 @@ impl Checker {
         }
         self.events = events;
         None
+    }
+
+    /// Executes a cut before any feed is set. If the control refuses it for that, it is reported, and executed with a
+    /// feed.
+    #[cold]
+    fn step_without_feed(
+        &mut self,
+        stmt: &Stmt,
+        exec: &mut Exec,
+        events: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let saved = exec.clone();
+        let done = exec.step(stmt, events);
+        if !matches!(done, Err(Diagnostic { fault: Fault::NoFeed, .. })) {
+            return done;
+        }
+        feed::missing(&mut self.watched, stmt.span);
+        *exec = saved;
+        events.clear();
+        let one = Expr::Num(Num { mantissa: 1, scale: 0, point: true, unit: Unit::Mm });
+        // It cannot fail; the feed that follows from it is not looked at.
+        let _ = exec.step(&Stmt::new(stmt.span, Op::SetFeedRate(one)), events);
+        events.clear();
+        exec.step(stmt, events)
     }
 
     /// A block that was not read: what it may have changed is not known from here.
