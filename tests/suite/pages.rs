@@ -92,7 +92,7 @@ fn pair(page: &Page, from: &str, to: &str) -> Result<bool, String> {
         return Err(said());
     }
     let judge = Judge::new(&job, left.text.as_bytes()).map_err(|e| e.to_string())?;
-    let judged = judge.judge(right.text.as_bytes());
+    let judged = judge.judge_another(right.text.as_bytes());
     let differs = page.fact("differs").is_some_and(|d| d.split(' ').any(|d| d == direction));
     match (judged, differs) {
         (Ok(_), false) => Ok(written == right.text.as_bytes()),

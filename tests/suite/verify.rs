@@ -108,7 +108,7 @@ fn a_mutant_is_different() {
             let step = (mutants.len() / SAMPLE).max(1);
             for mutant in mutants.iter().skip(at % step).step_by(step) {
                 let found = verify(&job, &program.text, &mutant.text);
-                let differs = judge.judge(&mutant.text).is_err();
+                let differs = judge.judge_another(&mutant.text).is_err();
                 let what = format!("{}/{} to {to}: {:?}", program.dialect, program.file, mutant.change);
                 match (found.verdict(), differs) {
                     (Word::Different | Word::NotCompared, true) => caught += 1,

@@ -41,12 +41,23 @@ impl<'j> Judge<'j> {
         Ok(Judge { job, source, inherited, outcome })
     }
 
-    /// Compares a text in the target dialect with the source.
+    /// Compares a text that ncc has emitted, or one made of it, with the source: as strictly as a translation.
     ///
     /// # Errors
     /// What differs, or why the text cannot be read or executed.
     pub fn judge(&self, text: &[u8]) -> Result<Verified, Diagnostic> {
-        let mut verifier = Verifier::new(self.job);
+        self.judge_by(Verifier::of_translation(self.job), text)
+    }
+
+    /// Compares a text that somebody else has written with the source, as two programs are compared.
+    ///
+    /// # Errors
+    /// As of [`Judge::judge`].
+    pub fn judge_another(&self, text: &[u8]) -> Result<Verified, Diagnostic> {
+        self.judge_by(Verifier::new(self.job), text)
+    }
+
+    fn judge_by(&self, mut verifier: Verifier, text: &[u8]) -> Result<Verified, Diagnostic> {
         verifier.take(&self.outcome.diagnostics, self.job);
         match verifier.whole(&self.source, text, 0, &self.inherited) {
             Ok(()) => Ok(verifier.covered()),
