@@ -47,7 +47,7 @@ pub struct Problem {
     pub help: Vec<String>,
 }
 
-/// What is wrong with a request for the compiler as a library.
+/// A fault of a request for the compiler as a library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RequestFault {
     /// It is not of the form; the reader's words.

@@ -1,4 +1,4 @@
-//! What ncc assumes of a control or machine where no word of the program, no option and no profile states it, as data.
+//! Facts of a control or machine that ncc assumes, because the program, the options and the profile do not state them.
 //!
 //! ```text
 //! G73 on a control whose machine has the lift    BreakLift { length: "0.5" }

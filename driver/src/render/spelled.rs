@@ -72,7 +72,7 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
     if words.is_empty() { plain(meaning) } else { words }
 }
 
-/// What ncc assumes of a control, and its value: `clearance of peck drilling`, `1 mm`.
+/// A fact that ncc assumes of a control, and its value: `clearance of peck drilling`, `1 mm`.
 pub(crate) fn assumed_fact(fact: &ControlFact) -> [String; 2] {
     let entry = Message::part(Part::ControlFact, "").reason(fact);
     [entry.headline(), entry.attribute("value")]

@@ -177,7 +177,7 @@ impl SideEffects {
         }
     }
 
-    /// Where words move Z to machine zero before each tool change, on either side, the first one is no exception.
+    /// Words of one side move Z to machine zero before each tool change, the first one included.
     #[must_use]
     pub fn with_words_at_change(mut self) -> SideEffects {
         self.z_home = false;
