@@ -6,9 +6,12 @@ use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::{Procedure, Program, Stmt};
 
 use crate::characters::encode;
+use crate::common::Sink;
+use crate::common::table::write_table;
 use crate::origin::Trace;
 use crate::{Characters, Form, Head, Layout, Origin, canon, ir, siemens, word};
 
@@ -189,6 +192,26 @@ impl Writer {
             Kind::Ir(writer) => writer.write(stmts, assumed, out, diags),
         }
         encode(out, start, self.characters);
+    }
+
+    /// Writes further lines of the main procedure; `false`, and then nothing was done, where they are to be written as
+    /// statements.
+    pub fn table(
+        &mut self,
+        table: &LineTable,
+        assumed: &Modes,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> bool {
+        let start = out.len();
+        let mut sink = Sink { out, diags };
+        let written = match &mut self.kind {
+            Kind::Word(writer) => write_table(&mut **writer, table, assumed, &mut sink),
+            Kind::Siemens(writer) => write_table(&mut **writer, table, assumed, &mut sink),
+            Kind::Canon(_) | Kind::Ir(_) => false,
+        };
+        encode(out, start, self.characters);
+        written
     }
 
     /// Writes a subprogram, after all of the main procedure.

@@ -173,6 +173,7 @@ impl Order {
             piece: PIECE,
             shortest_stretch: ncc_driver::job::SHORTEST_STRETCH,
             one_thread: false,
+            tables: true,
             deny: args.deny.clone(),
         })
     }

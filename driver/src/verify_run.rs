@@ -17,6 +17,7 @@ pub mod forks;
 mod holes;
 mod levels;
 pub mod per_tool;
+mod table;
 pub mod twice;
 mod verifier;
 pub mod whole;
@@ -289,6 +290,11 @@ impl Verifier {
     ) -> Result<(), Stop> {
         self.make_holes()?;
         self.reader.read(text, base, &mut self.batch);
+        self.piece_read(stmts, assumed, inherited)
+    }
+
+    /// The same of a text that has been read.
+    fn piece_read(&mut self, stmts: &[Stmt], assumed: &Modes, inherited: &Modes) -> Result<(), Stop> {
         if !self.same_plain(stmts) {
             self.source(stmts, assumed)?;
             return self.target_read(inherited);

@@ -5,13 +5,21 @@
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
+use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::{Op, Procedure, ProgramName, Stmt};
 use ncc_ir::source::Span;
+
+use crate::common::fast_lower::{FastLine, FastLower};
 
 /// What reading a piece of text gave. The vectors are drained by the caller between pieces and
 /// their memory is used again.
 #[derive(Debug, Default)]
 pub struct Batch {
+    /// Lines of the main procedure before its further statements, where they were asked for as a table
+    /// ([`Reader::read_to_table`](crate::Reader::read_to_table)).
+    pub table: LineTable,
+    /// Whether they are.
+    pub(crate) tabled: bool,
     /// Further statements of the main procedure.
     pub stmts: Vec<Stmt>,
     /// Subprograms that are complete.
@@ -44,12 +52,63 @@ impl Batch {
         Procedure { body, ..heading }
     }
 
-    /// Where further statements go: into the subprogram that is being read, else into the main procedure.
+    /// Where further statements go: into the subprogram that is being read, else into the main procedure. Whoever looks
+    /// there finds all of them as statements.
     #[inline]
     pub(crate) fn body<'o>(&'o mut self, sub: &'o mut Option<Procedure>) -> &'o mut Vec<Stmt> {
         match sub {
             Some(procedure) => &mut procedure.body,
-            None => &mut self.stmts,
+            None => {
+                self.unpack_table();
+                &mut self.stmts
+            }
+        }
+    }
+
+    /// Makes statements of the table's rows.
+    #[inline]
+    pub fn unpack_table(&mut self) {
+        if !self.table.is_empty() {
+            self.unpack_rows();
+        }
+    }
+
+    #[cold]
+    fn unpack_rows(&mut self) {
+        let mut behind = std::mem::take(&mut self.stmts);
+        self.table.unpack(&mut self.stmts);
+        self.table.clear();
+        self.stmts.append(&mut behind);
+    }
+
+    /// Whether a line can go into the table, since nothing but lines has been read.
+    #[inline(always)]
+    fn takes_rows(&self, sub: &Option<Procedure>) -> bool {
+        self.tabled && self.stmts.is_empty() && sub.is_none() && !self.whole
+    }
+
+    /// Takes a plain line.
+    #[inline(always)]
+    pub(crate) fn plain_line(&mut self, sub: &mut Option<Procedure>, fast: &FastLower, line: &FastLine) {
+        if self.takes_rows(sub) && self.table.takes(fast.unit, fast.distance) {
+            self.table.push(line.row, fast.unit, line.feed);
+        } else {
+            line.row.unpack(fast.unit, fast.distance, line.feed.as_ref(), self.body(sub));
+        }
+    }
+
+    /// Takes a usual block, of which `push` makes the statements.
+    pub(crate) fn usual_block(
+        &mut self,
+        sub: &mut Option<Procedure>,
+        push: impl FnOnce(&mut Vec<Stmt>),
+    ) {
+        if !self.takes_rows(sub) {
+            return push(self.body(sub));
+        }
+        push(&mut self.stmts);
+        if self.table.push_block(&self.stmts) {
+            self.stmts.clear();
         }
     }
 }

@@ -180,6 +180,14 @@ impl Reader {
         self.state_corners(before, out);
     }
 
+    /// Reads further whole lines, and gives the plain moves before anything else as a table ([`Batch::table`]), which the
+    /// caller takes out before more is read.
+    pub fn read_to_table(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        out.tabled = self.corners.is_none();
+        self.read(text, base, out);
+        out.tabled = false;
+    }
+
     /// How many of the main procedure's statements are as they stay, whatever is read further, where they are plain moves
     /// and not of the last block: they may be packed ([`Op::Lines`](ncc_ir::program::Op::Lines)). None are where a
     /// structure is open, which knows its beginning by its place, or where blocks are looked for by their numbers.

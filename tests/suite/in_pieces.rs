@@ -64,6 +64,37 @@ fn a_program_is_verified_on_a_second_thread_as_on_one() {
     assert!(differing.is_empty(), "{}:\n{}", differing.len(), differing.join("\n"));
 }
 
+/// Nor on whether lines are read as tables: text, verdict and what is told are the same.
+#[test]
+fn a_program_in_tables_is_translated_as_in_statements() {
+    let targets = ["fanuc", "haas", "siemens", "linuxcnc", "mach9", "grbl", "canon", "ir"];
+    let mut differing = Vec::new();
+    let inches = |text: &[u8]| String::from_utf8_lossy(text).replace("G21", "G20").into_bytes();
+    let all = corpus::all().into_iter();
+    for (program, in_inches) in all.flat_map(|program| [(program.clone(), false), (program, true)]) {
+        let text = if in_inches { inches(&program.text) } else { program.text.clone() };
+        if in_inches && text == program.text {
+            continue;
+        }
+        for (to, one_thread) in targets.into_iter().zip([false, true].into_iter().cycle()) {
+            let mut job = job(program.dialect, to, &program.file);
+            (job.piece, job.one_thread) = (PIECE, one_thread);
+            let (tables, tables_written) = translate(&job, &text);
+            job.tables = false;
+            let (plain, plain_written) = translate(&job, &text);
+            let same = plain.release == tables.release
+                && plain_written == tables_written
+                && plain.diagnostics == tables.diagnostics
+                && (plain.statements, plain.blocks) == (tables.statements, tables.blocks)
+                && plain.verified.map(|own| own.events) == tables.verified.map(|own| own.events);
+            if !same {
+                differing.push(format!("{} {} to {to}: {:?}", program.dialect, program.file, tables.release));
+            }
+        }
+    }
+    assert!(differing.is_empty(), "{}:\n{}", differing.len(), differing.join("\n"));
+}
+
 /// A program with each plain move of it many times, so that there are stretches of them.
 fn stretched(text: &[u8]) -> Vec<u8> {
     // Computed words stand in brackets, or behind an equals sign.

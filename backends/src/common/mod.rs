@@ -21,6 +21,7 @@ pub(crate) mod number;
 pub(crate) mod packed;
 pub(crate) mod quoted;
 pub(crate) mod setting;
+pub(crate) mod table;
 pub(crate) mod words;
 
 use ncc_ir::diag::{Diagnostic, Fault};

@@ -49,6 +49,7 @@ use crate::common::codes::Letter;
 use crate::common::fault::{cannot, unwritable};
 use crate::common::number::{Format, Shaped};
 use crate::common::packed::{each_blocks, packed};
+use crate::common::table::WritesBlocks;
 use crate::common::words::Words;
 use crate::common::{Sink, number};
 
@@ -232,14 +233,7 @@ impl Writer {
     /// Writes a block that is nothing but a straight move, or leaves it untouched.
     #[inline]
     fn plain_block(&mut self, block: &[Stmt], sink: &mut Sink) -> bool {
-        let standing = &self.standing;
-        if standing.modal != Modal::Off || !standing.feed_said || standing.edge_waits {
-            return false;
-        }
-        if self.owed.is_some() || self.raw || self.basic_feed || self.stale {
-            return false;
-        }
-        let plain = self.words.plain_block(block, sink.out);
+        let plain = self.writes_plainly() && self.words.plain_block(block, sink.out);
         if let (true, Op::SetFeedRate(Expr::Num(feed))) = (plain, &block[0].op) {
             self.standing.feed = Some(*feed);
         }
@@ -249,7 +243,7 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.words.open_block(first);
-        self.words.numbers.seen(first);
+        self.words.numbers.seen(first.number, first.span);
         if self.alone && self.standing.modal == Modal::Doubtful && !self.cycled && executed(&first.op) {
             if let Err(fault) = self.end_modal(sink) {
                 sink.report(fault, first.span);
@@ -487,4 +481,25 @@ fn call_text(row: &CallRow, mut arguments: Vec<Option<String>>) -> String {
         })
         .collect();
     format!("{}({})", row.name, arguments.join(","))
+}
+
+impl WritesBlocks for Writer {
+    fn words(&mut self) -> &mut Words {
+        &mut self.words
+    }
+
+    #[inline]
+    fn writes_plainly(&self) -> bool {
+        let standing = &self.standing;
+        let said = standing.modal == Modal::Off && standing.feed_said && !standing.edge_waits;
+        said && self.owed.is_none() && !(self.raw || self.basic_feed || self.stale)
+    }
+
+    fn feed_stated(&mut self, feed: Num) {
+        self.standing.feed = Some(feed);
+    }
+
+    fn blocks(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        self.body(stmts, sink);
+    }
 }

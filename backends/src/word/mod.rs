@@ -26,6 +26,7 @@ mod statement;
 use ncc_dialects::{Dialect, Settings};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
+use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Op, Stmt, Text};
 
 use cycles::Held;
@@ -33,6 +34,7 @@ use cycles::Held;
 use crate::Layout;
 use crate::common::Sink;
 use crate::common::packed::{each_blocks, packed};
+use crate::common::table::WritesBlocks;
 use crate::common::words::Words;
 
 /// Choices of the dictionary's options that decide how a word reads back.
@@ -200,7 +202,7 @@ impl Writer {
     fn open_block(&mut self, first: &Stmt) {
         self.words.open_block(first);
         if !self.is_jumped_to(&first.op) {
-            self.words.numbers.seen(first);
+            self.words.numbers.seen(first.number, first.span);
         }
     }
 
@@ -214,12 +216,29 @@ impl Writer {
     /// Writes a block that is nothing but a straight move, or leaves it untouched.
     #[inline]
     fn plain_block(&mut self, block: &[Stmt], sink: &mut Sink) -> bool {
-        self.held.is_none() && !self.polar && self.words.plain_block(block, sink.out)
+        self.writes_plainly() && self.words.plain_block(block, sink.out)
     }
 
     /// Forgets everything that is in force: after a call, at a procedure's start.
     fn forget(&mut self) {
         self.words.forget();
         self.held = None;
+    }
+}
+
+impl WritesBlocks for Writer {
+    fn words(&mut self) -> &mut Words {
+        &mut self.words
+    }
+
+    #[inline]
+    fn writes_plainly(&self) -> bool {
+        self.held.is_none() && !self.polar
+    }
+
+    fn feed_stated(&mut self, _: Num) {}
+
+    fn blocks(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        self.body(stmts, sink);
     }
 }

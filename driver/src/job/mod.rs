@@ -104,6 +104,8 @@ pub struct Job {
     /// Whether a long program is verified on the thread that translates it: where other programs are translated beside it.
     /// What comes of it does not depend on it.
     pub one_thread: bool,
+    /// Whether lines of a program that streams are read as tables. What comes of it does not depend on it.
+    pub tables: bool,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
@@ -161,6 +163,7 @@ impl Job {
             piece: PIECE,
             shortest_stretch: SHORTEST_STRETCH,
             one_thread: false,
+            tables: true,
             allow: Vec::new(),
             deny: Vec::new(),
         }

@@ -17,6 +17,7 @@ use std::thread::{Builder, JoinHandle};
 
 use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
+use ncc_ir::program::line_table::LineTable;
 
 use crate::verify_run::{Stop, Verifier};
 
@@ -26,19 +27,29 @@ const AHEAD: usize = 2;
 /// The stack of the second thread, in bytes: that of a program's first thread.
 const STACK: usize = 8 << 20;
 
+/// What a text is to say of the source, one by one.
+pub(super) enum Saying {
+    Lines(Vec<Stmt>),
+    /// Lines, and arcs among them.
+    Arcs(Vec<Stmt>),
+    Table(LineTable),
+    /// Something else, which is executed by itself.
+    Otherwise,
+}
+
 /// A step of the verification, with what it works on.
 pub(super) enum Step {
     /// Statements of the source that the passes change.
     Source { stmts: Vec<Stmt>, assumed: Modes },
-    /// A piece of the output; `said` are the source's statements, where the text is to say them one by one, and there may be
-    /// `arcs` among them.
-    Text { said: Option<Vec<Stmt>>, arcs: bool, assumed: Modes, text: Vec<u8>, base: u32, inherited: Modes },
+    /// A piece of the output.
+    Text { said: Saying, assumed: Modes, text: Vec<u8>, base: u32, inherited: Modes },
 }
 
 /// What the step of a text has worked on, without its contents: its memory serves a later piece.
 #[derive(Default)]
 pub(super) struct Spare {
     pub(super) stmts: Option<Vec<Stmt>>,
+    pub(super) table: Option<LineTable>,
     pub(super) text: Option<Vec<u8>>,
 }
 
@@ -92,19 +103,31 @@ fn work(verifier: &mut Verifier, steps: &Receiver<Step>, done: &Sender<Spare>) -
     for step in steps {
         match step {
             Step::Source { stmts, assumed } => verifier.source(&stmts, &assumed)?,
-            Step::Text { mut said, arcs, assumed, mut text, base, inherited } => {
+            Step::Text { said, assumed, mut text, base, inherited } => {
                 match &said {
-                    Some(stmts) if arcs => {
+                    Saying::Lines(stmts) => verifier.piece(stmts, &assumed, &text, base, &inherited)?,
+                    Saying::Arcs(stmts) => {
                         verifier.source_said(stmts, &assumed)?;
                         verifier.target_saying(stmts, &text, base, &inherited)?;
                     }
-                    Some(stmts) => verifier.piece(stmts, &assumed, &text, base, &inherited)?,
-                    None => verifier.target(&text, base, &inherited)?,
+                    Saying::Table(table) => verifier.table(table, &assumed, &text, base, &inherited)?,
+                    Saying::Otherwise => verifier.target(&text, base, &inherited)?,
                 }
-                said.iter_mut().for_each(Vec::clear);
                 text.clear();
+                let mut spare = Spare { text: Some(text), ..Spare::default() };
+                match said {
+                    Saying::Lines(mut stmts) | Saying::Arcs(mut stmts) => {
+                        stmts.clear();
+                        spare.stmts = Some(stmts);
+                    }
+                    Saying::Table(mut table) => {
+                        table.clear();
+                        spare.table = Some(table);
+                    }
+                    Saying::Otherwise => {}
+                }
                 // Nobody waits for it at the end.
-                let _ = done.send(Spare { stmts: said, text: Some(text) });
+                let _ = done.send(spare);
             }
         }
     }

@@ -8,6 +8,7 @@
 //! `translation`   what is between source and output
 //! `pipeline`      the steps, from what was read to what is released
 //! `writing`       the text, and passing it on
+//! `tabled`        lines of a piece as a table
 //! `beside`        the verification on a second thread
 //! `per_tool`      a file for each use of a tool
 //! `outcome`       what comes of it at the end
@@ -27,6 +28,7 @@ mod snapshot;
 pub mod split;
 pub mod standalone_subprogram;
 mod straight;
+mod tabled;
 pub mod tools_by_name;
 mod translation;
 mod writing;
@@ -80,18 +82,28 @@ pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Ou
 type Run = (Outcome, Modes, Option<Recorded>);
 
 fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<Run> {
-    match attempt(job, asked, source, !job.one_thread)? {
+    match attempt(job, asked, source, Ways { threads: !job.one_thread, tables: job.tables })? {
         Some(run) => Ok(run),
         None => {
             source.rewind()?;
-            let run = attempt(job, asked, source, false)?;
-            Ok(run.expect("without a second thread nothing is thrown away"))
+            let run = attempt(job, asked, source, Ways { threads: false, tables: false })?;
+            Ok(run.expect("the usual way throws nothing away"))
         }
     }
 }
 
-/// Translates a program; `None` if a verification on a second thread stopped, so that it is to be done without one.
-fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, threads: bool) -> io::Result<Option<Run>> {
+/// Which faster ways may be taken.
+#[derive(Clone, Copy)]
+struct Ways {
+    /// A long program is verified on a second thread.
+    threads: bool,
+    /// Lines are read as tables.
+    tables: bool,
+}
+
+/// Translates a program; `None` if a faster way has come to something that it cannot report, so that it is to be done
+/// without any.
+fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, ways: Ways) -> io::Result<Option<Run>> {
     // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
     let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
     let reader = reader_for(job, true, source)?;
@@ -99,7 +111,8 @@ fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, threads: bool) ->
     let mut translation = Translation::new(job);
     translation.reader = reader;
     translation.batch.whole |= returns;
-    translation.goes_beside = threads && !asked.anything();
+    translation.goes_beside = ways.threads && !asked.anything();
+    translation.tables = ways.tables && !asked.anything();
     translation.record(asked);
     loop {
         match chunks.take()? {
@@ -114,7 +127,7 @@ fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, threads: bool) ->
             }
             Chunk::End => break,
         }
-        if translation.errors >= ENOUGH_ERRORS || translation.stopped_beside {
+        if translation.errors >= ENOUGH_ERRORS || translation.discarded {
             break;
         }
     }

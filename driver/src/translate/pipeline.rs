@@ -110,13 +110,18 @@ struct Refused;
 impl Translation<'_> {
     /// A piece of the source.
     pub(super) fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
-        self.reader.read(text, base, &mut self.batch);
+        if self.takes_tables() {
+            self.reader.read_to_table(text, base, &mut self.batch);
+        } else {
+            self.reader.read(text, base, &mut self.batch);
+        }
         self.take_diagnostics();
         // What the target computes is looked at by execution; what is kept already is not looked at again and again.
         if !self.batch.whole {
             self.batch.whole = machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
         }
         if self.batch.whole || !self.job.passes.is_empty() {
+            self.batch.unpack_table();
             if self.packs() {
                 let settled = self.reader.settled(&self.batch);
                 self.packer.pack(&mut self.batch.stmts, settled);
@@ -125,7 +130,8 @@ impl Translation<'_> {
         }
         self.count();
         self.verify_beside();
-        self.streamed(false)
+        self.tabled()?;
+        if self.batch.stmts.is_empty() { Ok(()) } else { self.streamed(false) }
     }
 
     /// The end of the source.

@@ -60,8 +60,11 @@ pub(super) struct Translation<'j> {
     pub(super) goes_beside: bool,
     /// Pieces since it began, or came back.
     pub(super) pieces_here: usize,
-    /// Whether it has stopped there: then this attempt is thrown away.
-    pub(super) stopped_beside: bool,
+    /// Whether lines are read as tables.
+    pub(super) tables: bool,
+    /// Whether this attempt is thrown away: the verification has stopped there, or a pass has changed what stands for a
+    /// table.
+    pub(super) discarded: bool,
     /// Puts the source beside the text.
     pub(super) annotator: Option<Annotator>,
     /// Where the text comes from.
@@ -136,7 +139,8 @@ impl<'j> Translation<'j> {
             beside: None,
             goes_beside: false,
             pieces_here: 0,
-            stopped_beside: false,
+            tables: false,
+            discarded: false,
             annotator: None,
             trace: None,
             per_tool: file_per_tool(&job.to).then(PerTool::default),
@@ -211,7 +215,7 @@ impl<'j> Translation<'j> {
     /// A step of the verification, as long as there is something to verify.
     pub(super) fn check(&mut self, step: impl FnOnce(&mut Verifier) -> Result<(), Stop>) {
         self.verify_here();
-        if self.errors > 0 || self.failed || self.stopped_beside {
+        if self.errors > 0 || self.failed || self.discarded {
             return;
         }
         let Some(verifier) = &mut self.verifier else { return };
@@ -245,13 +249,13 @@ impl<'j> Translation<'j> {
         let (verifier, result) = beside.end();
         self.verifier = Some(verifier);
         self.pieces_here = 0;
-        self.stopped_beside |= result.is_err();
+        self.discarded |= result.is_err();
     }
 
-    /// Whether the verification has come as far as the text, without having stopped on a second thread.
+    /// Whether the verification has come as far as the text, and the attempt is one to keep.
     pub(super) fn is_verified_here(&mut self) -> bool {
         self.verify_here();
-        !self.stopped_beside
+        !self.discarded
     }
 
     pub(super) fn count(&mut self) {
@@ -267,6 +271,9 @@ impl<'j> Translation<'j> {
             self.statements += statements as u64;
             self.blocks += blocks as u64;
         }
+        let (statements, blocks) = self.batch.table.counts();
+        self.statements += statements as u64;
+        self.blocks += blocks as u64;
     }
 
     pub(super) fn take_diagnostics(&mut self) {

@@ -6,12 +6,13 @@ use std::io;
 use ncc_backends::Origin;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 use ncc_passes::values::variables::renamed::Renamed;
 
-use super::beside::{Spare, Step};
+use super::beside::{Saying, Spare, Step};
 use super::translation::Translation;
 use crate::verify_run::Verifier;
 use crate::verify_run::controls::fixed;
@@ -22,6 +23,8 @@ pub(super) enum Said<'s> {
     Lines(&'s mut Vec<Stmt>),
     /// These arcs and lines of the source, one by one; and whether the verification has executed them.
     Arcs(&'s mut Vec<Stmt>, bool),
+    /// These lines of the source, one by one.
+    Table(&'s mut LineTable),
     /// Something else than the source, which is executed.
     Otherwise,
 }
@@ -30,28 +33,31 @@ impl Translation<'_> {
     /// Makes statements of facts that always hold for the source's control, and not for the
     /// target's, as soon as the program relies on them. (A target with a safe start states them there.)
     pub(super) fn state_given(&mut self, stmts: &mut Vec<Stmt>) {
-        if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
-            return;
-        }
-        let always = fixed(self.job.from.dialect).without(&fixed(self.job.to.dialect));
-        let relied = self.batch.assumed;
         let at =
             stmts.iter().position(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).unwrap_or(stmts.len());
         let Some(span) = stmts.get(at).map(|s| s.span) else { return };
-        let mut new = Vec::new();
-        if let (Some(d), Some(_), None) = (always.distance, relied.distance, self.given.distance) {
-            self.given.distance = Some(d);
-            new.push(Stmt::new(span, Op::SetDistanceMode(d)));
-        }
-        if let (Some(u), Some(_), None) = (always.units, relied.units, self.given.units) {
-            self.given.units = Some(u);
-            new.push(Stmt::new(span, Op::UseLengthUnits(u)));
-        }
-        if let (Some(p), Some(_), None) = (always.plane, relied.plane, self.given.plane) {
-            self.given.plane = Some(p);
-            new.push(Stmt::new(span, Op::SelectPlane(p)));
-        }
+        let given = self.still_to_give();
+        self.given = self.given.or(given);
+        let distance = given.distance.map(Op::SetDistanceMode);
+        let units = given.units.map(Op::UseLengthUnits);
+        let plane = given.plane.map(Op::SelectPlane);
+        let new = [distance, units, plane].into_iter().flatten().map(|op| Stmt::new(span, op));
         stmts.splice(at..at, new);
+    }
+
+    /// The facts among them that the program relies on and that have not been stated yet.
+    pub(super) fn still_to_give(&self) -> Modes {
+        if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
+            return Modes::default();
+        }
+        let always = fixed(self.job.from.dialect).without(&fixed(self.job.to.dialect));
+        let (relied, given) = (self.batch.assumed, self.given);
+        Modes {
+            distance: always.distance.filter(|_| relied.distance.is_some() && given.distance.is_none()),
+            units: always.units.filter(|_| relied.units.is_some() && given.units.is_none()),
+            plane: always.plane.filter(|_| relied.plane.is_some() && given.plane.is_none()),
+            ..Modes::default()
+        }
     }
 
     /// What was taken for granted of the source, in the target machine's numbers. Those that it has not
@@ -122,16 +128,15 @@ impl Translation<'_> {
         self.output.push(&text)?;
         self.written += text.len() as u64;
         if let Some(beside) = self.beside.as_ref().filter(|_| self.errors == 0) {
-            let Spare { stmts, text: next } = beside.spare();
-            let arcs = matches!(said, Said::Arcs(..));
+            let Spare { stmts, table, text: next } = beside.spare();
             let said = match said {
-                Said::Lines(said) | Said::Arcs(said, _) => {
-                    Some(std::mem::replace(said, stmts.unwrap_or_default()))
-                }
-                Said::Otherwise => None,
+                Said::Lines(said) => Saying::Lines(std::mem::replace(said, stmts.unwrap_or_default())),
+                Said::Arcs(said, _) => Saying::Arcs(std::mem::replace(said, stmts.unwrap_or_default())),
+                Said::Table(said) => Saying::Table(std::mem::replace(said, table.unwrap_or_default())),
+                Said::Otherwise => Saying::Otherwise,
             };
             self.text = next.unwrap_or_default();
-            let step = Step::Text { said, arcs, assumed: *assumed, text, base, inherited };
+            let step = Step::Text { said, assumed: *assumed, text, base, inherited };
             if !beside.go_on(step) {
                 self.verify_here();
             }
@@ -140,7 +145,7 @@ impl Translation<'_> {
         if self.beside.is_some() && matches!(said, Said::Arcs(_, false)) {
             // On one thread the source would have been executed before the writer refused anything.
             self.verify_here();
-            self.stopped_beside = true;
+            self.discarded = true;
         }
         self.check(|v| match said {
             Said::Lines(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
@@ -150,6 +155,7 @@ impl Translation<'_> {
                 }
                 v.target_saying(stmts, &text, base, &inherited)
             }
+            Said::Table(table) => v.table(table, assumed, &text, base, &inherited),
             Said::Otherwise => v.target(&text, base, &inherited),
         });
         self.text = text;

@@ -1,4 +1,4 @@
-//! The short way for plain moves: from a line straight to its statements, without the words and
+//! The short way for plain moves: from a line straight to a row of a table, or to its statements, without the words and
 //! the block between. Taken by a block of at most a block number, the code of the motion that is in
 //! force, X, Y and Z, and a feed, while every fact that it depends on is settled. Nearly every
 //! block of a long program is one.
@@ -8,9 +8,8 @@
 
 use ncc_dialects::{Bare, CodeRow, Dialect, Meaning, NumberRules};
 use ncc_ir::canon::{Distance, Fact, Units};
-use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::{Coord, Move, Op, Stmt};
+use ncc_ir::program::line_table::Row;
 use ncc_ir::source::Span;
 
 use super::fast_parse;
@@ -62,9 +61,16 @@ pub(crate) fn counts_units(rules: &NumberRules, units: Fact<Units>) -> bool {
     }
 }
 
-/// Lowers the line that begins at `from` of `text` into `stmts`, if it is a plain move of at most
-/// `longest` bytes; gives the index of its `\n`, or the end of the text. `None` if it is not one,
-/// and then nothing was done.
+/// A plain move as its line shows it.
+#[derive(Debug)]
+pub(crate) struct FastLine {
+    pub(crate) row: Row,
+    pub(crate) feed: Option<(Num, Span)>,
+    /// The index of its `\n`, or the end of the text.
+    pub(crate) end: usize,
+}
+
+/// Reads the line that begins at `from` of `text`, if it is a plain move of at most `longest` bytes.
 #[inline]
 pub(crate) fn line(
     fast: &FastLower,
@@ -72,51 +78,11 @@ pub(crate) fn line(
     from: usize,
     base: u32,
     longest: usize,
-    stmts: &mut Vec<Stmt>,
-) -> Option<usize> {
-    // A statement is large: it goes to its place empty, and is filled there.
-    let empty = Move::default();
-    let op = if fast.feed { Op::StraightFeed(empty) } else { Op::StraightTraverse(empty) };
-    let span = Span::default();
-    stmts.push(Stmt { span, number: None, skip: None, joined: false, comment: None, op });
-    let mut feed = None;
-    let filled = stmts.last_mut().and_then(|stmt| fill(fast, text, from, base, stmt, &mut feed));
-    let Some(end) = filled.filter(|end| end - from <= longest) else {
-        stmts.pop();
-        return None;
-    };
-    if let Some((num, span)) = feed {
-        say_feed(num, span, stmts);
-    }
-    Some(end)
-}
-
-/// Puts a feed before the move that was pushed last, into its block.
-#[cold]
-fn say_feed(num: Num, span: Span, stmts: &mut Vec<Stmt>) {
-    let Some(to) = stmts.last_mut() else { return };
-    to.joined = true;
-    let (number, op) = (to.number.take(), Op::SetFeedRate(Expr::Num(num)));
-    let at = stmts.len() - 1;
-    stmts.insert(at, Stmt { span, number, skip: None, joined: false, comment: None, op });
-}
-
-/// Fills a straight move from a line; gives where the line's end is, if it is a plain move.
-#[inline(always)]
-fn fill(
-    fast: &FastLower,
-    text: &[u8],
-    from: usize,
-    base: u32,
-    stmt: &mut Stmt,
-    feed: &mut Option<(Num, Span)>,
-) -> Option<usize> {
-    let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &mut stmt.op else {
-        return None;
-    };
+) -> Option<FastLine> {
     // Words that have been met: a bit for each axis, the code, the feed, the block number.
     let (code_bit, feed_bit, number_bit) = (8u8, 16u8, 32u8);
-    let mut seen = 0u8;
+    let (mut row, mut feed) = (Row::default(), None);
+    let (mut seen, mut said) = (0u8, false);
     let (mut first, mut last) = (from, from);
     let mut at = from;
     let end = loop {
@@ -140,8 +106,7 @@ fn fill(
                 first = at;
             }
             seen |= 1 << place;
-            let value = Expr::Num(literal(digits, fast.unit));
-            to.to.axes[usize::from(place)] = Some(Coord { value, distance: fast.distance });
+            row.set_word(usize::from(place), digits.mantissa as i32, digits.scale, digits.point);
             last = at + len;
         } else if byte == b'\n' {
             break at;
@@ -156,11 +121,10 @@ fn fill(
             // All of them begin with a digit: a sign would mean something else, or nothing.
             let (digits, len) = value(here, text, at).filter(|_| here[1].is_ascii_digit())?;
             if letter == fast.number {
-                if seen != 0 || digits.point {
+                if seen != 0 || digits.point || !row.set_number(u32::try_from(digits.mantissa).ok()?) {
                     return None;
                 }
                 seen |= number_bit;
-                stmt.number = Some(u32::try_from(digits.mantissa).ok()?);
                 first = at;
             } else if letter == b'G' {
                 let repeated = fast.repeated_motion.map(i64::from);
@@ -171,7 +135,7 @@ fn fill(
                     first = at;
                 }
                 seen |= code_bit;
-                to.said = true;
+                said = true;
             } else {
                 let word = fast.feed_word.filter(|word| word.letter == letter)?;
                 if seen & feed_bit != 0 || !is_plain(digits, word.bare) {
@@ -182,16 +146,17 @@ fn fill(
                 }
                 seen |= feed_bit;
                 let span = Span::new(base + at as u32, base + (at + len) as u32);
-                *feed = Some((literal(digits, word.unit), span));
+                feed = Some((literal(digits, word.unit), span));
             }
             last = at + len;
         }
         // Without a branch: whether a blank or the line's end follows is hard to guess.
         at = last + usize::from(text.get(last) == Some(&b' '));
     };
-    stmt.span = Span::new(base + first as u32, base + last as u32);
+    row.set_motion(fast.feed, said);
+    let fits = row.set_span(Span::new(base + first as u32, base + last as u32)) && end - from <= longest;
     // Without an axis there is no move.
-    (seen & 7 != 0).then_some(end)
+    (fits && seen & 7 != 0).then_some(FastLine { row, feed, end })
 }
 
 /// Bytes of a word that are looked at together: its letter, a sign, and eight of its number.

@@ -153,6 +153,7 @@ impl Reader {
             let at = base + at as u32;
             return self.not_text(Span::new(at, at + 1), out);
         }
+        out.tabled &= self.is_settled();
         self.lower.look_ahead(text, out);
         // What has been written of it would have stated what is its caller's.
         out.whole |= self.lower.unit == Some(Kind::Sub);

@@ -3,8 +3,8 @@
 
 use ncc_dialects::{CYCLE_APPROACH, Quantity};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel};
-use ncc_ir::expr::Expr;
-use ncc_ir::program::{Coord, Op, Stmt};
+use ncc_ir::expr::num::Unit;
+use ncc_ir::program::line_table::{AXES_OF_ROW, Row};
 
 use super::lower::Lower;
 use super::word_state::{AxisWords, CycleState};
@@ -127,30 +127,21 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<usize> {
         let fast = self.fast_lower.as_ref()?;
-        let stmts = match &mut self.sub {
-            Some(procedure) => &mut procedure.body,
-            None => &mut out.stmts,
-        };
-        let before = stmts.len();
-        let end = line(fast, text, at, base, longest, stmts)?;
-        if self.computes.jumps
-            && let Some(number) = stmts.get(before).and_then(|stmt| stmt.number)
-            && !self.computes.passes(number)
-        {
-            stmts.truncate(before);
+        let line = line(fast, text, at, base, longest)?;
+        if self.computes.jumps && line.row.number().is_some_and(|number| !self.computes.passes(number)) {
             return None;
         }
         if self.watch && !out.pointed {
-            out.pointed = stmts.last().is_some_and(has_point);
+            out.pointed = has_point(&line.row);
         }
-        Some(end)
+        out.plain_line(&mut self.sub, fast, &line);
+        Some(line.end)
     }
 }
 
-/// Whether a straight move has a length with a point that is not zero.
+/// Whether a line has a length with a point that is not zero.
 #[cold]
-fn has_point(stmt: &Stmt) -> bool {
-    let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &stmt.op else { return false };
-    let pointed = |coord: &Coord| matches!(&coord.value, Expr::Num(num) if num.point && num.mantissa != 0);
-    to.to.axes.iter().flatten().any(pointed)
+fn has_point(row: &Row) -> bool {
+    let words = (0..AXES_OF_ROW).filter_map(|axis| row.word(axis, Unit::Mm));
+    words.into_iter().any(|num| num.point && num.mantissa != 0)
 }

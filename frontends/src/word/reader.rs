@@ -121,6 +121,7 @@ impl Reader {
         if base == 0 {
             self.look_for_standalone_osub(text);
         }
+        out.tabled &= self.is_settled();
         self.keep(text, base);
         self.lower.look_ahead(text, out);
         let from = self.lower.target(out).len();

@@ -187,6 +187,7 @@ proptest! {
         lines in prop::collection::vec(prop_oneof![1 => line(), 6 => move_line(), 7 => hole_line()], 1..25),
         assume: bool,
         watch: bool,
+        tabled: bool,
     ) {
         for id in ["mach9", "fanuc", "haas", "linuxcnc", "grbl", "mach3"] {
             let text = format!("{}{}\nX1. Y2.\nN5 Z-3.\nM30\n", head(id), lines.join("\n"));
@@ -195,7 +196,25 @@ proptest! {
             if watch {
                 first.watch();
             }
-            first.read(text.as_bytes(), 0, &mut short);
+            // What is in a table stands before all other statements of what is read at once.
+            let (front, tail) = (head(id).len(), text.rfind("\nX1. Y2.").expect("the tail") + 1);
+            let cuts = if tabled { vec![0..front, front..tail, tail..text.len()] } else { vec![0..text.len()] };
+            let mut before = Vec::new();
+            for cut in cuts {
+                short.tabled = tabled && !short.whole;
+                first.read(&text.as_bytes()[cut.clone()], cut.start as u32, &mut short);
+                short.unpack_table();
+                if !short.whole {
+                    before.append(&mut short.stmts);
+                }
+            }
+            if short.whole && !before.is_empty() {
+                // Structures know their beginnings by their places.
+                continue;
+            }
+            short.tabled = false;
+            before.append(&mut short.stmts);
+            short.stmts = before;
             first.finish(&mut short);
             // The other one is fed line by line, and looks at every block. What O words are told of where a text calls
             // subprograms depends on how far it is looked ahead.
@@ -409,5 +428,29 @@ fn what_is_known_decides_whether_the_short_way_is_taken() {
     assert!(taken("linuxcnc", head, "X1 (pass)\n"));
     for line in ["X1 (MSG, a)\n", "X1 ( d e bug,a)\n", "X1 (PY,a)\n", "X1 (LOG,a)\n"] {
         assert!(!taken("linuxcnc", head, line), "{line}");
+    }
+}
+
+/// What is read as a table, and what makes statements of it.
+#[test]
+fn lines_are_read_as_a_table() {
+    let lines = "N10 X1. Y2.\nG1 X3. F250.\nG0 Z5.\nX7.5\nG1 Z-1. F80.\n";
+    for id in ["fanuc", "mach9", "haas", "linuxcnc", "mach3"] {
+        let read = |rest: &str| {
+            let (mut reader, mut out) = (Reader::new(settings(id), true), Batch::default());
+            reader.repeats(false);
+            let head = format!("{}G21 G90 G1 X0. Y0. Z0. F100.\n", head(id));
+            reader.read(head.as_bytes(), 0, &mut out);
+            out.stmts.clear();
+            out.tabled = true;
+            reader.read(rest.as_bytes(), head.len() as u32, &mut out);
+            (out.table.rows().len(), out.stmts.len())
+        };
+        assert_eq!(read(lines), (5, 0), "{id}");
+        if id == "fanuc" {
+            assert_eq!(read(&format!("{lines}/X2.\n")), (5, 1), "{id}: a usual block stands behind it");
+        }
+        assert_eq!(read(&format!("{lines}M5\nX2.\n")).0, 0, "{id}: another one finds statements alone");
+        assert_eq!(read(&format!("M5\n{lines}")).0, 0, "{id}");
     }
 }

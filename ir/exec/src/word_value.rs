@@ -8,7 +8,7 @@
 
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Unit};
+use ncc_ir::expr::num::{Nanos, Num, Unit};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::ValueUnexecuted;
 
@@ -31,6 +31,12 @@ impl Exec {
     #[inline]
     pub(crate) fn plain_value(&self, value: &Expr) -> Option<Nanos> {
         let Expr::Num(n) = value else { return None };
+        self.plain_number(*n)
+    }
+
+    /// The same of a number.
+    #[inline(always)]
+    pub(crate) fn plain_number(&self, n: Num) -> Option<Nanos> {
         let inch = n.unit == Unit::Entry && self.modes.inch;
         // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
         n.nanos(inch).filter(|value| value.unsigned_abs() < 1 << MOST_BITS)

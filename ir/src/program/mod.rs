@@ -13,6 +13,7 @@
 pub mod arguments;
 pub mod cycle;
 pub mod kinds;
+pub mod line_table;
 pub mod numbered;
 pub mod packed;
 pub mod packing;

@@ -2,7 +2,6 @@
 //! it.
 
 use ncc_dialects::BlockRules;
-use ncc_ir::program::Stmt;
 use ncc_ir::source::Span;
 
 use crate::Numbering;
@@ -65,11 +64,11 @@ impl Numbers {
         }
     }
 
-    /// Notes a block number of the source that is not written.
-    pub(crate) fn seen(&mut self, stmt: &Stmt) {
-        if stmt.number.is_some() && self.numbering == Numbering::Off {
+    /// Notes the block number of the source at a place, if it is not written.
+    pub(crate) fn seen(&mut self, number: Option<u32>, at: Span) {
+        if number.is_some() && self.numbering == Numbering::Off {
             self.left = self.left.saturating_add(1);
-            self.first_left.get_or_insert(stmt.span);
+            self.first_left.get_or_insert(at);
         }
     }
 }

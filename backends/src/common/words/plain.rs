@@ -2,10 +2,12 @@
 //! program. Written straight from the statement; anything unusual is left untouched to the general
 //! way, which writes the same text.
 
-use ncc_ir::canon::{Distance, Fact, Motion, Units};
+use ncc_ir::canon::{AXES, Distance, Fact, Motion, Units};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::Unit;
-use ncc_ir::program::{Move, Op, Stmt};
+use ncc_ir::expr::num::{Num, Unit};
+use ncc_ir::program::line_table::{AXES_OF_ROW, Row};
+use ncc_ir::program::{Coord, Op, Stmt};
+use ncc_ir::source::Span;
 
 use super::{HIGHEST_NUMBER, Words};
 use crate::Numbering;
@@ -35,10 +37,69 @@ impl Words {
         } else {
             return false;
         };
+        let feed = match feed {
+            None => None,
+            Some(Expr::Num(num)) => Some(*num),
+            Some(_) => return false,
+        };
+        if stmt.skip.is_some() || stmt.comment.is_some() {
+            return false;
+        }
+        let Some(distance) = self.active.distance else { return false };
+        let axes = &to.to.axes;
+        let word = |axis: usize| match &axes[axis] {
+            None => Some(None),
+            Some(Coord { value: Expr::Num(num), distance: own }) if *own == Fact::Known(distance) => {
+                Some(Some(*num))
+            }
+            Some(_) => None,
+        };
+        let number = stmts[0].number;
+        let done = self.plain_move::<AXES>((number, to.said), (motion, code), word, feed, out);
+        if done {
+            self.numbers.seen(number, stmts[0].span);
+        }
+        done
+    }
+
+    /// Writes a line of a table, with the feed that it states, or returns `false` without having written or changed
+    /// anything.
+    #[inline]
+    pub(crate) fn plain_row(
+        &mut self,
+        row: &Row,
+        unit: Unit,
+        feed: Option<&(Num, Span)>,
+        out: &mut Vec<u8>,
+    ) -> bool {
+        let motion = row.motion();
+        let code = if motion == Motion::Feed { self.codes.feed } else { self.codes.traverse };
+        if self.active.distance != Some(Distance::Absolute) {
+            return false;
+        }
+        let first = feed.map_or_else(|| row.span(), |(_, span)| *span);
+        let (number, feed) = (row.number(), feed.map(|(feed, _)| *feed));
+        let word = |axis: usize| Some(row.word(axis, unit));
+        let done =
+            self.plain_move::<AXES_OF_ROW>((number, row.says_motion()), (motion, code), word, feed, out);
+        if done {
+            self.numbers.seen(number, first);
+        }
+        done
+    }
+
+    /// Writes a line by the words of its first axes; `word` gives that of an axis, or `None` where it is not plain.
+    #[inline]
+    fn plain_move<const MOST: usize>(
+        &mut self,
+        (number, said): (Option<u32>, bool),
+        (motion, code): (Motion, Option<Code>),
+        word: impl Fn(usize) -> Option<Option<Num>>,
+        feed: Option<Num>,
+        out: &mut Vec<u8>,
+    ) -> bool {
         let Some(code) = code else { return false };
-        if stmt.skip.is_some()
-            || stmt.comment.is_some()
-            || self.preamble.is_some()
+        if self.preamble.is_some()
             || self.residual
             || self.corner.is_some()
             || self.surfaces.unsaid.is_some()
@@ -46,23 +107,6 @@ impl Words {
         {
             return false;
         }
-        let done = self.plain_move(stmts[0].number, to, motion, code, feed, out);
-        if done {
-            self.numbers.seen(&stmts[0]);
-        }
-        done
-    }
-
-    #[inline]
-    fn plain_move(
-        &mut self,
-        number: Option<u32>,
-        to: &Move,
-        motion: Motion,
-        code: Code,
-        feed: Option<&Expr>,
-        out: &mut Vec<u8>,
-    ) -> bool {
         let blanks = usize::from(self.dialect.block.blanks);
         let (Some(distance), Some(units)) = (self.active.distance, self.active.units) else {
             return false;
@@ -100,37 +144,34 @@ impl Words {
         }
         let start = at;
         let mut named = 0u8;
-        if to.said || self.active.motion != Some(motion) {
+        if said || self.active.motion != Some(motion) {
             let (text, len) = code.padded();
             line[at..at + 8].copy_from_slice(text);
             at += len;
             line[at] = b' ';
             at += blanks;
         }
-        for (axis, word) in to.to.axes.iter().enumerate() {
-            let Some(word) = word else { continue };
-            let (Expr::Num(n), Some(letter)) = (&word.value, &self.codes.axes[axis]) else {
-                return false;
-            };
-            if word.distance != Fact::Known(distance)
-                || !(n.unit == unit || (axis > 2 && n.unit == Unit::Degree))
-            {
+        for axis in 0..MOST {
+            let Some(word) = word(axis) else { return false };
+            let Some(n) = word else { continue };
+            let Some(letter) = &self.codes.axes[axis] else { return false };
+            if !(n.unit == unit || (axis > 2 && n.unit == Unit::Degree)) {
                 return false;
             }
-            let Some(shaped) = number::plain(*n, &letter.format) else { return false };
+            let Some(shaped) = number::plain(n, &letter.format) else { return false };
             line[at] = letter.letter;
             at = number::write(line, at + 1, shaped);
             line[at] = b' ';
             at += blanks;
-            self.last_words[axis] = *n;
+            self.last_words[axis] = n;
             named |= 1 << axis;
         }
         if at == start {
             return false;
         }
-        if let Some(feed) = feed {
-            let (Expr::Num(n), Some(letter)) = (feed, &self.codes.feed_word) else { return false };
-            let Some(shaped) = number::plain(*n, &letter.format) else { return false };
+        if let Some(n) = feed {
+            let Some(letter) = &self.codes.feed_word else { return false };
+            let Some(shaped) = number::plain(n, &letter.format) else { return false };
             if n.unit != unit {
                 return false;
             }
@@ -138,7 +179,7 @@ impl Words {
             at = number::write(line, at + 1, shaped);
             line[at] = b' ';
             at += blanks;
-            self.active.feed = Some(*n);
+            self.active.feed = Some(n);
         }
         at -= blanks;
         // One byte too many of a short line end is overwritten, or never taken.

@@ -75,7 +75,7 @@ impl Lower {
         let (said, motion, known) = self.known(state, text)?;
         let head = Head { skip: skip.map(|level| (level, known.span)), span: known.span, ..Head::default() };
         let before = self.enter_stretch(&head, out);
-        push(&self.usual.line, known, out.body(&mut self.sub));
+        out.usual_block(&mut self.sub, |stmts| push(&self.usual.line, known, stmts));
         self.block_done(said, motion);
         self.leave_stretch(before, &head, out);
         if skip.is_some() {

@@ -2,7 +2,7 @@
 
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane};
 use ncc_ir::expr::num::Unit;
-use ncc_ir::program::{Coord, Op};
+use ncc_ir::program::line_table::AXES_OF_ROW;
 use ncc_ir::source::Span;
 
 use super::super::program::repeated_blocks::{CYCLE, DISTANCE, MOTION, PLANE, SCALED, UNITS};
@@ -28,17 +28,15 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<usize> {
         let fast = self.fast_lower.as_ref()?;
-        let stmts = out.body(&mut self.sub);
-        let end = fast_lower::line(fast, text, at, base, longest, stmts)?;
+        let line = fast_lower::line(fast, text, at, base, longest)?;
         let absolute = fast.distance == Fact::Known(Distance::Absolute);
-        if let Some(Op::StraightFeed(to) | Op::StraightTraverse(to)) = stmts.last().map(|stmt| &stmt.op) {
-            for (stand, word) in self.stand.axes.iter_mut().zip(&to.to.axes) {
-                if let Some(Coord { value: ncc_ir::expr::Expr::Num(num), .. }) = word {
-                    *stand = if absolute { Some(*num) } else { None };
-                }
+        for (axis, stand) in self.stand.axes[..AXES_OF_ROW].iter_mut().enumerate() {
+            if let Some(num) = line.row.word(axis, fast.unit) {
+                *stand = if absolute { Some(num) } else { None };
             }
         }
-        Some(end)
+        out.plain_line(&mut self.sub, fast, &line);
+        Some(line.end)
     }
 
     /// Finds out whether plain moves can go the short way from here.

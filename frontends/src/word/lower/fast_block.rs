@@ -74,7 +74,7 @@ impl Lower {
         {
             return None;
         }
-        push(&self.usual.line, known, out.body(&mut self.sub));
+        out.usual_block(&mut self.sub, |stmts| push(&self.usual.line, known, stmts));
         if self.watch && !out.pointed {
             out.pointed = self.usual.line.has_point();
         }

@@ -187,7 +187,7 @@ impl Exec {
     }
 
     /// Whether any linear axis has had no word since a change of frame.
-    pub(crate) fn carries_linear(&self) -> bool {
+    pub fn carries_linear(&self) -> bool {
         let carries = |carried: &Carried| carried.from[..Axis::A as usize].iter().any(Option::is_some);
         self.carried.as_deref().is_some_and(carries)
     }

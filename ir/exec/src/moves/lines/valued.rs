@@ -10,6 +10,7 @@
 use crate::{Exec, Heading, MOTION, Z};
 use ncc_ir::canon::{AXES, Distance, Motion, same_point};
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::{Op, Stmt};
 
 /// A line, a feed, or a remark.
@@ -92,6 +93,30 @@ impl Exec {
             return None;
         }
         let lines = stmts.iter().map(|stmt| self.value_line(stmt)).collect::<Option<Vec<Valued>>>()?;
+        Some(ValuedLines { lines, inch: self.modes.inch })
+    }
+
+    /// The same of the lines of a table.
+    pub fn value_table(&self, table: &LineTable) -> Option<ValuedLines> {
+        if !self.takes_lines() {
+            return None;
+        }
+        let mut lines = Vec::with_capacity(table.counts().0);
+        let mut feeds = table.feeds().iter();
+        for row in table.rows() {
+            if row.has_feed() {
+                let (feed, _) = feeds.next()?;
+                let values = [self.plain_number(*feed)?, 0, 0];
+                lines.push(Valued { level: 0, does: Does::Feeds, values });
+            }
+            let mut values = [0; 3];
+            for (axis, value) in values.iter_mut().enumerate() {
+                if let Some(num) = row.word(axis, table.unit()) {
+                    *value = self.plain_number(num)?;
+                }
+            }
+            lines.push(Valued { level: 0, does: Does::Goes(row.axes(), row.motion()), values });
+        }
         Some(ValuedLines { lines, inch: self.modes.inch })
     }
 
