@@ -5,11 +5,11 @@
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Num;
-use ncc_ir::program::line_table::LineTable;
+use ncc_ir::program::line_table::{LineTable, Row, StatedFeed};
 use ncc_ir::program::{Op, Procedure, ProgramName, Stmt};
 use ncc_ir::source::Span;
 
-use crate::common::fast_lower::{FastLine, FastLower};
+use crate::common::fast_lower::FastLower;
 
 /// What reading a piece of text gave. The vectors are drained by the caller between pieces and
 /// their memory is used again.
@@ -87,14 +87,21 @@ impl Batch {
         self.tabled && self.stmts.is_empty() && sub.is_none() && !self.whole
     }
 
-    /// Takes a plain line.
+    /// Takes a plain line that `read` makes of an empty row; gives what it gives, or does nothing where that is `None`.
     #[inline(always)]
-    pub(crate) fn plain_line(&mut self, sub: &mut Option<Procedure>, fast: &FastLower, line: &FastLine) {
+    pub(crate) fn plain_line<T>(
+        &mut self,
+        sub: &mut Option<Procedure>,
+        fast: &FastLower,
+        read: impl FnOnce(&mut Row, &mut Option<StatedFeed>) -> Option<T>,
+    ) -> Option<T> {
         if self.takes_rows(sub) && self.table.takes(fast.unit, fast.distance) {
-            self.table.push(line.row, fast.unit, line.feed);
-        } else {
-            line.row.unpack(fast.unit, fast.distance, line.feed.as_ref(), self.body(sub));
+            return self.table.push_by(fast.unit, read);
         }
+        let (mut row, mut feed) = (Row::default(), None);
+        let done = read(&mut row, &mut feed)?;
+        row.unpack(fast.unit, fast.distance, feed.as_ref(), self.body(sub));
+        Some(done)
     }
 
     /// Takes a usual block, of which `push` makes the statements.

@@ -21,8 +21,14 @@ use ncc_ir::program::line_table::LineTable;
 
 use crate::verify_run::{Stop, Verifier};
 
-/// Pieces that the first thread may be ahead: enough that neither waits for long, and few enough for memory.
-const AHEAD: usize = 2;
+/// How much is handed over at once, and how much of that a table and statements are: to wake a thread costs as much as
+/// to execute some tables, and statements take much memory.
+const TOGETHER: usize = 8;
+const TABLE: usize = 1;
+const STATEMENTS: usize = 4;
+
+/// So many times that the first thread may be ahead: enough that neither waits for long, and few enough for memory.
+const AHEAD: usize = 1;
 
 /// The stack of the second thread, in bytes: that of a program's first thread.
 const STACK: usize = 8 << 20;
@@ -55,7 +61,10 @@ pub(super) struct Spare {
 
 /// A verification that runs on a second thread.
 pub(super) struct Beside {
-    steps: SyncSender<Step>,
+    /// Steps that are not handed over yet, and how much they are.
+    held: Vec<Step>,
+    much: usize,
+    steps: SyncSender<Vec<Step>>,
     spare: Receiver<Spare>,
     thread: JoinHandle<(Verifier, Result<(), Stop>)>,
 }
@@ -74,16 +83,26 @@ impl Beside {
         let thread = Builder::new().stack_size(STACK).spawn(work);
         match thread {
             Ok(thread) => match hand.send(verifier) {
-                Ok(()) => Ok(Beside { steps, spare, thread }),
+                Ok(()) => Ok(Beside { held: Vec::new(), much: 0, steps, spare, thread }),
                 Err(back) => Err(Box::new(back.0)),
             },
             Err(_) => Err(Box::new(verifier)),
         }
     }
 
-    /// Has a step done behind those before it; `false` if the verification has stopped.
-    pub(super) fn go_on(&self, step: Step) -> bool {
-        self.steps.send(step).is_ok()
+    /// Has a step done behind those before it; `false` if it is known that the verification has stopped.
+    pub(super) fn go_on(&mut self, step: Step) -> bool {
+        self.much += match &step {
+            Step::Text { said: Saying::Table(_), .. } => TABLE,
+            Step::Text { .. } | Step::Source { .. } => STATEMENTS,
+        };
+        self.held.push(step);
+        self.much < TOGETHER || self.hand_over()
+    }
+
+    fn hand_over(&mut self) -> bool {
+        self.much = 0;
+        self.steps.send(std::mem::take(&mut self.held)).is_ok()
     }
 
     /// Memory for the next piece, where there is some.
@@ -92,15 +111,17 @@ impl Beside {
     }
 
     /// Waits until all steps are done; gives the verification back, and why it stopped, if it did.
-    pub(super) fn end(self) -> (Verifier, Result<(), Stop>) {
+    pub(super) fn end(mut self) -> (Verifier, Result<(), Stop>) {
+        // Where it has stopped, it says so itself.
+        let _ = self.hand_over();
         drop(self.steps);
         self.thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 }
 
 /// The second thread's work: all steps up to the first that stops.
-fn work(verifier: &mut Verifier, steps: &Receiver<Step>, done: &Sender<Spare>) -> Result<(), Stop> {
-    for step in steps {
+fn work(verifier: &mut Verifier, steps: &Receiver<Vec<Step>>, done: &Sender<Spare>) -> Result<(), Stop> {
+    for step in steps.iter().flatten() {
         match step {
             Step::Source { stmts, assumed } => verifier.source(&stmts, &assumed)?,
             Step::Text { said, assumed, mut text, base, inherited } => {

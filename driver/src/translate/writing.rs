@@ -127,7 +127,7 @@ impl Translation<'_> {
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.output.push(&text)?;
         self.written += text.len() as u64;
-        if let Some(beside) = self.beside.as_ref().filter(|_| self.errors == 0) {
+        if let Some(beside) = self.beside.as_mut().filter(|_| self.errors == 0) {
             let Spare { stmts, table, text: next } = beside.spare();
             let said = match said {
                 Said::Lines(said) => Saying::Lines(std::mem::replace(said, stmts.unwrap_or_default())),
@@ -166,7 +166,7 @@ impl Translation<'_> {
     /// Executes what the passes have changed, as it was read.
     pub(super) fn execute_source(&mut self, stmts: &mut Vec<Stmt>) {
         let assumed = self.batch.assumed;
-        match self.beside.as_ref().filter(|_| self.errors == 0) {
+        match self.beside.as_mut().filter(|_| self.errors == 0) {
             Some(beside) => {
                 let step = Step::Source { stmts: std::mem::take(stmts), assumed };
                 if !beside.go_on(step) {

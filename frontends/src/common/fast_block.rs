@@ -295,7 +295,7 @@ pub(crate) fn read(letters: &Letters, text: &[u8], from: usize, base: u32, line:
             }
         };
         let kind = letters.kinds[usize::from(here[0])];
-        let len = match kind {
+        let (len, after) = match kind {
             Kind::Blank => {
                 at += 1;
                 continue;
@@ -303,10 +303,10 @@ pub(crate) fn read(letters: &Letters, text: &[u8], from: usize, base: u32, line:
             Kind::End => break at,
             Kind::Return if here[1] == b'\n' => break at + 1,
             Kind::Feed | Kind::Code | Kind::Number => {
-                let (digits, len) = value(here, text, at).filter(|_| here[1].is_ascii_digit())?;
+                let (digits, len, after) = value(here, text, at).filter(|_| here[1].is_ascii_digit())?;
                 let span = Span::new(base + at as u32, base + (at + len) as u32);
                 unsigned(kind, digits, span, line)?;
-                len
+                (len, after)
             }
             Kind::Skip if line.begins() && line.skip.is_none() => {
                 let digit = here[1].is_ascii_digit();
@@ -326,18 +326,18 @@ pub(crate) fn read(letters: &Letters, text: &[u8], from: usize, base: u32, line:
             Kind::Other | Kind::Return | Kind::Skip => return None,
             _ => {
                 let (kind, before) = if letters.equals { equals(kind, here) } else { (kind, 0) };
-                let (digits, len) = match before {
+                let (digits, len, after) = match before {
                     0 => value(here, text, at)?,
                     _ => value_behind(text, at + before)?,
                 };
                 put(kind, digits, line)?;
-                before + len
+                (before + len, after)
             }
         };
         first.get_or_insert(at);
         last = at + len;
         // Without a branch: whether a blank or the line's end follows is hard to guess.
-        at = last + usize::from(text.get(last) == Some(&b' '));
+        at = last + usize::from(after == b' ');
     };
     line.span = Span::new(base + first? as u32, base + last as u32);
     let whole = if line.comment.is_some() { line.whole.end } else { line.span.end };
@@ -355,8 +355,8 @@ fn equals(kind: Kind, here: &[u8; WINDOW]) -> (Kind, usize) {
     }
 }
 
-/// The number behind the sign at `at`, and the length of both.
-fn value_behind(text: &[u8], at: usize) -> Option<(Digits, usize)> {
+/// The number behind the sign at `at`, the length of both, and the byte after it.
+fn value_behind(text: &[u8], at: usize) -> Option<(Digits, usize, u8)> {
     match text.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
         Some(here) => value(here, text, at),
         None => value(&last_window(text, at), text, at),

@@ -9,7 +9,7 @@
 use ncc_dialects::{Bare, CodeRow, Dialect, Meaning, NumberRules};
 use ncc_ir::canon::{Distance, Fact, Units};
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::line_table::Row;
+use ncc_ir::program::line_table::{Row, StatedFeed};
 use ncc_ir::source::Span;
 
 use super::fast_parse;
@@ -61,30 +61,23 @@ pub(crate) fn counts_units(rules: &NumberRules, units: Fact<Units>) -> bool {
     }
 }
 
-/// A plain move as its line shows it.
-#[derive(Debug)]
-pub(crate) struct FastLine {
-    pub(crate) row: Row,
-    pub(crate) feed: Option<(Num, Span)>,
-    /// The index of its `\n`, or the end of the text.
-    pub(crate) end: usize,
-}
-
-/// Reads the line that begins at `from` of `text`, if it is a plain move of at most `longest` bytes.
-#[inline]
+/// Reads the line that begins at `from` of `text` into an empty row, and the feed that it states, if it is a plain move of
+/// at most `longest` bytes; gives the index of its `\n`, or the end of the text. The row is filled where it stays: parts
+/// of it that were just written are read slowly as a whole.
 pub(crate) fn line(
     fast: &FastLower,
     text: &[u8],
     from: usize,
     base: u32,
     longest: usize,
-) -> Option<FastLine> {
+    (row, feed): (&mut Row, &mut Option<StatedFeed>),
+) -> Option<usize> {
     // Words that have been met: a bit for each axis, the code, the feed, the block number.
     let (code_bit, feed_bit, number_bit) = (8u8, 16u8, 32u8);
-    let (mut row, mut feed) = (Row::default(), None);
     let (mut seen, mut said) = (0u8, false);
     let (mut first, mut last) = (from, from);
     let mut at = from;
+    // Behind a word a blank is passed over without a branch: whether one follows or the line's end is hard to guess.
     let end = loop {
         let beyond;
         let here = match text.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
@@ -98,7 +91,7 @@ pub(crate) fn line(
         let letter = byte & 0xDF;
         let place = letter.wrapping_sub(b'X');
         if place <= 2 {
-            let (digits, len) = value(here, text, at)?;
+            let (digits, len, after) = value(here, text, at)?;
             if seen >> place & 1 == 1 || !is_plain(digits, fast.bare) {
                 return None;
             }
@@ -108,6 +101,7 @@ pub(crate) fn line(
             seen |= 1 << place;
             row.set_word(usize::from(place), digits.mantissa as i32, digits.scale, digits.point);
             last = at + len;
+            at = last + usize::from(after == b' ');
         } else if byte == b'\n' {
             break at;
         } else if byte <= b' ' {
@@ -116,10 +110,9 @@ pub(crate) fn line(
                 Blank::Space => at += 1,
                 Blank::End => break at + 1,
             }
-            continue;
         } else {
             // All of them begin with a digit: a sign would mean something else, or nothing.
-            let (digits, len) = value(here, text, at).filter(|_| here[1].is_ascii_digit())?;
+            let (digits, len, after) = value(here, text, at).filter(|_| here[1].is_ascii_digit())?;
             if letter == fast.number {
                 if seen != 0 || digits.point || !row.set_number(u32::try_from(digits.mantissa).ok()?) {
                     return None;
@@ -146,17 +139,16 @@ pub(crate) fn line(
                 }
                 seen |= feed_bit;
                 let span = Span::new(base + at as u32, base + (at + len) as u32);
-                feed = Some((literal(digits, word.unit), span));
+                *feed = Some((literal(digits, word.unit), span));
             }
             last = at + len;
+            at = last + usize::from(after == b' ');
         }
-        // Without a branch: whether a blank or the line's end follows is hard to guess.
-        at = last + usize::from(text.get(last) == Some(&b' '));
     };
     row.set_motion(fast.feed, said);
     let fits = row.set_span(Span::new(base + first as u32, base + last as u32)) && end - from <= longest;
     // Without an axis there is no move.
-    (fits && seen & 7 != 0).then_some(FastLine { row, feed, end })
+    (fits && seen & 7 != 0).then_some(end)
 }
 
 /// Bytes of a word that are looked at together: its letter, a sign, and eight of its number.
@@ -189,15 +181,16 @@ fn blank(here: &[u8; WINDOW]) -> Option<Blank> {
     }
 }
 
-/// The number of the word at `at`, of which `here` is the window, and the length of the word.
+/// The number of the word at `at`, of which `here` is the window, the length of the word, and the byte after it (that of a
+/// line's end where the text ends).
 #[inline(always)]
-pub(super) fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize)> {
+pub(super) fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize, u8)> {
     let negative = here[1] == b'-';
     let number = if negative { &here[2..] } else { &here[1..9] };
     match number.first_chunk::<8>().and_then(|eight| fast_parse::short(*eight)) {
-        Some((digits, len)) => {
+        Some((digits, len, after)) => {
             let mantissa = if negative { -digits.mantissa } else { digits.mantissa };
-            Some((Digits { mantissa, ..digits }, 1 + usize::from(negative) + len))
+            Some((Digits { mantissa, ..digits }, 1 + usize::from(negative) + len, after))
         }
         None => long_value(text, at),
     }
@@ -205,9 +198,9 @@ pub(super) fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digi
 
 #[cold]
 #[inline(never)]
-fn long_value(text: &[u8], at: usize) -> Option<(Digits, usize)> {
+fn long_value(text: &[u8], at: usize) -> Option<(Digits, usize, u8)> {
     let (digits, end) = fast_parse::number(text, at + 1)?;
-    Some((digits, end - at))
+    Some((digits, end - at, text.get(end).copied().unwrap_or(b'\n')))
 }
 
 /// Whether a number is in range, and needs no rule of the dictionary to be understood.

@@ -57,7 +57,7 @@ pub(crate) fn number(text: &[u8], at: usize) -> Option<(Digits, usize)> {
     let first = at + usize::from(negative);
     let eight = rest.get(usize::from(negative)..).and_then(<[u8]>::first_chunk::<8>);
     let (mut digits, len) = match eight.and_then(|eight| short(*eight)) {
-        Some(short) => short,
+        Some((digits, len, _)) => (digits, len),
         None => long(text, first)?,
     };
     if negative {
@@ -71,12 +71,13 @@ const fn eight(byte: u8) -> u64 {
     u64::from_le_bytes([byte; 8])
 }
 
-/// An unsigned number that ends within eight bytes, and its length; all its digits at once, because
+/// An unsigned number that ends within eight bytes, its length, and the byte after it; all its digits at once, because
 /// one by one the processor would have to guess how many there are. `None` leaves it to [`long`].
 #[inline(always)]
-pub(crate) fn short(bytes: [u8; 8]) -> Option<(Digits, usize)> {
+pub(crate) fn short(bytes: [u8; 8]) -> Option<(Digits, usize, u8)> {
     // A digit becomes its value, everything else is at least ten.
-    let values = u64::from_le_bytes(bytes) ^ eight(b'0');
+    let bytes = u64::from_le_bytes(bytes);
+    let values = bytes ^ eight(b'0');
     // The highest bit of each place that is no digit. A carry out of a place with the highest bit
     // set can falsify only places after it, which lie beyond the number's end.
     let others = (values.wrapping_add(eight(0x76)) | values) & eight(0x80);
@@ -85,17 +86,17 @@ pub(crate) fn short(bytes: [u8; 8]) -> Option<(Digits, usize)> {
     }
     let before = others.trailing_zeros() & !7;
     let point = (values >> before) as u8 == b'.' ^ b'0';
-    let (packed, count, scale) = if point {
+    let (packed, count, scale, end) = if point {
         let others = others & (others - 1);
         if others == 0 {
             return None;
         }
         // The places after the point move up to those before it.
-        let whole = (1u64 << before) - 1;
-        let count = others.trailing_zeros() / 8 - 1;
-        (values & whole | values >> 8 & !whole, count, count - before / 8)
+        let (whole, end) = ((1u64 << before) - 1, others.trailing_zeros() & !7);
+        let count = end / 8 - 1;
+        (values & whole | values >> 8 & !whole, count, count - before / 8, end)
     } else {
-        (values, before / 8, 0)
+        (values, before / 8, 0, before)
     };
     if count == 0 {
         return None;
@@ -106,7 +107,7 @@ pub(crate) fn short(bytes: [u8; 8]) -> Option<(Digits, usize)> {
     let fours = (pairs * 100 + (pairs >> 16)) & 0x0000_FFFF_0000_FFFF;
     let all = (fours * 10_000 + (fours >> 32)) & 0xFFFF_FFFF;
     let digits = Digits { mantissa: all as i64, scale: scale as u8, point };
-    Some((digits, count as usize + usize::from(point)))
+    Some((digits, (end / 8) as usize, (bytes >> end) as u8))
 }
 
 /// An unsigned number of any length, one digit after the other.
@@ -166,7 +167,8 @@ mod tests {
         ] {
             let read = short(text.as_bytes().try_into().expect("eight bytes"));
             let point = text[..len].contains('.');
-            assert_eq!(read, Some((Digits { mantissa, scale, point }, len)), "{text}");
+            let after = text.as_bytes()[len];
+            assert_eq!(read, Some((Digits { mantissa, scale, point }, len, after)), "{text}");
         }
         for left in ["........", "12345678", "1234.567", ". X10   ", "X1234567"] {
             assert_eq!(short(left.as_bytes().try_into().expect("eight bytes")), None, "{left}");

@@ -127,15 +127,18 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<usize> {
         let fast = self.fast_lower.as_ref()?;
-        let line = line(fast, text, at, base, longest)?;
-        if self.computes.jumps && line.row.number().is_some_and(|number| !self.computes.passes(number)) {
-            return None;
-        }
-        if self.watch && !out.pointed {
-            out.pointed = has_point(&line.row);
-        }
-        out.plain_line(&mut self.sub, fast, &line);
-        Some(line.end)
+        let (computes, watch) = (&mut self.computes, self.watch && !out.pointed);
+        let mut pointed = false;
+        let end = out.plain_line(&mut self.sub, fast, |row, feed| {
+            let end = line(fast, text, at, base, longest, (row, feed))?;
+            if computes.jumps && row.number().is_some_and(|number| !computes.passes(number)) {
+                return None;
+            }
+            pointed = watch && has_point(row);
+            Some(end)
+        })?;
+        out.pointed |= pointed;
+        Some(end)
     }
 }
 

@@ -41,6 +41,9 @@ const UNNUMBERED: u32 = u32::MAX;
 /// Rows at the end of a table that stand for themselves: a pass may look back by so many.
 const TAIL: usize = 8;
 
+/// A feed, and the place of its word.
+pub type StatedFeed = (Num, Span);
+
 /// A block that goes along a line, with or without a feed before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
@@ -141,7 +144,7 @@ impl Row {
 
     /// Appends its statements: its line by words of this unit and distance mode, behind the feed that it states.
     #[inline]
-    pub fn unpack(&self, unit: Unit, distance: Fact<Distance>, feed: Option<&(Num, Span)>, to: &mut Vec<Stmt>) {
+    pub fn unpack(&self, unit: Unit, distance: Fact<Distance>, feed: Option<&StatedFeed>, to: &mut Vec<Stmt>) {
         let mut number = self.number();
         if let Some((feed, span)) = feed {
             let op = Op::SetFeedRate(Expr::Num(*feed));
@@ -171,7 +174,7 @@ impl Row {
 pub struct LineTable {
     unit: Unit,
     rows: Vec<Row>,
-    feeds: Vec<(Num, Span)>,
+    feeds: Vec<StatedFeed>,
 }
 
 impl LineTable {
@@ -199,7 +202,7 @@ impl LineTable {
     }
 
     /// The feeds that its rows state, in their order, with the places of their words.
-    pub fn feeds(&self) -> &[(Num, Span)] {
+    pub fn feeds(&self) -> &[StatedFeed] {
         &self.feeds
     }
 
@@ -210,25 +213,34 @@ impl LineTable {
             && if self.rows.is_empty() { matches!(unit, Unit::Mm | Unit::Inch) } else { unit == self.unit }
     }
 
-    /// Adds a line in a unit that it takes, and the feed that its block states before it.
+    /// Adds a line in a unit that it takes: `fill` fills an empty row, and the feed that its block states before it. Gives
+    /// what that gives; where it is `None`, nothing is added.
     #[inline(always)]
-    pub fn push(&mut self, mut row: Row, unit: Unit, feed: Option<(Num, Span)>) {
+    pub fn push_by<T>(
+        &mut self,
+        unit: Unit,
+        fill: impl FnOnce(&mut Row, &mut Option<StatedFeed>) -> Option<T>,
+    ) -> Option<T> {
+        self.rows.push(Row::default());
+        let mut feed = None;
+        let filled = self.rows.last_mut().and_then(|row| fill(row, &mut feed));
+        if filled.is_none() {
+            self.rows.pop();
+            return None;
+        }
         self.unit = unit;
-        if let Some(feed) = feed {
+        if let (Some(feed), Some(row)) = (feed, self.rows.last_mut()) {
             row.form |= FEED;
             self.feeds.push(feed);
         }
-        self.rows.push(row);
+        filled
     }
 
     /// Adds the statements of a block, if they are a line that a row can hold; `false`, and then nothing was done, if not.
     pub fn push_block(&mut self, block: &[Stmt]) -> bool {
         let Some((row, unit, feed)) = row_of(block) else { return false };
         let takes = self.takes(unit, Fact::Known(Distance::Absolute));
-        if takes {
-            self.push(row, unit, feed);
-        }
-        takes
+        takes && self.push_by(unit, |to, stated| Some((*to, *stated) = (row, feed))).is_some()
     }
 
     /// How many statements they are, and how many blocks.
@@ -244,7 +256,7 @@ impl LineTable {
     /// Whether two texts say the same lines and feeds.
     pub fn says_the_same(&self, other: &LineTable) -> bool {
         let same_row = |(a, b): (&Row, &Row)| a.mantissas == b.mantissas && (a.form ^ b.form) & SAME == 0;
-        let same_feed = |(a, b): (&(Num, Span), &(Num, Span))| {
+        let same_feed = |(a, b): (&StatedFeed, &StatedFeed)| {
             (a.0.mantissa, a.0.scale, a.0.unit) == (b.0.mantissa, b.0.scale, b.0.unit)
         };
         self.unit == other.unit
@@ -264,7 +276,7 @@ impl LineTable {
     }
 
     /// Appends the statements of a row, with the feed that it states.
-    pub fn unpack_row(&self, row: &Row, feed: Option<&(Num, Span)>, to: &mut Vec<Stmt>) {
+    pub fn unpack_row(&self, row: &Row, feed: Option<&StatedFeed>, to: &mut Vec<Stmt>) {
         row.unpack(self.unit, Fact::Known(Distance::Absolute), feed, to);
     }
 
@@ -318,7 +330,7 @@ fn named(row: &Row) -> u8 {
 }
 
 /// A line of one or two statements as a row, with its unit and its feed.
-fn row_of(block: &[Stmt]) -> Option<(Row, Unit, Option<(Num, Span)>)> {
+fn row_of(block: &[Stmt]) -> Option<(Row, Unit, Option<StatedFeed>)> {
     let (stmt, feed) = match block {
         [stmt] if !stmt.joined => (stmt, None),
         [feed, stmt] if !feed.joined && stmt.joined && stmt.number.is_none() => {

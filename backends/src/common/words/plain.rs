@@ -5,9 +5,8 @@
 use ncc_ir::canon::{AXES, Distance, Fact, Motion, Units};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::program::line_table::{AXES_OF_ROW, Row};
+use ncc_ir::program::line_table::{AXES_OF_ROW, Row, StatedFeed};
 use ncc_ir::program::{Coord, Op, Stmt};
-use ncc_ir::source::Span;
 
 use super::{HIGHEST_NUMBER, Words};
 use crate::Numbering;
@@ -69,7 +68,7 @@ impl Words {
         &mut self,
         row: &Row,
         unit: Unit,
-        feed: Option<&(Num, Span)>,
+        feed: Option<&StatedFeed>,
         out: &mut Vec<u8>,
     ) -> bool {
         let motion = row.motion();

@@ -28,15 +28,17 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<usize> {
         let fast = self.fast_lower.as_ref()?;
-        let line = fast_lower::line(fast, text, at, base, longest)?;
         let absolute = fast.distance == Fact::Known(Distance::Absolute);
-        for (axis, stand) in self.stand.axes[..AXES_OF_ROW].iter_mut().enumerate() {
-            if let Some(num) = line.row.word(axis, fast.unit) {
-                *stand = if absolute { Some(num) } else { None };
+        let stand = &mut self.stand.axes;
+        out.plain_line(&mut self.sub, fast, |row, feed| {
+            let end = fast_lower::line(fast, text, at, base, longest, (row, feed))?;
+            for (axis, stand) in stand[..AXES_OF_ROW].iter_mut().enumerate() {
+                if let Some(num) = row.word(axis, fast.unit) {
+                    *stand = if absolute { Some(num) } else { None };
+                }
             }
-        }
-        out.plain_line(&mut self.sub, fast, &line);
-        Some(line.end)
+            Some(end)
+        })
     }
 
     /// Finds out whether plain moves can go the short way from here.
