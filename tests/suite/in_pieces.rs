@@ -2,6 +2,7 @@
 //! steps goes on where the piece before has left it. (What is taken for granted is stated with the piece that relies on it,
 //! so that the text may differ.)
 
+use ncc_driver::translate::rewrite::pass;
 use ncc_tests::corpus;
 use ncc_tests::translate::{job, translate};
 
@@ -142,5 +143,34 @@ fn a_program_with_packed_moves_is_translated_as_with_all_of_them() {
         }
     }
     assert!(longer > 100, "{longer}");
+    assert!(differing.is_empty(), "{}:\n{}", differing.len(), differing.join("\n"));
+}
+
+/// The same of what `flatten` executes: a step that changes moves changes all of them.
+#[test]
+fn a_program_that_is_executed_is_translated_packed_as_with_all_of_its_moves() {
+    let flatten = pass("flatten").expect("a pass of that name");
+    let (mut differing, mut flattened) = (Vec::new(), 0);
+    for program in corpus::DIALECTS.into_iter().flat_map(corpus::computing) {
+        let text = stretched(&program.text);
+        for to in ["fanuc", "siemens", "linuxcnc", "mach9"] {
+            let mut job = job(program.dialect, to, &program.file);
+            job.passes = vec![flatten];
+            job.shortest_stretch = usize::MAX;
+            let (all, written) = translate(&job, &text);
+            job.shortest_stretch = 3;
+            let (packed, packed_written) = translate(&job, &text);
+            flattened += usize::from(all.release.is_ok() && written.len() > 1000);
+            let same = all.release == packed.release
+                && written == packed_written
+                && all.diagnostics == packed.diagnostics
+                && all.counts == packed.counts
+                && all.verified.map(|own| own.events) == packed.verified.map(|own| own.events);
+            if !same {
+                differing.push(format!("{} to {to}: {:?}", program.file, packed.release));
+            }
+        }
+    }
+    assert!(flattened > 50, "{flattened}");
     assert!(differing.is_empty(), "{}:\n{}", differing.len(), differing.join("\n"));
 }

@@ -4,6 +4,8 @@
 //! A piece holds no label, call or variable, so that most steps leave it alone; but its source is compared while the rest
 //! of the program is not yet read, which is why it is folded first of all.
 
+mod flattened;
+
 use std::collections::{BTreeSet, HashMap};
 use std::io;
 
@@ -173,11 +175,14 @@ impl Translation<'_> {
     /// Sends a program that is kept whole, with its stretches of straight moves packed as far as the steps leave them as
     /// they are; where they do not, with all of its moves.
     fn send_kept(&mut self, mut source: Program) -> io::Result<()> {
+        if self.packs_flattened() {
+            return self.send_flattened(source);
+        }
         let stretches = if self.packs() { self.pack(&mut source) } else { Vec::new() };
         if !stretches.is_empty() {
             let before = Snapshot::of(self);
             let mut part = Part::Kept(Box::new(Kept::new(source.clone())));
-            if self.rewrite(&mut part).is_ok() && self.leaves(&stretches, &mut part, &before) {
+            if self.rewrite(&mut part).is_ok() && self.leaves(&stretches, &mut part, (&before, 0)) {
                 self.write(&mut part);
                 return self.release(&mut part);
             }
@@ -205,11 +210,11 @@ impl Translation<'_> {
         stretches(body)
     }
 
-    /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one. Says what
-    /// stretches compute as it is said beside them.
-    fn leaves(&self, stretches: &[Stretch], part: &mut Part, before: &Snapshot) -> bool {
+    /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one: since `before`,
+    /// and behind so many of the part's own diagnostics. Says what stretches compute as it is said beside them.
+    fn leaves(&self, stretches: &[Stretch], part: &mut Part, (before, found): (&Snapshot, usize)) -> bool {
         let Part::Kept(kept) = part else { return false };
-        let told = self.diagnostics.iter().skip(before.diagnostics()).chain(&kept.found);
+        let told = self.diagnostics.iter().skip(before.diagnostics()).chain(kept.found.iter().skip(found));
         let places = Places::of(stretches);
         if told.into_iter().any(|found| places.concern(found.span)) {
             return false;
@@ -234,10 +239,24 @@ impl Translation<'_> {
 
     /// All steps before the text, in their order.
     fn rewrite(&mut self, part: &mut Part) -> Result<(), Refused> {
+        self.rewrite_source(part)?;
+        self.rewrite_for_target(part)
+    }
+
+    /// The steps up to the passes that are asked for.
+    fn rewrite_source(&mut self, part: &mut Part) -> Result<(), Refused> {
         self.begin(part)?;
         self.write_side_effects(part);
         self.say_computed(part)?;
-        self.run_asked_passes(part)?;
+        self.run_asked_passes(part)
+    }
+
+    /// The steps after them.
+    fn rewrite_for_target(&mut self, part: &mut Part) -> Result<(), Refused> {
+        if let Part::Kept(kept) = part {
+            self.legaliser.frame_increments(&mut kept.program, false, &mut kept.found);
+            self.unless_refused(&mut kept.found)?;
+        }
         self.put_machine_numbers(part);
         self.legalise(part)
     }
@@ -390,9 +409,11 @@ impl Translation<'_> {
         if self.folder.is_some() {
             passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
         }
-        rewrite::run(&passes, program, &target(self.job), entry, found);
-        self.legaliser.frame_increments(program, false, found);
-        self.unless_refused(found)
+        match self.packs_flattened() {
+            true => rewrite::flatten(program, &target(self.job), entry, found, self.job.shortest_stretch),
+            false => rewrite::run(&passes, program, &target(self.job), entry, found),
+        }
+        Ok(())
     }
 
     /// Puts the target machine's numbers of tools, offsets and programs in.
@@ -501,7 +522,11 @@ impl Translation<'_> {
                 };
                 self.release_text(&assumed, said)
             }
-            Part::Kept(kept) => self.release_kept(&kept.source, &kept.renamed),
+            Part::Kept(kept) => {
+                // It is written; what is verified is its text.
+                kept.program = Program::default();
+                self.release_kept(&kept.source, &kept.renamed)
+            }
         }
     }
 

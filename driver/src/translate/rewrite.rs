@@ -9,8 +9,12 @@ use ncc_ir::caps::Caps;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
+use ncc_passes::flow::flatten;
 use ncc_passes::watch::ran_whole;
 use ncc_passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
+
+use super::translation::FLATTEN;
+use crate::stretches::{Packer, Words};
 
 /// Most held statements; a program of holes only is folded in parts of this size.
 const MOST_HELD: usize = 1 << 16;
@@ -36,6 +40,24 @@ pub fn run(
         run(program, target, entry, found);
         ran_whole(pass.name, program);
     }
+}
+
+/// Runs `flatten` alone, as [`run`] does; what it executes is packed as it comes, in stretches of so many moves or more.
+pub fn flatten(
+    program: &mut Program,
+    target: &Target,
+    entry: &Tracker,
+    found: &mut Vec<Diagnostic>,
+    shortest: usize,
+) {
+    let nothing = Target { caps: Caps::default(), ..target.clone() };
+    let mut packer = Some(Packer::new(shortest, Words::Literal));
+    let mut pack = |body: &mut Vec<Stmt>, over: bool| match &mut packer {
+        Some(packer) if !over => packer.pack(body, usize::MAX),
+        packer => packer.take().into_iter().for_each(|packer| packer.finish(body, usize::MAX)),
+    };
+    flatten::run_packing(program, &nothing, entry, found, &mut pack);
+    ran_whole(FLATTEN, program);
 }
 
 /// The passes that fold a program, or an event list.

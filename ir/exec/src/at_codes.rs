@@ -11,7 +11,7 @@ use ncc_ir::canon::{AXES, Distance, FeedMode, Spindle};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_ir::program::{Op, Point, ReferencePoint, Stmt};
+use ncc_ir::program::{Coord, Op, Point, ReferencePoint, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::{CompensationUnexecuted, CycleUnexecuted};
 
@@ -39,7 +39,29 @@ impl Exec {
 
     /// Behaviours that these statements meet from the current state, a bit each; those that they meet in any
     /// state are in [`touched`].
+    #[inline]
     pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
+        match stmts {
+            [stmt] if self.comes_to_none(stmt) => 0,
+            _ => self.comes_to_at_length(stmts),
+        }
+    }
+
+    /// Whether a statement is so plain that it meets none: the short way.
+    fn comes_to_none(&self, stmt: &Stmt) -> bool {
+        match &stmt.op {
+            Op::Label(_) | Op::Comment(_) | Op::Blank | Op::SetFeedRate(_) => true,
+            Op::StraightFeed(m) | Op::StraightTraverse(m) => {
+                let absolute = |word: &Coord| word.distance.or(Distance::Absolute) == Distance::Absolute;
+                self.modes.distance == Distance::Absolute
+                    && !Exec::turns(&m.to)
+                    && m.to.axes[..3].iter().flatten().all(absolute)
+            }
+            _ => false,
+        }
+    }
+
+    fn comes_to_at_length(&self, stmts: &[Stmt]) -> u64 {
         let bit = |comes: bool, behaviour: Behaviour| if comes { behaviour.bit() } else { 0 };
         let in_mode = |mode: FeedMode, counted: fn(&Op) -> bool| {
             stmts.iter().any(|stmt| counted(&stmt.op))
@@ -347,7 +369,55 @@ mod tests {
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, Plane, Turn};
     use ncc_ir::expr::num::{Num, Unit};
-    use ncc_ir::program::{Arc, Centre, Point, Turns};
+    use ncc_ir::program::{Arc, Centre, Move, Point, Turns};
+
+    /// What the short way passes over comes to nothing at length either.
+    #[test]
+    fn plain_statements_come_to_nothing() {
+        let number = Expr::Num(Num::int(5, Unit::Entry));
+        let coord = |distance| Some(Coord { value: number.clone(), distance });
+        let move_to = |axis: usize, distance| {
+            let mut to = Point::default();
+            (to.axes[0], to.axes[axis]) = (coord(Fact::Entry), coord(distance));
+            Move { to, said: true }
+        };
+        let mut ops = vec![
+            Op::Label("1".into()),
+            Op::Comment("a remark".into()),
+            Op::Blank,
+            Op::SetFeedRate(number.clone()),
+            Op::ChangeTool,
+        ];
+        for axis in [1, 2, 4] {
+            for distance in [Fact::Entry, Fact::Known(Distance::Absolute), Fact::Known(Distance::Incremental)]
+            {
+                ops.push(Op::StraightFeed(move_to(axis, distance)));
+                ops.push(Op::StraightTraverse(move_to(axis, distance)));
+            }
+        }
+        let mut world = World::generate(1, &Modes::default());
+        world.behaviours = world.behaviours.with(Behaviour::FrameOffsetIncremental, 1);
+        world.increments = Some(crate::Increments { mm: 0, inch: 0, degree: 0 });
+        let mut none = 0;
+        for distance in [Distance::Absolute, Distance::Incremental] {
+            let mut exec = Exec::new(&world, 0);
+            exec.modes.distance = distance;
+            (exec.turned_known, exec.position[0]) = (u8::MAX, 3);
+            let before = exec.before_frame();
+            exec.position = [7; AXES];
+            exec.carry(before);
+            for op in &ops {
+                let stmt = [Stmt::new(Span::default(), op.clone())];
+                if exec.comes_to_none(&stmt[0]) {
+                    none += 1;
+                    assert_eq!(exec.comes_to_at_length(&stmt), 0, "{op:?}");
+                }
+            }
+            let comes = |op: &Op| exec.comes_to(&[Stmt::new(Span::default(), op.clone())]) != 0;
+            assert!(ops.iter().any(comes), "{distance:?}");
+        }
+        assert_eq!(none, 2 * 4 + 8);
+    }
 
     /// The meaning of F on an arc is open under inverse-time feed only, set before or with the arc.
     #[test]

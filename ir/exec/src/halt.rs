@@ -33,6 +33,12 @@ pub(crate) fn is_asked_at(steps: u64) -> bool {
     is_asked()
 }
 
+/// Up to how many steps none is counted, of a run that has made so many.
+#[inline]
+pub(crate) fn uncounted(steps: u64) -> u64 {
+    (steps / EVERY + 1) * EVERY - 1
+}
+
 /// A run has made the steps after one number up to another at once.
 pub(crate) fn has_made(before: u64, steps: u64) {
     PASSED.fetch_add((steps / EVERY - before / EVERY) * EVERY, Ordering::Relaxed);

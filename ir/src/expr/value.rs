@@ -49,6 +49,41 @@ fn finite(n: f64) -> Result<f64, Wrong> {
 /// From here on a number is not rounded to a whole one.
 const MOST_WHOLE: f64 = i32::MAX as f64 + 0.5;
 
+/// 10⁰ to 10⁹.
+const POWERS_OF_TEN: [f64; 10] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+
+/// 2⁵²: from here on a number has no fraction.
+const NO_FRACTION: f64 = 4_503_599_627_370_496.0;
+
+/// As [`f64::round`], without a call of a library.
+#[inline]
+fn rounded(n: f64) -> f64 {
+    let size = n.abs();
+    if n.is_nan() || size >= NO_FRACTION {
+        return n;
+    }
+    // The sum has no room for a fraction: the nearest whole number, of two the even one.
+    let whole = size + NO_FRACTION - NO_FRACTION;
+    let up = if size - whole >= 0.5 { 1.0 } else { 0.0 };
+    (whole + up).copysign(n)
+}
+
+/// `roundto`, as [`function`] says.
+///
+/// # Errors
+/// As of [`Wrong`].
+#[inline]
+pub fn round_to(n: f64, digits: f64) -> Result<f64, Wrong> {
+    match POWERS_OF_TEN.get(digits as usize) {
+        // A part of a digit, or less than none, is none of these.
+        Some(by) if digits == f64::from(digits as u8) => {
+            let rounded = rounded(n * by) / by;
+            if rounded.is_nan() { Err(Wrong::NotDefined) } else { finite(rounded) }
+        }
+        Some(_) | None => Err(Wrong::NotDefined),
+    }
+}
+
 const fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
@@ -150,12 +185,8 @@ pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
         // What a control has for whole numbers ends there: LinuxCNC's interpreter gives the least of 32 bits for all
         // that lies beyond, a Sinumerik's INT has them too.
         Function::Round if a.abs() >= MOST_WHOLE => f64::NAN,
-        Function::Round => a.round(),
-        Function::RoundTo if b == b.trunc() && (0.0..=9.0).contains(&b) => {
-            let by = 10_f64.powi(b as i32);
-            (a * by).round() / by
-        }
-        Function::RoundTo => f64::NAN,
+        Function::Round => rounded(a),
+        Function::RoundTo => return round_to(a, b),
         Function::RoundUp => a.abs().ceil().copysign(a),
         Function::Floor => a.floor(),
         Function::Ceiling => a.ceil(),
@@ -212,6 +243,28 @@ mod tests {
         assert_eq!(binary(Binary::Power, -8.0, 0.5), Err(Wrong::NotDefined));
     }
 
+    /// Bit for bit what the library's functions give.
+    #[test]
+    fn rounding_is_that_of_the_library() {
+        let ends =
+            [0.0, 0.5, 1.5, 2.5, 1e9 + 0.5, NO_FRACTION - 0.5, NO_FRACTION, NO_FRACTION * 2.0 + 2.0, 1e300];
+        let near = |n: f64| [n, n.next_up(), n.next_down()];
+        let mut seed = 1u64;
+        let made = (0..200_000).map(|_| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 20) as f64 / 10f64.powi((seed >> 60) as i32)
+        });
+        for n in ends.into_iter().flat_map(near).chain(made).flat_map(|n| [n, -n]) {
+            assert_eq!(rounded(n).to_bits(), n.round().to_bits(), "{n}");
+            for digits in [0u8, 3, 4, 9] {
+                let by = 10f64.powi(digits.into());
+                let usual = (n * by).round() / by;
+                let of = function(Function::RoundTo, n, digits.into());
+                assert_eq!(of.map(f64::to_bits), finite(usual).map(f64::to_bits), "{n} {digits}");
+            }
+        }
+    }
+
     #[test]
     fn rounding_goes_where_its_name_says() {
         let of = |f, n| function(f, n, 0.0);
@@ -223,7 +276,10 @@ mod tests {
         assert_eq!(of(Function::RoundUp, 2.1), Ok(3.0));
         assert_eq!(function(Function::RoundTo, 12.3456, 3.0), Ok(12.346));
         assert_eq!(function(Function::RoundTo, -0.5, 0.0), Ok(-1.0));
-        assert_eq!(function(Function::RoundTo, 1.0, 0.5), Err(Wrong::NotDefined));
+        for digits in [0.5, -1.0, 10.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(function(Function::RoundTo, 1.0, digits), Err(Wrong::NotDefined));
+        }
+        assert_eq!(function(Function::RoundTo, 1e300, 9.0), Err(Wrong::TooLarge));
         assert_eq!(function(Function::Round, -2_147_483_647.4, 0.0), Ok(-2_147_483_647.0));
         assert_eq!(function(Function::Round, 2_147_483_647.5, 0.0), Err(Wrong::NotDefined));
         assert_eq!(binary(Binary::Modulo, -7.0, 3.0), Ok(-1.0));

@@ -16,6 +16,7 @@ pub(crate) mod go;
 pub(crate) mod left;
 mod lines;
 pub(crate) mod nesting;
+mod quick;
 mod repeated;
 pub(crate) mod required_arguments;
 pub(crate) mod term;
@@ -237,10 +238,11 @@ impl<'p> Runner<'p> {
         if self.steps == 0 {
             self.parameters_have_values()?;
         }
+        if exec.ended() {
+            return Ok(None);
+        }
         loop {
-            if exec.ended() {
-                return Ok(None);
-            }
+            self.go_quickly(&code, exec, before)?;
             if self.at == self.end {
                 self.end_of_blocks();
                 continue;
@@ -390,7 +392,8 @@ impl<'p> Runner<'p> {
     /// Whether the run halts here: before packed moves, or behind the first of them where control has come to it.
     #[inline]
     fn is_before_lines(&mut self, exec: &Exec) -> bool {
-        self.halts_at_lines && !self.lines_ahead(exec).is_empty()
+        let are_next = matches!(self.code.steps.get(self.at as usize), Some(Step::Lines(..)));
+        self.halts_at_lines && are_next && !self.lines_ahead(exec).is_empty()
     }
 
     /// Another run has executed so many of [`Runner::lines_ahead`] for this one as well, and so many events came of it.
@@ -433,7 +436,7 @@ impl<'p> Runner<'p> {
         asked: Asked,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        let value = self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?;
+        let value = self.variables.value_at_length(term, asked).map_err(|why| self.no_value(why, span))?;
         let Some(place) = place else {
             return Err(Diagnostic::new(Fault::not_executed(ValueUnexecuted::ControlVariableSet), span));
         };

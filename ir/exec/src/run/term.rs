@@ -270,7 +270,7 @@ pub(crate) fn real(n: Num) -> f64 {
 #[inline]
 pub(crate) fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
     let Value::Number(n) = value else { return Ok(None) };
-    if unit == Unit::One && n == n.trunc() && n.abs() < 1e15 {
+    if unit == Unit::One && n.abs() < 1e15 && n == n as i64 as f64 {
         return Ok(Some(Num::int(n as i64, unit)));
     }
     let (scale, scaled) = match unit {
@@ -313,7 +313,7 @@ pub(crate) struct Variables {
     pub(crate) locals: Vec<Value>,
     /// Where those of the present call begin.
     pub(crate) base: usize,
-    shared: Vec<Option<Value>>,
+    pub(crate) shared: Vec<Option<Value>>,
 }
 
 impl Variables {
@@ -370,16 +370,22 @@ impl Variables {
 
     /// What an expression is worth. With another sign, or rounded to some digits, nothing stays nothing: a word
     /// `X-#1` is left out where `X#1` is.
+    #[inline]
     pub(crate) fn value(&self, term: &Term, asked: Asked) -> Result<Value, Why> {
+        let quick = self.quick(term);
+        if quick.is_nan() { self.value_at_length(term, asked) } else { Ok(Value::Number(quick)) }
+    }
+
+    pub(crate) fn value_at_length(&self, term: &Term, asked: Asked) -> Result<Value, Why> {
         Ok(match term {
             Term::Vacant => Value::Vacant,
             Term::Read(place) => self.read(*place)?,
             Term::Element(element) => self.read(self.at(element, asked)?)?,
-            Term::Unary(Unary::Negate, a) => match self.value(a, asked)? {
+            Term::Unary(Unary::Negate, a) => match self.value_at_length(a, asked)? {
                 Value::Vacant => Value::Vacant,
                 Value::Number(n) => Value::Number(-n),
             },
-            Term::OfTwo(f @ Function::RoundTo, both) => match self.value(&both[0], asked)? {
+            Term::OfTwo(f @ Function::RoundTo, both) => match self.value_at_length(&both[0], asked)? {
                 Value::Vacant => Value::Vacant,
                 Value::Number(n) => {
                     Value::Number(value::function(*f, n, self.number(&both[1], asked)?).map_err(Why::Wrong)?)
@@ -418,7 +424,7 @@ impl Variables {
             Term::Unary(operator, a) => value::unary(*operator, self.operand(a, asked)?),
             Term::Binary(operator @ (Binary::Equal | Binary::NotEqual), both) => {
                 let [a, b] = &**both;
-                let same = self.value(a, asked)? == self.value(b, asked)?;
+                let same = self.value_at_length(a, asked)? == self.value_at_length(b, asked)?;
                 f64::from(u8::from(same == (*operator == Binary::Equal)))
             }
             Term::Binary(operator, both) => {
@@ -426,7 +432,7 @@ impl Variables {
                 value::binary(*operator, self.operand(a, asked)?, self.operand(b, asked)?)
                     .map_err(Why::Wrong)?
             }
-            Term::Given(a) => match self.value(a, asked)? {
+            Term::Given(a) => match self.value_at_length(a, asked)? {
                 Value::Number(n) => n,
                 Value::Vacant => return Err(Why::Wrong(Wrong::NothingGiven)),
             },

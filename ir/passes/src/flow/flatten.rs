@@ -32,6 +32,18 @@ pub(crate) const PASS: Pass =
 
 /// Executes the program; only a main procedure of straight blocks is left.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    run_packing(program, target, entry, diags, &mut |_, _| {});
+}
+
+/// As [`run`]; `pack` may pack the statements that are there after each of them, and is told of the last one, so that few
+/// are in memory at once.
+pub fn run_packing(
+    program: &mut Program,
+    target: &Target,
+    entry: &Tracker,
+    diags: &mut Vec<Diagnostic>,
+    pack: &mut dyn FnMut(&mut Vec<Stmt>, bool),
+) {
     if let Err(fault) = program.procedures.iter().try_for_each(|p| no_switch(&p.body)) {
         return diags.push(fault);
     }
@@ -46,10 +58,10 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
         exec.assume(&modes);
         exec
     };
-    match straight(program, target, &mut walk, control(1, 0), Some(control(2, u16::MAX))) {
-        Ok(body) => {
+    match straight(program, target, &mut walk, (control(1, 0), Some(control(2, u16::MAX))), pack) {
+        Ok((mut body, blocks)) => {
+            pack(&mut body, true);
             if let Some(first) = body.first() {
-                let blocks = body.iter().filter(|stmt| !stmt.joined).count() as u64;
                 diags.push(Diagnostic::new(Fault::Flattened { blocks }, first.span));
             }
             let title = program.procedures.first().and_then(|main| main.title.clone());
@@ -71,21 +83,23 @@ pub fn by(program: &Program, entry: &Tracker, control: Exec) -> Result<Option<Pr
     }
     program.procedures.iter().try_for_each(|p| no_switch(&p.body))?;
     let target = Target { decimals: 9, ..Target::default() };
-    let body = straight(program, &target, &mut Walk::new(entry.clone()), control, None)?;
+    let (body, _) =
+        straight(program, &target, &mut Walk::new(entry.clone()), (control, None), &mut |_, _| {})?;
     let main = Procedure { body, ..Procedure::default() };
     Ok(Some(Program { procedures: vec![main], ..program.clone() }))
 }
 
-/// The blocks that are executed, one after the other. What a program asks of the control, these two have to agree
-/// about.
+/// The blocks that are executed, one after the other, and how many there are. What a program asks of the control, these
+/// two have to agree about.
 fn straight(
     program: &Program,
     target: &Target,
     walk: &mut Walk,
-    mut exec: Exec,
-    mut other: Option<Exec>,
-) -> Result<Vec<Stmt>, Diagnostic> {
+    (mut exec, mut other): (Exec, Option<Exec>),
+    pack: &mut dyn FnMut(&mut Vec<Stmt>, bool),
+) -> Result<(Vec<Stmt>, u64), Diagnostic> {
     let mut out: Vec<Stmt> = Vec::new();
+    let (mut statements, mut blocks) = (0, 0);
     let mut numbered = HashSet::new();
     let mut runner = Runner::new(program);
     runner.give(&mut |var| {
@@ -100,8 +114,11 @@ fn straight(
     let most = target.tried_upto.map_or(MOST_STATEMENTS, |most| most as usize);
     loop {
         let Some(stmt) = runner.next_of(&exec, other.as_ref())? else {
-            out.extend(valid::returns_alone(program).map(|at| Stmt::new(at, Op::Return)));
-            return Ok(out);
+            if let Some(at) = valid::returns_alone(program) {
+                out.push(Stmt::new(at, Op::Return));
+                blocks += 1;
+            }
+            return Ok((out, blocks));
         };
         let mut stmt = stmt.clone();
         let before = std::mem::replace(&mut steps, runner.steps());
@@ -134,12 +151,15 @@ fn straight(
         walk.enter(stmt.skip);
         settle(&mut stmt.op, &walk.at);
         walk.step(&stmt);
-        if out.len() >= most || target.tried_upto.is_some_and(|most| runner.steps() > u64::from(most)) {
+        if statements >= most || target.tried_upto.is_some_and(|most| runner.steps() > u64::from(most)) {
             return Err(Diagnostic::new(Fault::lacks(FlowLack::TooManyBlocks), stmt.span));
         }
+        statements += 1;
+        blocks += u64::from(!stmt.joined);
         out.push(stmt);
+        pack(&mut out, false);
         if over {
-            return Ok(out);
+            return Ok((out, blocks));
         }
     }
 }
