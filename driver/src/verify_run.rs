@@ -16,6 +16,7 @@ pub mod facts;
 pub mod forks;
 mod holes;
 mod levels;
+mod paced;
 pub mod per_tool;
 mod table;
 pub mod twice;
@@ -156,6 +157,7 @@ impl Verifier {
             holes_differ: false,
             strokes_differ: false,
             arcs_ahead: None,
+            paced_ahead: None,
             open: looked_at(job),
             optional_stop: stops_differ(job),
             matters: Vec::new(),
@@ -258,7 +260,7 @@ impl Verifier {
     pub fn source(&mut self, stmts: &[Stmt], assumed: &Modes) -> Result<(), Stop> {
         self.make_holes()?;
         self.prepare(stmts, assumed);
-        if self.hold_holes(stmts)? {
+        if self.hold_holes(stmts)? || self.hold_paced(stmts) {
             return Ok(());
         }
         self.run_source_to_holes(stmts)
@@ -353,7 +355,7 @@ impl Verifier {
             self.step_read()?;
             self.batch.stmts = holes;
         }
-        if self.pass_holes()? { Ok(()) } else { self.step_read() }
+        if self.pass_holes()? || self.pass_paced() { Ok(()) } else { self.step_read() }
     }
 
     fn step_read(&mut self) -> Result<(), Stop> {
@@ -367,10 +369,12 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
-            // Holes that pass leave no pairs of events.
+            // Holes that pass leave no pairs of events, and paced lines none either.
             let alike = run.source.agrees_on_lines(&run.target)
                 || !self.watched
-                    && (run.source.makes_holes_of(&run.target) || run.source.makes_strokes_of(&run.target));
+                    && (run.source.makes_holes_of(&run.target)
+                        || run.source.makes_strokes_of(&run.target)
+                        || run.source.paces_as(&run.target));
             run.level = nothing_left && !self.renamed && alike;
         }
         self.drop_same();

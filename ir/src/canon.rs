@@ -8,7 +8,7 @@ pub const AXES: usize = 6;
 /// Whether two points are equal. A fast comparison: `==` on arrays calls the library.
 #[inline]
 pub fn same_point(a: &[i64; AXES], b: &[i64; AXES]) -> bool {
-    a.iter().zip(b).fold(0, |differing, (a, b)| differing | (a ^ b)) == 0
+    (0..AXES).fold(0, |differing, axis| differing | (a[axis] ^ b[axis])) == 0
 }
 
 /// An axis. X Y Z are linear, A B C are rotary.

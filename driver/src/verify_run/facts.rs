@@ -251,7 +251,7 @@ impl Verifier {
 
     /// Runs of the first world in which facts are to be tried that they come to, with these facts: a fact that is met
     /// under the settings in which facts are tried is tried under no other.
-    fn met_by(&self, comes: impl Fn(&Run) -> u64) -> Vec<(usize, u64)> {
+    pub(super) fn met_by(&self, comes: impl Fn(&Run) -> u64) -> Vec<(usize, u64)> {
         let met = Verifier::of_first_world(&self.runs).map(|at| (at, comes(&self.runs[at])));
         let mut met: Vec<(usize, u64)> = met.filter(|(_, bits)| *bits != 0).collect();
         let tries = |at: usize| tries_facts(self.runs[at].skip, self.levels);

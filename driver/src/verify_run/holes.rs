@@ -160,8 +160,10 @@ impl Verifier {
         Ok(true)
     }
 
-    /// Executes holes that the source has passed for their effect alone, so that their events are compared.
+    /// Executes holes that the source has passed for their effect alone, so that their events are compared; and has the
+    /// events of lines that it has made ahead compared.
     pub(super) fn make_holes(&mut self) -> Result<(), Stop> {
+        self.make_paced();
         match self.holes_ahead.take() {
             Some(ahead) => self.run_source(&ahead.stmts),
             None => Ok(()),

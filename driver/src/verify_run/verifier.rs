@@ -7,7 +7,7 @@
 //! Not here: how they go on (`verify_run`), and facts that another run has otherwise (`facts`).
 
 use ncc_exec::verify::{Comparison, Pair};
-use ncc_exec::{Event, Exec, Stroke};
+use ncc_exec::{Event, Exec, PacedMove, Stroke};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Modes};
@@ -132,6 +132,13 @@ pub(super) struct ArcsMade {
     pub(super) events: u64,
 }
 
+/// Lines of one run that the source has made, and the target not yet.
+pub(super) struct PacedMade {
+    /// The source's control behind them; its run has it as it is before them.
+    pub(super) behind: Exec,
+    pub(super) moves: Vec<PacedMove>,
+}
+
 /// A verification in progress.
 pub struct Verifier {
     pub(super) reader: Reader,
@@ -151,6 +158,8 @@ pub struct Verifier {
     pub(super) strokes_differ: bool,
     /// What each run has made of arcs that the source has executed, where the target is likely to make the same.
     pub(super) arcs_ahead: Option<Vec<ArcsMade>>,
+    /// What each run has made of lines that turn rotary axes, where the target is likely to make the same moves.
+    pub(super) paced_ahead: Option<Vec<PacedMade>>,
     /// Open facts of the source's control, the target's, a bit each, that are looked at.
     pub(super) open: [u64; 2],
     /// Whether the switch for optional stops makes a difference on either control.

@@ -72,12 +72,26 @@ impl Exec {
         let arcs = in_mode(FeedMode::InverseTime, |op| matches!(op, Op::ArcFeed(_)));
         bit(self.includes_in(stmts), Behaviour::FrameOffsetIncremental)
             | bit(self.turns_far_in(stmts), Behaviour::RotaryTurn)
+            | bit(self.feeds_turns_in(stmts), Behaviour::RotaryFeed)
             | bit(dwells, Behaviour::DwellPerRevolution)
             | bit(arcs, Behaviour::ArcByTime)
             | bit(self.is_fine_in(stmts), Behaviour::FineDigits)
             | bit(self.feeds_arcs_in(stmts), Behaviour::FeedOnArcs)
             | self.lengths_aside_in(stmts)
             | self.by_blocks(stmts)
+    }
+
+    /// Whether any of these statements turns rotary axes at a feed. (A time is the same whatever a feed counts.)
+    fn feeds_turns_in(&self, stmts: &[Stmt]) -> bool {
+        let mut mode = self.state.feed_mode;
+        stmts.iter().filter(|stmt| !self.skips(stmt)).any(|stmt| match &stmt.op {
+            Op::SetFeedMode(set) => {
+                mode = *set;
+                false
+            }
+            Op::StraightFeed(m) => mode != FeedMode::InverseTime && Exec::turns(&m.to),
+            _ => false,
+        })
     }
 
     /// Changes a behaviour from now on.
@@ -353,7 +367,6 @@ pub fn touched(op: &Op) -> u64 {
         Op::UseMachineCoordinates { length: false } => bits(&[Behaviour::LengthAfterMachineMove]),
         Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
         Op::UseLengthUnits(_) => bits(&[Behaviour::FeedAtUnits]),
-        Op::StraightFeed(m) if m.to.axes[3..].iter().any(Option::is_some) => bits(&[Behaviour::RotaryFeed]),
         _ => 0,
     }
 }

@@ -41,6 +41,7 @@ pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::{Compensation, CompensationRadius};
 pub use moves::fine::Increments;
 pub use moves::holes::same::are_holes;
+pub use moves::lines::paced::{PacedLines, PacedMove};
 pub use moves::lines::valued::{Stroke, ValuedLines};
 pub use moves::pace::{DEGREES, LINEAR};
 pub use moves::rotary::end as rotary_end;
@@ -470,15 +471,7 @@ impl Exec {
                 self.said |= PLANE;
                 self.turn_length();
             }
-            Op::SetFeedMode(mode) => {
-                // What a feed said before would count now, nobody knows; a time is one block's.
-                let ends = self.world.feed_ends_with_mode || *mode == FeedMode::InverseTime;
-                if self.state.feed_mode != *mode || ends {
-                    self.state.feed_mode = *mode;
-                    self.feed = 0;
-                }
-                self.said |= FEED_MODE;
-            }
+            Op::SetFeedMode(mode) => self.set_feed_mode(*mode),
             Op::Corner { shape, size } => self.ask_corner(*shape, size, span)?,
             Op::SetMotionControlMode(_)
             | Op::ExactStop

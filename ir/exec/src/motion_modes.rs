@@ -3,7 +3,7 @@
 //!
 //! Not here: moves themselves.
 
-use super::{Attribute, Coolant, Event, Exec, InModes, Kind, RETURN, by_control};
+use super::{Attribute, Coolant, Event, Exec, InModes, Kind, RETURN, State, by_control};
 use crate::world::Sideways;
 use ncc_ir::canon::{Axis, Distance, PathMode, Spindle};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -243,6 +243,16 @@ impl Exec {
         self.agrees_beside_way(other, InModes { motion: self.modes.motion, ..other.modes })
     }
 
+    /// Whether all is the same that straight moves make events of, but for the motion in force, the feed, and what it counts.
+    pub(crate) fn agrees_beside_feed(&self, other: &Exec) -> bool {
+        let counted = State { feed_mode: self.state.feed_mode, ..other.state };
+        let modes = InModes { motion: self.modes.motion, ..other.modes };
+        self.cycle.is_none()
+            && other.cycle.is_none()
+            && self.state == counted
+            && self.agrees_beside_state(other, modes)
+    }
+
     /// Whether the same cycle is in force on both controls, if any is.
     fn has_cycle_of(&self, other: &Exec) -> bool {
         let same_parameters = self.cycle.is_none() || self.world.orientation == other.world.orientation;
@@ -256,6 +266,11 @@ impl Exec {
 
     /// The same, with these modes of the other, and whatever way both have come.
     fn agrees_beside_way(&self, other: &Exec, modes: InModes) -> bool {
+        self.feed == other.feed && self.state == other.state && self.agrees_beside_state(other, modes)
+    }
+
+    /// The same, whatever the feed is and what is on.
+    fn agrees_beside_state(&self, other: &Exec, modes: InModes) -> bool {
         self.modes == InModes { return_level: self.modes.return_level, ..modes }
             && self.position == other.position
             && self.frame == other.frame
@@ -278,10 +293,8 @@ impl Exec {
             && self.contour == other.contour
             && self.centre_path.is_none()
             && other.centre_path.is_none()
-            && self.feed == other.feed
             && self.selected == other.selected
             && self.put_in() == other.put_in()
-            && self.state == other.state
             && self.speed_watched == other.speed_watched
             && self.corner.is_none()
             && other.corner.is_none()

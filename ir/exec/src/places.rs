@@ -31,8 +31,8 @@ impl Exec {
             None => *p,
             Some(chain) => chain.place(p),
         };
-        for (at, frame) in at.iter_mut().zip(&self.frame) {
-            *at = at.wrapping_add(*frame);
+        for axis in 0..AXES {
+            at[axis] = at[axis].wrapping_add(self.frame[axis]);
         }
         at
     }

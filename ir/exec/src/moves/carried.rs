@@ -133,6 +133,19 @@ impl Exec {
         }
     }
 
+    /// These axes, a bit each, have had an absolute word, so that they carry nothing on.
+    pub(crate) fn carries_no_more(&mut self, axes: u32) {
+        let Some(carried) = &mut self.carried else { return };
+        for (axis, from) in carried.from.iter_mut().enumerate() {
+            if axes >> axis & 1 == 1 {
+                *from = None;
+            }
+        }
+        if carried.from == [None; AXES] {
+            self.carried = None;
+        }
+    }
+
     /// An axis goes to where no word of the program says, and carries nothing on.
     pub(crate) fn stop_carrying(&mut self, axis: usize) {
         if let Some(carried) = &mut self.carried {

@@ -1,11 +1,12 @@
 //! Lines executed for their effect on the state alone, where nothing is in force that would ask for more: most of most
 //! programs. What is not so plain is left to [`Exec::step`].
 
+pub(crate) mod paced;
 pub(crate) mod valued;
 
 use crate::moves::arcs::same::is_plain_arc;
 use crate::{Event, Exec, Heading, Kind, MOTION, Z, by_control};
-use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, Spindle, same_point};
+use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, same_point};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Op, Point, Stmt};
@@ -57,15 +58,11 @@ impl Exec {
 
     /// Whether a line by absolute words changes no more than where the axes stand.
     pub(crate) fn takes_lines(&self) -> bool {
-        let state = &self.state;
-        !(self.ended || self.narrating || self.every_move || self.speed_watched)
-            && state.spindle != Spindle::Stopped
-            && state.feed_mode != FeedMode::InverseTime
-            && self.goes_plainly()
+        self.state.feed_mode != FeedMode::InverseTime && self.takes_timed_lines()
     }
 
     /// The same, whatever a line makes besides an event of it.
-    fn goes_plainly(&self) -> bool {
+    pub(crate) fn goes_plainly(&self) -> bool {
         let state = &self.state;
         !(state.tip || state.tilted || self.contour.watched)
             && state.by_control & (by_control::Z | by_control::Z_AT_START | by_control::Z_COUNTED) == 0
@@ -169,7 +166,7 @@ impl Exec {
 
     /// Goes to a place of the program; gives where that is in machine coordinates.
     #[inline(always)]
-    fn go_plainly(&mut self, next: &[Nanos; AXES], named: u32, feed: bool) -> [Nanos; AXES] {
+    pub(crate) fn go_plainly(&mut self, next: &[Nanos; AXES], named: u32, feed: bool) -> [Nanos; AXES] {
         self.relies_on_slots(named);
         self.at_place &= named >> Z & 1 == 0;
         if !same_point(next, &self.position) {

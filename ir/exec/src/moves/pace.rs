@@ -23,6 +23,17 @@ impl Exec {
         self.feed = feed;
     }
 
+    /// The program says what a feed counts.
+    pub(crate) fn set_feed_mode(&mut self, mode: FeedMode) {
+        // What a feed said before would count now, nobody knows; a time is one block's.
+        let ends = self.world.feed_ends_with_mode || mode == FeedMode::InverseTime;
+        if self.state.feed_mode != mode || ends {
+            self.state.feed_mode = mode;
+            self.feed = 0;
+        }
+        self.said |= crate::FEED_MODE;
+    }
+
     /// The time of a cut along a line from where the machine stands, if rotary axes turn in it.
     #[inline]
     pub(crate) fn pace_of_line(&mut self, end: &[Nanos; AXES]) -> Pace {

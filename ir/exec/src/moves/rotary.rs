@@ -21,14 +21,21 @@ const WAY: Behaviour = Behaviour::RotaryTurn;
 /// The value of the shortest way.
 const SHORTEST: u8 = 1;
 
+/// The value of the way in the direction of the number's sign.
+const SIGN: u8 = 2;
+
 /// Where an axis that stands at `from` goes by an absolute word, on a control with this value of the behaviour.
 pub fn end(value: u8, from: Nanos, to: Nanos) -> Nanos {
-    match WAY.values().get(usize::from(value)) {
-        Some(&"shortest") => {
-            let way = (to - from).rem_euclid(TURN);
+    match value {
+        SHORTEST => {
+            let way = to - from;
+            if -TURN / 2 < way && way <= TURN / 2 {
+                return to;
+            }
+            let way = way.rem_euclid(TURN);
             if way > TURN / 2 { from + way - TURN } else { from + way }
         }
-        Some(&"sign") => {
+        SIGN => {
             let up = (to.abs() - from).rem_euclid(TURN);
             if to < 0 && up != 0 { from + up - TURN } else { from + up }
         }
@@ -48,19 +55,25 @@ impl Exec {
     pub(crate) fn turn_rotary(&mut self, to: &Point, next: &mut [Nanos; AXES]) {
         for (axis, next) in next.iter_mut().enumerate().skip(Axis::A as usize) {
             let Some(word) = &to.axes[axis] else { continue };
-            let absolute = word.distance.or(self.modes.distance) == Distance::Absolute;
-            let bit = 1 << axis;
-            if absolute && self.turned_known & bit != 0 && !self.own_way {
-                let from = self.position[axis];
-                if end(SHORTEST, from, *next) != *next {
-                    self.asked |= WAY.bit();
-                }
-                *next = end(self.world.behaviours.get(WAY), from, *next);
-            }
-            if absolute {
-                self.turned_known |= bit;
+            if word.distance.or(self.modes.distance) == Distance::Absolute {
+                *next = self.turned(axis, *next);
             }
         }
+    }
+
+    /// Where an absolute word takes a rotary axis from where it stands.
+    pub(crate) fn turned(&mut self, axis: usize, to: Nanos) -> Nanos {
+        let bit = 1 << axis;
+        let known = self.turned_known & bit != 0;
+        self.turned_known |= bit;
+        if !known || self.own_way {
+            return to;
+        }
+        let from = self.position[axis];
+        if end(SHORTEST, from, to) != to {
+            self.asked |= WAY.bit();
+        }
+        end(self.world.behaviours.get(WAY), from, to)
     }
 
     /// Whether any of these statements turns a rotary axis in a way that controls do not agree about.
@@ -101,5 +114,29 @@ impl Exec {
 
     fn degrees(&self, word: &Coord) -> Option<Nanos> {
         self.nanos(&word.value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_those_of_the_behaviour() {
+        let values = [SHORTEST, SIGN].map(|value| WAY.values().get(usize::from(value)).copied());
+        assert_eq!(values, [Some("shortest"), Some("sign")]);
+    }
+
+    /// The shortest way is that of the remainder, with half a turn up.
+    #[test]
+    fn the_shortest_way_is_at_most_half_a_turn() {
+        for from in (-800..800).step_by(20) {
+            for to in (-800..800).step_by(20) {
+                let (at, word) = (from * ONE, to * ONE);
+                let went = end(SHORTEST, at, word) - at;
+                assert!(-TURN / 2 < went && went <= TURN / 2, "{from} {to}");
+                assert_eq!((word - at - went) % TURN, 0, "{from} {to}");
+            }
+        }
     }
 }

@@ -80,10 +80,9 @@ fn switches(kind: &Kind) -> bool {
 
 /// Whether two moves take the same time, where one of their controls counts the feed in a way of its own: to half a per
 /// cent, because F of such a move has few digits.
-pub(super) fn same_time(source: &Event, target: &Event) -> bool {
-    let timed = (source.state.by_control | target.state.by_control) & by_control::TIMED != 0;
-    let apart = i128::from(source.rate.abs_diff(target.rate));
-    timed && apart * 190 <= i128::from(source.rate)
+pub(super) fn same_time([source, target]: [Nanos; 2], timed: bool) -> bool {
+    let apart = i128::from(source.abs_diff(target));
+    timed && apart * 190 <= i128::from(source)
 }
 
 /// Whether Z is where the control or the operator has left it, on one side alone.

@@ -1,12 +1,13 @@
 //! When two events are the same: as far as both controls resolve them, and know them.
 
-use ncc_ir::canon::{AXES, Axis, SpindleMode, same_point};
+use ncc_ir::canon::{AXES, Axis, FeedMode, SpindleMode, same_point};
 use ncc_ir::expr::num::{Nanos, ONE};
 
 use super::besides::{but_for_control, same_time, with_z_of, z_passed_over};
 use super::{Aspect, Comparison, Part, Resolution, part};
 use crate::Event;
 use crate::Kind;
+use crate::PacedMove;
 use crate::State;
 use crate::Stored;
 use crate::by_control;
@@ -23,6 +24,27 @@ impl Comparison {
         let said = alarms.and_then(|alarms| alarms.said(number.map(|n| n / ONE), text));
         let said = said.as_ref().map(|(number, text)| (number.map(|n| n * ONE), &**text));
         (number, text) == there || said == Some(there)
+    }
+
+    /// Whether feeds are the same, and count the same; `timed` where one of the controls counts in a way of its own.
+    #[inline]
+    fn same_rate(&self, [a, b]: [Nanos; 2], [mode, other]: [FeedMode; 2], timed: bool, inch: bool) -> bool {
+        let most = self.resolution.feeds(inch || self.as_inches);
+        let same = a == b || a.abs_diff(b) <= most as u64 || same_time([a, b], timed);
+        same && (a == 0 || mode == other)
+    }
+
+    /// Whether the moves of two controls that agree otherwise ([`Exec::paces_as`](crate::Exec::paces_as)) are the same
+    /// events: they end at the same places exactly, and their feeds are the same as far as [`Comparison::advance`] asks.
+    pub fn same_paced(&self, a: &[PacedMove], b: &[PacedMove], inch: bool) -> bool {
+        let same = |(a, b): (&PacedMove, &PacedMove)| {
+            let (modes, timed) = ([a.mode, b.mode], a.timed || b.timed);
+            a.feed == b.feed
+                && same_point(&a.end, &b.end)
+                && self.same_rate([a.rate, b.rate], modes, timed, inch)
+        };
+        let plainly = self.is_settled() && self.measured.is_none() && self.pairs.is_none();
+        plainly && a.len() == b.len() && a.iter().zip(b).all(same)
     }
 
     /// Whether tool, spindle, coolant and modes are the same.
@@ -221,11 +243,9 @@ impl Comparison {
             return Some(Aspect::End(axis));
         }
         let synchronised = matches!(a.kind, Kind::Synchronised { .. });
-        let most = self.resolution.feeds(b.inch || self.as_inches);
-        if a.rate != b.rate && !synchronised && !near(a.rate, b.rate, most) && !same_time(a, b) {
-            return Some(Aspect::Feed);
-        }
-        if a.rate != 0 && !synchronised && a.state.feed_mode != b.state.feed_mode {
+        let timed = (a.state.by_control | b.state.by_control) & by_control::TIMED != 0;
+        let modes = [a.state.feed_mode, b.state.feed_mode];
+        if !synchronised && !self.same_rate([a.rate, b.rate], modes, timed, b.inch) {
             return Some(Aspect::Feed);
         }
         let switches = by_control::SPINDLE | by_control::COOLANT;

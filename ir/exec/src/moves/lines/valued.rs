@@ -8,7 +8,7 @@
 //! fault, is left to [`Exec::pass`]: nothing is done then.
 
 use crate::{Exec, Heading, MOTION, Z};
-use ncc_ir::canon::{AXES, Distance, Motion, same_point};
+use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, same_point};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::{Op, Stmt};
@@ -89,7 +89,7 @@ impl Exec {
     /// The values of lines for this control, and for all that have the same unit in force; `None` where statements are
     /// anything but plain lines by words from zero, or this control would not take them so.
     pub fn value_lines(&self, stmts: &[Stmt]) -> Option<ValuedLines> {
-        if !self.takes_lines() {
+        if !self.takes_timed_lines() {
             return None;
         }
         let lines = stmts.iter().map(|stmt| self.value_line(stmt)).collect::<Option<Vec<Valued>>>()?;
@@ -163,11 +163,14 @@ impl Exec {
     /// Executes lines for their effect on the state alone, as [`Exec::pass`] does; gives the number of their events.
     /// `None`, and nothing done, where that is not plain to see.
     pub fn pass_valued(&mut self, valued: &ValuedLines) -> Option<u64> {
-        if !self.takes_lines() || self.chain.is_some() || self.modes.inch != valued.inch {
+        if !self.takes_timed_lines() || self.chain.is_some() || self.modes.inch != valued.inch {
             return None;
         }
-        let (mut at, mut heading) = (self.position, self.heading);
+        // Rotary axes stay where they are.
+        let [mut x, mut y, mut z, a, b, c] = self.position;
+        let mut from = None;
         let (mut motion, mut feed, mut feed_said) = (self.modes.motion, self.feed, false);
+        let by_time = self.state.feed_mode == FeedMode::InverseTime;
         let (mut events, mut named_all, mut executed) = (0, 0, 0);
         // Behind the first move the machine stands where the program does.
         let (mut stands, mut moved) = (self.machine() == self.last, false);
@@ -193,28 +196,34 @@ impl Exec {
                 Motion::Traverse => {}
                 Motion::Feed | Motion::Arc(_) | Motion::Cycle => return None,
             }
-            let mut next = at;
-            for (axis, value) in values.iter().enumerate() {
-                if named >> axis & 1 == 1 {
-                    next[axis] = *value;
-                }
-            }
-            let other = !same_point(&next, &at);
+            let to = |axis: usize, at: Nanos| if named >> axis & 1 == 1 { values[axis] } else { at };
+            let next = [to(0, x), to(1, y), to(2, z)];
+            let other = (next[0] ^ x) | (next[1] ^ y) | (next[2] ^ z) != 0;
             if other {
-                heading = Heading::From(at);
-                at = next;
+                from = Some([x, y, z]);
+                [x, y, z] = next;
             }
-            events += u64::from(if stands { other } else { self.place(&at) != self.last });
+            let goes = if stands { other } else { self.place(&[x, y, z, a, b, c]) != self.last };
+            events += u64::from(goes);
             (stands, moved) = (true, true);
             named_all |= named;
+            if by_time && goes && motion == Motion::Feed {
+                // The time of one move says nothing of the next.
+                feed = 0;
+            }
         }
         // What a statement does to messages, it does no more behind the second one.
         (0..executed.min(2)).for_each(|_| self.shown.goes_on());
+        self.feed = feed;
         if feed_said {
-            (self.feed, self.feed_inch) = (feed, Some(valued.inch));
+            self.feed_inch = Some(valued.inch);
         }
         if moved {
-            (self.position, self.heading, self.modes.motion) = (at, heading, motion);
+            self.position = [x, y, z, a, b, c];
+            if let Some([x, y, z]) = from {
+                self.heading = Heading::From([x, y, z, a, b, c]);
+            }
+            self.modes.motion = motion;
             self.said |= MOTION;
             self.relies_on_slots(named_all.into());
             self.at_place &= named_all >> Z & 1 == 0;
@@ -322,6 +331,43 @@ mod tests {
             }
         }
         assert!(executed > 1_000 && left > 100, "{executed} {left}");
+    }
+
+    /// A time is used up by each cut, and by no other line.
+    #[test]
+    fn times_of_lines_do_what_their_words_do() {
+        let start = [Op::SetFeedMode(FeedMode::InverseTime)];
+        let (mut executed, mut left) = (0, 0);
+        for seed in 0..400 {
+            let mut feeds = seed;
+            let timed = |line: Stmt| {
+                feeds += 1;
+                let feed = stmt(line.skip, Op::SetFeedRate(entry(feeds as i64 * 1_000)));
+                // One in 16 is left out.
+                let without = feeds % 16 == 3 || matches!(line.op, Op::SetFeedRate(_));
+                if without { vec![line] } else { vec![feed, line] }
+            };
+            let lines: Vec<Stmt> = lines(seed).into_iter().flat_map(timed).collect();
+            let valued = control(0, &start).value_lines(&lines).expect("plain lines");
+            for skip in [0, 1 << 1] {
+                let mut by_values = control(skip, &start);
+                by_values.last[0] += i64::from(seed % 5 == 0);
+                let mut by_words = by_values.clone();
+                let counted = by_words.pass(&lines);
+                let Some(events) = by_values.pass_valued(&valued) else {
+                    left += 1;
+                    continue;
+                };
+                by_words.counted = by_values.counted;
+                assert_eq!(
+                    (events, format!("{by_values:?}")),
+                    (counted.expect("no fault"), format!("{by_words:?}")),
+                    "{lines:?}"
+                );
+                executed += 1;
+            }
+        }
+        assert!(executed > 100 && left > 100, "{executed} {left}");
     }
 
     #[test]
