@@ -318,9 +318,9 @@ impl Verifier {
             // This piece is the first to rely on something that only one of them has.
             return self.run_source(stmts).and_then(|()| self.target_step());
         }
-        let valued = self.runs.first().and_then(|run| run.source.value_lines(stmts));
+        let mut valued = self.runs.first().and_then(|run| run.source.value_lines(stmts));
         for run in &mut self.runs {
-            let events = match &valued {
+            let events = match &mut valued {
                 _ if run.comparison.keeps_pairs() => run.pass_in_pairs(stmts, &self.batch.stmts),
                 Some(valued) => run.source.pass_valued(valued).map_or_else(|| run.source.pass(stmts), Ok),
                 None => run.source.pass(stmts),
@@ -362,12 +362,8 @@ impl Verifier {
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
         self.fork_for_facts();
-        self.usual_target()?;
-        self.others_step(false)?;
+        self.compare_read()?;
         for run in &mut self.runs {
-            run.comparison
-                .advance(&mut run.source_events, &mut run.target_events, false)
-                .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
             // Holes that pass leave no pairs of events, and paced lines none either.
             let alike = run.source.agrees_on_lines(&run.target)
@@ -379,19 +375,6 @@ impl Verifier {
         }
         self.drop_same();
         self.batch.stmts.clear();
-        Ok(())
-    }
-
-    /// Executes what was read back with the usual facts.
-    fn usual_target(&mut self) -> Result<(), Stop> {
-        for run in &mut self.runs {
-            for stmt in &self.batch.stmts {
-                let stepped = run.target.step(stmt, &mut run.target_events);
-                stepped.map_err(|d| {
-                    facts::stopped(&d, run.source_events.get(run.target_events.len()), self.last)
-                })?;
-            }
-        }
         Ok(())
     }
 

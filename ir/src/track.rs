@@ -223,12 +223,12 @@ impl Tracker {
     /// Executes a statement.
     #[inline]
     pub fn step(&mut self, stmt: &Stmt) {
-        if stmt.skip.is_some() {
+        if stmt.skip.is_none() {
+            self.apply(&stmt.op);
+        } else if !self.skips_line(&stmt.op) {
             let skipped = self.clone();
             self.apply(&stmt.op);
             self.join(&skipped);
-        } else {
-            self.apply(&stmt.op);
         }
     }
 

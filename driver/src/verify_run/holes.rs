@@ -123,7 +123,7 @@ impl Verifier {
         let (read, open) = (&self.batch.stmts, self.open[1]);
         let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
         let along = matches!(ahead.runs.first(), Some(HolesMade { told: Told::Strokes(_), .. }));
-        let lines = self.runs.first().filter(|_| along).and_then(|run| run.target.value_lines(read));
+        let mut lines = self.runs.first().filter(|_| along).and_then(|run| run.target.value_lines(read));
         let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
             level
                 && (open == 0 || open & come_to(&run.target, read) == 0)
@@ -146,7 +146,7 @@ impl Verifier {
         let last = self.last;
         for (run, made) in self.runs.iter_mut().zip(ahead) {
             run.source = made.behind;
-            match &lines {
+            match &mut lines {
                 None => run.target.follow(&run.source),
                 Some(lines) => {
                     let passed = run.target.pass_valued(lines);

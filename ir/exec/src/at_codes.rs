@@ -81,19 +81,6 @@ impl Exec {
             | self.by_blocks(stmts)
     }
 
-    /// Whether any of these statements turns rotary axes at a feed. (A time is the same whatever a feed counts.)
-    fn feeds_turns_in(&self, stmts: &[Stmt]) -> bool {
-        let mut mode = self.state.feed_mode;
-        stmts.iter().filter(|stmt| !self.skips(stmt)).any(|stmt| match &stmt.op {
-            Op::SetFeedMode(set) => {
-                mode = *set;
-                false
-            }
-            Op::StraightFeed(m) => mode != FeedMode::InverseTime && Exec::turns(&m.to),
-            _ => false,
-        })
-    }
-
     /// Changes a behaviour from now on.
     pub fn behave(&mut self, behaviour: Behaviour, value: u8) {
         self.world.behaviours = self.world.behaviours.with(behaviour, value);

@@ -48,6 +48,10 @@ impl Lower {
     }
 
     fn settled(&self) -> Option<FastLower> {
+        if self.stretch.is_some() {
+            // The block after skipped ones ends their stretch.
+            return None;
+        }
         let state = &self.state;
         let feed = match state.modes.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
@@ -63,8 +67,6 @@ impl Lower {
             || !state.modes.is_length_noted(&self.inherited)
             // A time counts for one move, so every block is looked at.
             || state.modes.feed_mode.value() == Some(FeedMode::InverseTime)
-            // The block after skipped ones ends their stretch.
-            || self.stretch.is_some()
             || !self.moves_are_settled(state)
         {
             return None;

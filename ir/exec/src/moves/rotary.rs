@@ -7,7 +7,7 @@
 
 use crate::Exec;
 use ncc_ir::behaviour::Behaviour;
-use ncc_ir::canon::{AXES, Axis, Distance};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::kinds::frames;
 use ncc_ir::program::{Coord, Op, Point, Stmt};
@@ -107,6 +107,47 @@ impl Exec {
                 }
                 *at = value;
                 known |= 1 << axis;
+            }
+        }
+        false
+    }
+
+    /// Whether any of these statements may turn a rotary axis at a feed. (A time is the same whatever a feed counts.)
+    pub(crate) fn feeds_turns_in(&self, stmts: &[Stmt]) -> bool {
+        const A: usize = Axis::A as usize;
+        let (mut mode, mut distance) = (self.state.feed_mode, self.modes.distance);
+        // The numbers at which the axes stand, as far as the same number again surely turns nothing.
+        let mut plain = self.goes_plainly() && self.chain.is_none() && self.world.behaviours.get(WAY) != SIGN;
+        let machine = self.machine();
+        let mut at: [Option<Nanos>; AXES] = std::array::from_fn(|axis| {
+            (plain && machine[axis] == self.last[axis]).then_some(self.position[axis])
+        });
+        for stmt in stmts.iter().filter(|stmt| !self.skips(stmt)) {
+            let (to, feed) = match &stmt.op {
+                Op::StraightFeed(m) => (&m.to, mode != FeedMode::InverseTime),
+                Op::StraightTraverse(m) | Op::Position(m) => (&m.to, false),
+                Op::SetFeedMode(set) => {
+                    mode = *set;
+                    continue;
+                }
+                Op::SetDistanceMode(set) => {
+                    distance = *set;
+                    continue;
+                }
+                Op::SetFeedRate(_) | Op::Comment(_) | Op::Blank => continue,
+                _ => {
+                    (plain, at) = (false, [None; AXES]);
+                    continue;
+                }
+            };
+            for (word, at) in to.axes[A..].iter().zip(&mut at[A..]) {
+                let Some(word) = word else { continue };
+                let absolute = word.distance.or(distance) == Distance::Absolute;
+                let end = self.degrees(word).filter(|_| absolute);
+                if feed && (end.is_none() || *at != end) {
+                    return true;
+                }
+                *at = end.filter(|_| plain);
             }
         }
         false

@@ -135,6 +135,9 @@ impl FrameIncrementsState {
         }
         let mut pending = self.pending.clone();
         pending.measure(distance, false);
+        if stmts.iter().all(|stmt| is_absolute_move(&stmt.op, &pending)) {
+            return false;
+        }
         for Stmt { op, skip, .. } in stmts {
             if let (Some(to), true) = (words_of(op), pending.any()) {
                 let mut words = pending.axes.iter().zip(&to.axes);
@@ -350,8 +353,25 @@ fn after_call(own: &mut Pending, called: Option<&[Pending; 2]>, skipped: bool) {
     }
 }
 
+/// Whether a statement surely changes no frame, and has no incremental word.
+fn is_absolute_move(op: &Op, pending: &Pending) -> bool {
+    let to = match op {
+        Op::StraightFeed(m) | Op::StraightTraverse(m) => &m.to,
+        Op::ArcFeed(arc) => &arc.to,
+        Op::SetFeedRate(_) | Op::Comment(_) | Op::Blank => return true,
+        _ => return false,
+    };
+    !to.axes.iter().flatten().any(|word| pending.may_be_relative(word))
+}
+
 /// Notes what a statement changes, and what it moves. `plane` is the one in force, if it is known.
 fn note(pending: &mut Pending, op: &Op, plane: Option<Plane>, skipped: bool) {
+    match op {
+        Op::StraightFeed(m) | Op::StraightTraverse(m) => return clear(pending, &m.to, skipped),
+        Op::ArcFeed(arc) => return clear(pending, &arc.to, skipped),
+        Op::SetFeedRate(_) | Op::Comment(_) | Op::Blank => return,
+        _ => {}
+    }
     if let Op::SetDistanceMode(distance) = op {
         pending.measure(Some(*distance), skipped);
     }

@@ -338,6 +338,30 @@ mod tests {
         assert!(executed > 3_000 && left > 100 && timed > 1_000, "{executed} {left} {timed}");
     }
 
+    /// A control asks what F counts with rotary axes only where it was said before that lines come to that.
+    #[test]
+    fn lines_come_to_what_they_ask() {
+        let bit = Behaviour::RotaryFeed.bit();
+        let (mut asked, mut never) = (0, 0);
+        for (seed, facts) in (0..400).flat_map(|seed| facts().map(move |facts| (seed, facts))) {
+            let position = |stmt: &Stmt| matches!(stmt.op, Op::Position(_));
+            let mut lines: Vec<Stmt> = lines(seed).into_iter().take(seed as usize % 6 + 1).collect();
+            lines.retain(|stmt| !position(stmt));
+            for start in [20_000, 120_000, -100_000] {
+                let begin = Op::StraightTraverse(to([None, None, None, Some(start), None, Some(-10_000)]));
+                let mut exec = control(0, &facts, &[begin]);
+                exec.ask_anew();
+                let comes = exec.comes_to(&lines) & bit != 0;
+                let _ = lines.iter().try_for_each(|stmt| exec.step(stmt, &mut Vec::new()));
+                assert!(comes || exec.asked() & bit == 0, "{facts:?} {lines:?}");
+                asked += u32::from(exec.asked() & bit != 0);
+                let turning = |stmt: &Stmt| matches!(stmt.op, Op::StraightFeed(_)) && turns(stmt);
+                never += u32::from(!comes && lines.iter().any(turning));
+            }
+        }
+        assert!(asked > 1_000 && never > 100, "{asked} {never}");
+    }
+
     /// Whether two programs are said to be the same by their moves, and are by their events; `None` where one of them is
     /// left to steps.
     fn same(programs: [(&[(Behaviour, u8)], &[Stmt]); 2]) -> Option<[bool; 2]> {

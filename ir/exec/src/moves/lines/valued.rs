@@ -39,6 +39,41 @@ pub struct ValuedLines {
     lines: Vec<Valued>,
     /// The unit in which they were worked out.
     inch: bool,
+    /// How controls have gone along them.
+    courses: Vec<Course>,
+}
+
+/// All that a course depends on besides its lines, where the machine stands where the program does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Start {
+    /// Block-skip switches, bit n is level n.
+    skip: u16,
+    /// Position in the program.
+    at: [Nanos; AXES],
+    motion: Motion,
+    feed: Nanos,
+    /// Whether each cut uses its feed up.
+    by_time: bool,
+    /// Whether the machine stands there.
+    stands: bool,
+}
+
+/// How lines go, in coordinates of the program.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    start: Start,
+    at: [Nanos; AXES],
+    /// From where the last move went.
+    heading: Option<[Nanos; AXES]>,
+    motion: Motion,
+    feed: Nanos,
+    feed_said: bool,
+    moved: bool,
+    events: u64,
+    /// Axes that are named, a bit each.
+    named: u32,
+    /// Statements that are not skipped.
+    executed: u32,
 }
 
 /// A straight move that makes an event: of a line, or of a hole.
@@ -93,7 +128,7 @@ impl Exec {
             return None;
         }
         let lines = stmts.iter().map(|stmt| self.value_line(stmt)).collect::<Option<Vec<Valued>>>()?;
-        Some(ValuedLines { lines, inch: self.modes.inch })
+        Some(ValuedLines { lines, inch: self.modes.inch, courses: Vec::new() })
     }
 
     /// The same of the lines of a table.
@@ -162,20 +197,44 @@ impl Exec {
 
     /// Executes lines for their effect on the state alone, as [`Exec::pass`] does; gives the number of their events.
     /// `None`, and nothing done, where that is not plain to see.
-    pub fn pass_valued(&mut self, valued: &ValuedLines) -> Option<u64> {
+    ///
+    /// Controls that stand at the same place of the program go the same course, whatever frames they have.
+    pub fn pass_valued(&mut self, valued: &mut ValuedLines) -> Option<u64> {
         if !self.takes_timed_lines() || self.chain.is_some() || self.modes.inch != valued.inch {
             return None;
         }
+        let start = self.start_of_course();
+        let course = match valued.courses.iter().find(|course| course.start == start && start.stands) {
+            Some(course) => *course,
+            None => {
+                let course = self.course(&valued.lines, start)?;
+                valued.courses.push(course);
+                course
+            }
+        };
+        Some(self.take_course(&course, valued.inch))
+    }
+
+    fn start_of_course(&self) -> Start {
+        Start {
+            skip: self.skip,
+            at: self.position,
+            motion: self.modes.motion,
+            feed: self.feed,
+            by_time: self.state.feed_mode == FeedMode::InverseTime,
+            stands: self.machine() == self.last,
+        }
+    }
+
+    /// How lines go from here; `None` where one of them is a fault or no straight line.
+    fn course(&self, lines: &[Valued], start: Start) -> Option<Course> {
+        let Start { by_time, mut motion, mut feed, mut stands, .. } = start;
         // Rotary axes stay where they are.
-        let [mut x, mut y, mut z, a, b, c] = self.position;
-        let mut from = None;
-        let (mut motion, mut feed, mut feed_said) = (self.modes.motion, self.feed, false);
-        let by_time = self.state.feed_mode == FeedMode::InverseTime;
+        let [mut x, mut y, mut z, a, b, c] = start.at;
+        let (mut from, mut feed_said, mut moved) = (None, false, false);
         let (mut events, mut named_all, mut executed) = (0, 0, 0);
-        // Behind the first move the machine stands where the program does.
-        let (mut stands, mut moved) = (self.machine() == self.last, false);
-        for Valued { level, does, values } in &valued.lines {
-            if self.skip & level != 0 {
+        for Valued { level, does, values } in lines {
+            if start.skip & level != 0 {
                 continue;
             }
             executed += 1;
@@ -205,6 +264,7 @@ impl Exec {
             }
             let goes = if stands { other } else { self.place(&[x, y, z, a, b, c]) != self.last };
             events += u64::from(goes);
+            // Behind the first move the machine stands where the program does.
             (stands, moved) = (true, true);
             named_all |= named;
             if by_time && goes && motion == Motion::Feed {
@@ -212,24 +272,30 @@ impl Exec {
                 feed = 0;
             }
         }
+        let heading = from.map(|[x, y, z]| [x, y, z, a, b, c]);
+        let (at, named) = ([x, y, z, a, b, c], u32::from(named_all));
+        Some(Course { start, at, heading, motion, feed, feed_said, moved, events, named, executed })
+    }
+
+    fn take_course(&mut self, course: &Course, inch: bool) -> u64 {
         // What a statement does to messages, it does no more behind the second one.
-        (0..executed.min(2)).for_each(|_| self.shown.goes_on());
-        self.feed = feed;
-        if feed_said {
-            self.feed_inch = Some(valued.inch);
+        (0..course.executed.min(2)).for_each(|_| self.shown.goes_on());
+        self.feed = course.feed;
+        if course.feed_said {
+            self.feed_inch = Some(inch);
         }
-        if moved {
-            self.position = [x, y, z, a, b, c];
-            if let Some([x, y, z]) = from {
-                self.heading = Heading::From([x, y, z, a, b, c]);
+        if course.moved {
+            self.position = course.at;
+            if let Some(from) = course.heading {
+                self.heading = Heading::From(from);
             }
-            self.modes.motion = motion;
+            self.modes.motion = course.motion;
             self.said |= MOTION;
-            self.relies_on_slots(named_all.into());
-            self.at_place &= named_all >> Z & 1 == 0;
+            self.relies_on_slots(course.named);
+            self.at_place &= course.named >> Z & 1 == 0;
             self.last = self.machine();
         }
-        Some(events)
+        course.events
     }
 }
 
@@ -281,7 +347,11 @@ mod tests {
     }
 
     fn control(skip: u16, start: &[Op]) -> Exec {
-        let mut exec = Exec::new(&World::generate(2, &Modes::default()), skip);
+        control_in(2, skip, start)
+    }
+
+    fn control_in(world: u32, skip: u16, start: &[Op]) -> Exec {
+        let mut exec = Exec::new(&World::generate(world, &Modes::default()), skip);
         let turns = [
             Op::SetDistanceMode(Distance::Absolute),
             Op::StartSpindleClockwise,
@@ -308,14 +378,15 @@ mod tests {
         let (mut executed, mut left) = (0, 0);
         for (start, seed) in starts.iter().flat_map(|start| (0..200).map(move |seed| (*start, seed))) {
             let lines = lines(seed);
-            let valued = control(0, start).value_lines(&lines).expect("plain lines");
-            for skip in [0, 1 << 1, 1 << 2 | 1 << 10, 1 << 1 | 1 << 2 | 1 << 10] {
-                let mut by_values = control(skip, start);
+            let mut valued = control(0, start).value_lines(&lines).expect("plain lines");
+            let skips = [0, 1 << 1, 1 << 2 | 1 << 10, 1 << 1 | 1 << 2 | 1 << 10];
+            for (world, skip) in [2, 1].into_iter().flat_map(|world| skips.map(|skip| (world, skip))) {
+                let mut by_values = control_in(world, skip, start);
                 // The machine may stand elsewhere than where the program counts from.
                 by_values.last[0] += i64::from(seed % 5 == 0);
                 let mut by_words = by_values.clone();
                 let before = format!("{by_values:?}");
-                let Some(events) = by_values.pass_valued(&valued) else {
+                let Some(events) = by_values.pass_valued(&mut valued) else {
                     assert_eq!(format!("{by_values:?}"), before);
                     left += 1;
                     continue;
@@ -348,13 +419,13 @@ mod tests {
                 if without { vec![line] } else { vec![feed, line] }
             };
             let lines: Vec<Stmt> = lines(seed).into_iter().flat_map(timed).collect();
-            let valued = control(0, &start).value_lines(&lines).expect("plain lines");
+            let mut valued = control(0, &start).value_lines(&lines).expect("plain lines");
             for skip in [0, 1 << 1] {
                 let mut by_values = control(skip, &start);
                 by_values.last[0] += i64::from(seed % 5 == 0);
                 let mut by_words = by_values.clone();
                 let counted = by_words.pass(&lines);
-                let Some(events) = by_values.pass_valued(&valued) else {
+                let Some(events) = by_values.pass_valued(&mut valued) else {
                     left += 1;
                     continue;
                 };
@@ -383,14 +454,14 @@ mod tests {
         for op in [Op::StraightFeed(turning), Op::StraightFeed(incremental), Op::ProgramStop] {
             assert!(exec.value_lines(&[plain(), stmt(None, op)]).is_none());
         }
-        let valued = exec.value_lines(&[plain()]).expect("a plain line");
+        let mut valued = exec.value_lines(&[plain()]).expect("a plain line");
         for op in [
             Op::UseLengthUnits(Units::Inch),
             Op::SetDistanceMode(Distance::Incremental),
             Op::StopSpindleTurning,
             Op::SetFeedRate(entry(0)),
         ] {
-            assert_eq!(control(0, &[op]).pass_valued(&valued), None);
+            assert_eq!(control(0, &[op]).pass_valued(&mut valued), None);
         }
     }
 }
