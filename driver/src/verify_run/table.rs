@@ -55,11 +55,11 @@ impl Verifier {
         self.assume(assumed);
         self.read_back(inherited)?;
         let agree = |run: &Run| run.source.agrees_on_lines(&run.target) && !run.target.carries_linear();
-        let valued = self.runs.first().and_then(|run| run.source.value_table(table));
-        let Some(valued) = valued.filter(|_| self.runs.iter().all(agree)) else { return Ok(false) };
+        let mut valued = self.runs.first().and_then(|run| run.source.value_table(table));
+        let Some(valued) = valued.as_mut().filter(|_| self.runs.iter().all(agree)) else { return Ok(false) };
         let mut stmts: Vec<Stmt> = Vec::new();
         for run in &mut self.runs {
-            let events = match run.source.pass_valued(&valued) {
+            let events = match run.source.pass_valued(valued) {
                 Some(events) => events,
                 None => {
                     if stmts.is_empty() {

@@ -152,7 +152,7 @@ impl Exec {
             }
             lines.push(Valued { level: 0, does: Does::Goes(row.axes(), row.motion()), values });
         }
-        Some(ValuedLines { lines, inch: self.modes.inch })
+        Some(ValuedLines { lines, inch: self.modes.inch, courses: Vec::new() })
     }
 
     fn value_line(&self, stmt: &Stmt) -> Option<Valued> {
