@@ -105,11 +105,7 @@ impl Batch {
     }
 
     /// Takes a usual block, of which `push` makes the statements.
-    pub(crate) fn usual_block(
-        &mut self,
-        sub: &mut Option<Procedure>,
-        push: impl FnOnce(&mut Vec<Stmt>),
-    ) {
+    pub(crate) fn usual_block(&mut self, sub: &mut Option<Procedure>, push: impl FnOnce(&mut Vec<Stmt>)) {
         if !self.takes_rows(sub) {
             return push(self.body(sub));
         }

@@ -28,8 +28,9 @@ use ncc_passes::values::variables::renamed::Renamed;
 use ncc_passes::watch::{ran, ran_whole};
 
 use super::parametric::{self, target};
+use super::rewrite::FLATTEN;
 use super::snapshot::Snapshot;
-use super::translation::{FLATTEN, Translation};
+use super::translation::Translation;
 use super::writing::Said;
 use crate::stretches::{
     Packer, Places, Stretch, Words, computes_packed, pack, reshape, stand, stretches, unpack,

@@ -13,8 +13,10 @@ use ncc_passes::flow::flatten;
 use ncc_passes::watch::ran_whole;
 use ncc_passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 
-use super::translation::FLATTEN;
 use crate::stretches::{Packer, Words};
+
+/// Pass that executes what is computed.
+pub const FLATTEN: &str = "flatten";
 
 /// Most held statements; a program of holes only is folded in parts of this size.
 const MOST_HELD: usize = 1 << 16;

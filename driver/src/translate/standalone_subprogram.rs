@@ -17,7 +17,8 @@ use ncc_ir::source::Span;
 use ncc_machines::reading::Told;
 use ncc_passes::values::variables::questions;
 
-use super::translation::{FLATTEN, Translation};
+use super::rewrite::FLATTEN;
+use super::translation::Translation;
 use crate::source::called;
 
 impl Translation<'_> {

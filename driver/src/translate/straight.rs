@@ -12,7 +12,8 @@ use ncc_ir::lack::{CompensationLack, FlowLack, Lack};
 use ncc_passes::PASSES;
 use ncc_passes::watch::unwatched;
 
-use super::translation::{FLATTEN, Translation};
+use super::rewrite::FLATTEN;
+use super::translation::Translation;
 use crate::job::{Job, Straight};
 use crate::questions::Policy;
 use crate::source::Readable;

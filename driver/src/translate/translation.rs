@@ -28,9 +28,6 @@ use crate::stretches::{Packer, Words};
 use crate::translate::rewrite::Folder;
 use crate::verify_run::{Stop, Verifier};
 
-/// Pass that executes what is computed.
-pub(super) const FLATTEN: &str = "flatten";
-
 /// From so many pieces on a second thread verifies: it costs more than a short program takes.
 const PIECES_HERE: usize = 4;
 

@@ -145,7 +145,8 @@ pub(crate) fn line(
             at = last + usize::from(after == b' ');
         }
     };
-    row.set_motion(fast.feed, said);
+    row.set_motion(fast.feed);
+    row.set_said(said);
     let fits = row.set_span(Span::new(base + first as u32, base + last as u32)) && end - from <= longest;
     // Without an axis there is no move.
     (fits && seen & 7 != 0).then_some(end)

@@ -118,10 +118,16 @@ impl Row {
         self.form |= (NAMED | u32::from(point) << 4 | u32::from(scale)) << (BITS * axis);
     }
 
-    /// Has it go so.
+    /// Has it go at the feed in force, or in rapid.
     #[inline(always)]
-    pub fn set_motion(&mut self, feed: bool, said: bool) {
-        self.form |= if feed { 0 } else { TRAVERSE } | if said { SAID } else { 0 };
+    pub fn set_motion(&mut self, feed: bool) {
+        self.form |= if feed { 0 } else { TRAVERSE };
+    }
+
+    /// Has its block say by a code how it goes, or not.
+    #[inline(always)]
+    pub fn set_said(&mut self, said: bool) {
+        self.form |= if said { SAID } else { 0 };
     }
 
     /// Puts it at a place; `false` where its block is too long.
@@ -144,7 +150,13 @@ impl Row {
 
     /// Appends its statements: its line by words of this unit and distance mode, behind the feed that it states.
     #[inline]
-    pub fn unpack(&self, unit: Unit, distance: Fact<Distance>, feed: Option<&StatedFeed>, to: &mut Vec<Stmt>) {
+    pub fn unpack(
+        &self,
+        unit: Unit,
+        distance: Fact<Distance>,
+        feed: Option<&StatedFeed>,
+        to: &mut Vec<Stmt>,
+    ) {
         let mut number = self.number();
         if let Some((feed, span)) = feed {
             let op = Op::SetFeedRate(Expr::Num(*feed));
@@ -157,7 +169,8 @@ impl Row {
             Motion::Feed | Motion::Arc(_) | Motion::Cycle => Op::StraightFeed(empty),
         };
         to.push(Stmt { number, joined: feed.is_some(), ..Stmt::new(self.span(), op) });
-        let Some(Op::StraightFeed(line) | Op::StraightTraverse(line)) = to.last_mut().map(|stmt| &mut stmt.op)
+        let Some(Op::StraightFeed(line) | Op::StraightTraverse(line)) =
+            to.last_mut().map(|stmt| &mut stmt.op)
         else {
             return;
         };
@@ -350,7 +363,8 @@ fn row_of(block: &[Stmt]) -> Option<(Row, Unit, Option<StatedFeed>)> {
         return None;
     }
     let (mut row, mut unit) = (Row::default(), None);
-    row.set_motion(at_feed, to.said);
+    row.set_motion(at_feed);
+    row.set_said(to.said);
     for (axis, word) in linear.iter().enumerate() {
         let Some(word) = word else { continue };
         let num = word.value.literal()?;
@@ -486,7 +500,9 @@ mod tests {
             for change in 0..4 {
                 let mut other = base.clone();
                 let stmt = other[at].last_mut().expect("a block");
-                let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &mut stmt.op else { panic!("a line") };
+                let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &mut stmt.op else {
+                    panic!("a line")
+                };
                 let word = to.to.axes.iter_mut().flatten().last().expect("a word");
                 let Expr::Num(num) = &mut word.value else { panic!("a number") };
                 match change {

@@ -12,8 +12,9 @@ use ncc_ir::program::Program;
 
 use super::{Kept, Part};
 use crate::stretches::{stretches, unpack};
+use crate::translate::rewrite::FLATTEN;
 use crate::translate::snapshot::Snapshot;
-use crate::translate::translation::{FLATTEN, Translation};
+use crate::translate::translation::Translation;
 
 impl Translation<'_> {
     /// Whether `flatten` is asked for, and nothing else.

@@ -26,10 +26,10 @@ impl Comparison {
         (number, text) == there || said == Some(there)
     }
 
-    /// Whether feeds are the same, and count the same; `timed` where one of the controls counts in a way of its own.
+    /// Whether feeds are the same but for the target's last digit, and count the same; `timed` where one of the controls
+    /// counts in a way of its own.
     #[inline]
-    fn same_rate(&self, [a, b]: [Nanos; 2], [mode, other]: [FeedMode; 2], timed: bool, inch: bool) -> bool {
-        let most = self.resolution.feeds(inch || self.as_inches);
+    fn same_rate([a, b]: [Nanos; 2], [mode, other]: [FeedMode; 2], timed: bool, most: Nanos) -> bool {
         let same = a == b || a.abs_diff(b) <= most as u64 || same_time([a, b], timed);
         same && (a == 0 || mode == other)
     }
@@ -37,11 +37,12 @@ impl Comparison {
     /// Whether the moves of two controls that agree otherwise ([`Exec::paces_as`](crate::Exec::paces_as)) are the same
     /// events: they end at the same places exactly, and their feeds are the same as far as [`Comparison::advance`] asks.
     pub fn same_paced(&self, a: &[PacedMove], b: &[PacedMove], inch: bool) -> bool {
+        let most = self.resolution.feeds(inch || self.as_inches);
         let same = |(a, b): (&PacedMove, &PacedMove)| {
             let (modes, timed) = ([a.mode, b.mode], a.timed || b.timed);
             a.feed == b.feed
                 && same_point(&a.end, &b.end)
-                && self.same_rate([a.rate, b.rate], modes, timed, inch)
+                && Comparison::same_rate([a.rate, b.rate], modes, timed, most)
         };
         let plainly = self.is_settled() && self.measured.is_none() && self.pairs.is_none();
         plainly && a.len() == b.len() && a.iter().zip(b).all(same)
@@ -245,7 +246,8 @@ impl Comparison {
         let synchronised = matches!(a.kind, Kind::Synchronised { .. });
         let timed = (a.state.by_control | b.state.by_control) & by_control::TIMED != 0;
         let modes = [a.state.feed_mode, b.state.feed_mode];
-        if !synchronised && !self.same_rate([a.rate, b.rate], modes, timed, b.inch) {
+        let most = self.resolution.feeds(b.inch || self.as_inches);
+        if !synchronised && !Comparison::same_rate([a.rate, b.rate], modes, timed, most) {
             return Some(Aspect::Feed);
         }
         let switches = by_control::SPINDLE | by_control::COOLANT;
