@@ -489,10 +489,10 @@ mod tests {
     use ncc_dialects::{Settings, builtin};
     use ncc_frontends::Reader;
 
-    const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
-    const SECOND: &str = "X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n";
+    pub(super) const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
+    pub(super) const SECOND: &str = "X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n";
 
-    fn job() -> Job {
+    pub(super) fn job() -> Job {
         let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
         Job::new(settings.clone(), settings, "piece.nc")
     }

@@ -74,3 +74,67 @@ impl Verifier {
         Ok(true)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify_run::tests::{FIRST, SECOND, job};
+    use ncc_frontends::{Batch, Reader};
+
+    /// Verifies a first piece as statements, and of a second one the lines that are read as a table, of which the output
+    /// says something else.
+    fn second_table(first: [&str; 2], said: &str, written: &str) -> Result<Verifier, Stop> {
+        let job = job();
+        let mut reader = Reader::new(job.from.clone(), true);
+        let (mut verifier, mut batch) = (Verifier::new(&job), Batch::default());
+        let [said_first, written_first] = first;
+        reader.read(said_first.as_bytes(), 0, &mut batch);
+        let stmts = std::mem::take(&mut batch.stmts);
+        verifier.piece(&stmts, &batch.assumed, written_first.as_bytes(), 0, &batch.assumed)?;
+        reader.read_to_table(said.as_bytes(), 0, &mut batch);
+        assert!(batch.stmts.is_empty() && !batch.table.is_empty(), "{said}");
+        verifier.table(&batch.table, &batch.assumed, written.as_bytes(), 0, &batch.assumed)?;
+        Ok(verifier)
+    }
+
+    #[test]
+    fn a_table_that_the_output_says_too_is_executed_once() {
+        let verifier = second_table([FIRST; 2], SECOND, SECOND).expect("the same program");
+        let once = |run: &Run| run.level && run.source.agrees(&run.target) && run.target_events.is_empty();
+        assert!(verifier.runs.iter().all(once));
+        // A tool change and three moves, then four moves, in each world.
+        assert_eq!(verifier.covered().events, verifier.runs.len() as u64 * 8);
+        // Numbers may be written otherwise.
+        second_table([FIRST; 2], SECOND, "X10.00\nY10.0 Z-1.50\nX0. F200.\nG0 Z5.\n").expect("the same program");
+    }
+
+    #[test]
+    fn a_table_that_the_output_says_otherwise_is_seen() {
+        for (from, to) in [
+            ("Y10.", "Y10.001"),
+            ("Y10.", "Y-10."),
+            ("Y10. ", ""),
+            ("F200.", "F201."),
+            (" F200.", ""),
+            ("G00 Z5.", "Z5."),
+            ("X10.\n", ""),
+            ("X10.\n", "X10.\nX11.\n"),
+            ("Y10. Z-1.5\n", "G91 Y10. Z-1.5\nG90\n"),
+            ("X10.\n", "X10.\nM5\n"),
+        ] {
+            let written = SECOND.replacen(from, to, 1);
+            let seen = second_table([FIRST; 2], SECOND, &written);
+            assert!(matches!(seen, Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+
+    /// The same words make other moves where the controls are in other states.
+    #[test]
+    fn a_table_is_compared_by_its_events_where_controls_differ() {
+        for (from, to) in [("G90", "G91"), ("G54", "G54\nG52 X1."), ("G21", "G20"), ("Z-1. F100.", "Z-1. F90.")] {
+            let other = FIRST.replacen(from, to, 1);
+            let seen = second_table([FIRST, &other], SECOND, SECOND);
+            assert!(matches!(seen, Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+}
