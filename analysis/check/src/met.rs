@@ -43,7 +43,7 @@ impl SpindleMet {
 /// Pitches of no standard since the last tool change: the pitch, its last place, and its finding.
 #[derive(Debug, Default)]
 pub(crate) struct ThreadMet {
-    pub(crate) reported: Vec<(Nanos, Span, usize)>,
+    pub(crate) reported: Vec<(Nanos, [Nanos; AXES], usize)>,
 }
 
 /// Numbers that were met.

@@ -1,5 +1,5 @@
 NC0815 = thread pitch { $pitch } mm: no standard thread has it
-    .label = the nearest standard pitch is { $nearest } mm{ $more ->
+    .label = the nearest usual pitch is { $nearest } mm{ $more ->
         [0] {""}
         [one] ; one more hole too
        *[other] ; { $more } more holes too

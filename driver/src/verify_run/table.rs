@@ -106,7 +106,8 @@ mod tests {
         // A tool change and three moves, then four moves, in each world.
         assert_eq!(verifier.covered().events, verifier.runs.len() as u64 * 8);
         // Numbers may be written otherwise.
-        second_table([FIRST; 2], SECOND, "X10.00\nY10.0 Z-1.50\nX0. F200.\nG0 Z5.\n").expect("the same program");
+        second_table([FIRST; 2], SECOND, "X10.00\nY10.0 Z-1.50\nX0. F200.\nG0 Z5.\n")
+            .expect("the same program");
     }
 
     #[test]

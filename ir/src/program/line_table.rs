@@ -31,7 +31,7 @@ const LENGTH: u32 = 21;
 
 /// Bits that are the same in two texts that say the same line: how the point and the code are written is not.
 const SAME: u32 = {
-    let axis = NAMED | POINT - 1;
+    let axis = NAMED | (POINT - 1);
     axis | axis << BITS | axis << (2 * BITS) | TRAVERSE | FEED
 };
 

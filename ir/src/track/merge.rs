@@ -1,7 +1,6 @@
 //! The merge of two paths: what holds on both.
 
 use super::{ActiveCycle, Tracker};
-use crate::canon::AXES;
 use crate::expr::num::Nanos;
 use crate::program::Op;
 
@@ -21,9 +20,7 @@ impl Tracker {
         }
         let (position, motion) = (self.position, self.modes.motion);
         self.apply(op);
-        for axis in 0..AXES {
-            both(&mut self.position[axis], &position[axis]);
-        }
+        self.position.iter_mut().zip(&position).for_each(|(here, before)| both(here, before));
         both(&mut self.modes.motion, &motion);
         self.doubtful_initial = None;
         true
@@ -100,7 +97,7 @@ impl Tracker {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::canon::{Distance, Fact, Motion};
+    use crate::canon::{AXES, Distance, Fact, Motion};
     use crate::expr::Expr;
     use crate::program::{Coord, Move, Point, Stmt};
     use crate::source::Span;
