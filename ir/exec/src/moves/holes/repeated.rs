@@ -13,14 +13,23 @@
 //! that counts for one move, a spindle that stands or that the cycle stops) is executed one by one.
 
 use super::Way;
-use super::same::place_of;
 use crate::moves::lines::valued::Stroke;
 use crate::verify::is_silent;
 use crate::{Event, Exec, by_control};
-use ncc_ir::canon::{AXES, Distance, FeedMode, Spindle};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Spindle};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::Stmt;
+use ncc_ir::program::{Op, Point, Stmt};
+
+/// Where a hole is, if a statement says that by plain words and nothing else.
+pub(super) fn place_of(stmt: &Stmt) -> Option<&Point> {
+    match &stmt.op {
+        Op::Hole(m) if stmt.skip.is_none() && m.to.axes[Axis::A as usize..].iter().all(Option::is_none) => {
+            Some(&m.to)
+        }
+        _ => None,
+    }
+}
 
 /// Holes of which the words have their values already: worked out once, for all controls that make them.
 #[derive(Clone, Debug)]
@@ -181,7 +190,7 @@ mod tests {
     use ncc_ir::canon::{Fact, Modes, Plane, ReturnLevel, Turn};
     use ncc_ir::expr::Expr;
     use ncc_ir::program::cycle::{Approach, BoreStop, Clearance, Cycle, CycleKind, Tap};
-    use ncc_ir::program::{Coord, Op, Pitch, Slot};
+    use ncc_ir::program::{Coord, Pitch, Slot};
 
     fn cycles() -> Vec<Cycle> {
         let peck = |clearance, pause| CycleKind::DrillPeck {

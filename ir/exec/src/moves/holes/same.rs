@@ -14,15 +14,15 @@
 //! the next hole begins alike too. What is not so plain (a length that waits, a change of frame that words include,
 //! incremental words, turning axes, a cycle that stops the spindle) is left to execution.
 
-use super::repeated::ValuedHoles;
+use super::repeated::{ValuedHoles, place_of};
 use super::{ActiveCycle, Way};
 use crate::Exec;
 use crate::verify::is_silent;
-use ncc_ir::canon::{AXES, Axis, Distance, Plane};
+use ncc_ir::canon::{AXES, Distance, Plane};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::Stmt;
 use ncc_ir::program::cycle::Leg;
-use ncc_ir::program::{Op, Point, Stmt};
 use ncc_ir::source::Span;
 
 /// What a cycle comes to at each of its holes.
@@ -35,16 +35,6 @@ struct Moves {
     /// How the way begins to the next hole, and to all behind it.
     legs: [Leg; 2],
     way: Way,
-}
-
-/// Where a hole is, if a statement says that by plain words and nothing else.
-pub(super) fn place_of(stmt: &Stmt) -> Option<&Point> {
-    match &stmt.op {
-        Op::Hole(m) if stmt.skip.is_none() && m.to.axes[Axis::A as usize..].iter().all(Option::is_none) => {
-            Some(&m.to)
-        }
-        _ => None,
-    }
 }
 
 /// Whether statements are nothing but holes at places of plain words.
@@ -147,8 +137,8 @@ mod tests {
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, ReturnLevel, Spindle, Turn};
     use ncc_ir::expr::Expr;
-    use ncc_ir::program::Pitch;
     use ncc_ir::program::cycle::{Approach, BoreStop, Clearance, Cycle, CycleKind, Tap};
+    use ncc_ir::program::{Op, Pitch};
 
     fn peck(peck: i64, clearance: Clearance) -> CycleKind {
         let (first, less, pause, settle, dwell) = (None, None, None, None, None);
