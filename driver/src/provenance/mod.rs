@@ -15,6 +15,7 @@
 pub mod annotate;
 pub mod map;
 pub mod rows;
+mod shapes;
 pub mod spool;
 pub mod state;
 pub mod text;

@@ -10,6 +10,7 @@ use ncc_dialects::{Dialect, PatternRow};
 use ncc_frontends::Word;
 use serde::Serialize;
 
+use super::shapes::{Shape, Shapes};
 use crate::render::dialects::spaced;
 
 /// A row of a dictionary.
@@ -36,6 +37,7 @@ pub struct Met {
     numbers: HashMap<(Table, &'static str), usize>,
     /// Those of the rows of letters once more, by the letter: most words are met again and again.
     letters: [Option<usize>; LETTERS.len()],
+    shapes: Shapes,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,7 +52,13 @@ enum Table {
 
 impl Met {
     pub(crate) fn new(dialect: &'static Dialect) -> Met {
-        Met { dialect, rows: Vec::new(), numbers: HashMap::new(), letters: [None; LETTERS.len()] }
+        Met {
+            dialect,
+            rows: Vec::new(),
+            numbers: HashMap::new(),
+            letters: [None; LETTERS.len()],
+            shapes: Shapes::new(),
+        }
     }
 
     /// The rows met so far.
@@ -61,6 +69,19 @@ impl Met {
     /// Numbers of the rows behind a line, each once, in the order of the line.
     pub fn line(&mut self, line: &[u8], found: &mut Vec<usize>) {
         found.clear();
+        let shape = Shape::of(line);
+        if let Some(rows) = shape.as_ref().and_then(|shape| self.shapes.rows(shape)) {
+            found.extend_from_slice(rows);
+            return;
+        }
+        self.lexed(line, found);
+        if let Some(shape) = shape {
+            self.shapes.keep(shape, found);
+        }
+    }
+
+    /// The same by the lexer.
+    fn lexed(&mut self, line: &[u8], found: &mut Vec<usize>) {
         let dialect = self.dialect;
         ncc_frontends::words(dialect, line, &mut |word| self.word(dialect, word, found));
     }
@@ -187,5 +208,46 @@ fn meaning(means: Option<String>, refuse: Option<&str>) -> String {
         (Some(means), _) => means,
         (None, Some(name)) => format!("refused: {name}"),
         (None, None) => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ncc_dialects::{Family, builtins};
+
+    use super::*;
+
+    /// Lines whose shapes are known have the rows that the lexer finds, in every dialect.
+    #[test]
+    fn lines_of_a_known_shape_have_the_rows_of_the_lexer() {
+        let mut known = 0;
+        for dialect in builtins() {
+            if matches!(dialect.family, Family::Canon | Family::Ir) {
+                continue;
+            }
+            let [mut met, mut lexed] = [Met::new(dialect), Met::new(dialect)];
+            for letter in b'A'..=b'Z' {
+                for value in ["1", "2", "81", "-1", "0.5", "17.25", "54.1", "54.2", "10.", "007", ".5", "."] {
+                    let letter = letter as char;
+                    for line in [
+                        format!("{letter}{value}\n"),
+                        format!("N10 {letter}{value} Y5"),
+                        format!("X1.5 {letter}{value} G1 F100\r\n"),
+                        format!("X1{letter}{value} {letter} M3"),
+                        format!("CYCLE{value} {letter}{value}"),
+                        format!("{letter}1{value} G{value} M{value}"),
+                    ] {
+                        let [mut by_shape, mut by_lexer] = [Vec::new(), Vec::new()];
+                        let shape = Shape::of(line.as_bytes());
+                        known += u32::from(shape.is_some_and(|shape| met.shapes.rows(&shape).is_some()));
+                        met.line(line.as_bytes(), &mut by_shape);
+                        lexed.lexed(line.as_bytes(), &mut by_lexer);
+                        assert_eq!(by_shape, by_lexer, "{}: {line}", dialect.id);
+                    }
+                }
+            }
+            assert_eq!(met.rows(), lexed.rows(), "{}", dialect.id);
+        }
+        assert!(known > 1_000, "{known}");
     }
 }

@@ -309,8 +309,10 @@ fn pass_holes(a: &mut Run, b: &mut Run) -> bool {
         return false;
     }
     let (before, mut places) = (a.exec.clone(), Vec::with_capacity(a.batch.stmts.len()));
-    let made = a.exec.pass_holes(&a.batch.stmts, &mut places).is_ok();
-    let same = made && b.exec.has_holes_at(&b.batch.stmts, &places);
+    let valued = a.exec.value_holes(&a.batch.stmts);
+    let made = a.exec.pass_holes(&a.batch.stmts, valued.as_ref(), &mut places).is_ok();
+    let holes = b.exec.value_holes(&b.batch.stmts);
+    let same = made && holes.is_some_and(|holes| b.exec.has_holes_at(&holes, &places));
     if !same {
         a.exec = before;
     }

@@ -66,9 +66,11 @@ impl Verifier {
     /// Executes the source's holes for their strokes; `false`, and nothing done, where they make anything else.
     fn pass_along(&mut self, stmts: &[Stmt]) -> Result<bool, Stop> {
         let mut runs = Vec::with_capacity(self.runs.len());
+        let valued = self.runs.first().and_then(|run| run.source.value_holes(stmts));
         for run in &self.runs {
             let mut behind = run.source.clone();
-            let Some(strokes) = behind.pass_strokes(stmts).map_err(Stop::Source)? else { return Ok(false) };
+            let strokes = behind.pass_strokes(stmts, valued.as_ref()).map_err(Stop::Source)?;
+            let Some(strokes) = strokes else { return Ok(false) };
             let events = strokes.len() as u64;
             runs.push(HolesMade { behind, told: Told::Strokes(strokes), events });
         }
@@ -90,9 +92,10 @@ impl Verifier {
 
     fn pass_ahead(&mut self, stmts: &[Stmt], at_end: bool) -> Result<(), Stop> {
         let mut runs = Vec::with_capacity(self.runs.len());
+        let valued = self.runs.first().and_then(|run| run.source.value_holes(stmts));
         for run in &self.runs {
             let (mut behind, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
-            let events = behind.pass_holes(stmts, &mut places).map_err(Stop::Source)?;
+            let events = behind.pass_holes(stmts, valued.as_ref(), &mut places).map_err(Stop::Source)?;
             runs.push(HolesMade { behind, told: Told::Places(places), events });
         }
         self.hold(stmts, runs, at_end);
@@ -124,17 +127,18 @@ impl Verifier {
         let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
         let along = matches!(ahead.runs.first(), Some(HolesMade { told: Told::Strokes(_), .. }));
         let mut lines = self.runs.first().filter(|_| along).and_then(|run| run.target.value_lines(read));
+        let holes = self.runs.first().filter(|_| !along).and_then(|run| run.target.value_holes(read));
         let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
             level
                 && (open == 0 || open & come_to(&run.target, read) == 0)
-                && match (&made.told, &lines) {
-                    (Told::Places(places), _) => {
-                        run.source.makes_holes_of(&run.target) && run.target.has_holes_at(read, places)
+                && match (&made.told, &lines, &holes) {
+                    (Told::Places(places), _, Some(holes)) => {
+                        run.source.makes_holes_of(&run.target) && run.target.has_holes_at(holes, places)
                     }
-                    (Told::Strokes(strokes), Some(lines)) => {
+                    (Told::Strokes(strokes), Some(lines), _) => {
                         run.source.makes_strokes_of(&run.target) && run.target.goes_along(lines, strokes)
                     }
-                    (Told::Strokes(_), None) => false,
+                    (Told::Places(_), _, None) | (Told::Strokes(_), None, _) => false,
                 }
         });
         if !same {

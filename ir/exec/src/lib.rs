@@ -40,6 +40,7 @@ pub use moves::arcs::same::are_arcs;
 pub use moves::centre_path::AsProgrammed;
 pub use moves::compensation::{Compensation, CompensationRadius};
 pub use moves::fine::Increments;
+pub use moves::holes::repeated::ValuedHoles;
 pub use moves::holes::same::are_holes;
 pub use moves::lines::paced::{PacedLines, PacedMove};
 pub use moves::lines::valued::{Stroke, ValuedLines};

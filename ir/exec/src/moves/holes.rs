@@ -3,6 +3,7 @@
 //! The moves are defined in `passes::expand_cycles` as statements and here as events; a law in the
 //! tests holds the two together.
 
+pub(crate) mod repeated;
 pub(crate) mod same;
 pub(crate) mod strokes;
 

@@ -14,14 +14,15 @@
 //! the next hole begins alike too. What is not so plain (a length that waits, a change of frame that words include,
 //! incremental words, turning axes, a cycle that stops the spindle) is left to execution.
 
+use super::repeated::{ValuedHoles, place_of};
 use super::{ActiveCycle, Way};
+use crate::Exec;
 use crate::verify::is_silent;
-use crate::{Event, Exec};
-use ncc_ir::canon::{AXES, Axis, Distance, Plane};
+use ncc_ir::canon::{AXES, Distance, Plane};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::Stmt;
 use ncc_ir::program::cycle::Leg;
-use ncc_ir::program::{Coord, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
 /// What a cycle comes to at each of its holes.
@@ -36,16 +37,6 @@ struct Moves {
     way: Way,
 }
 
-/// Where a hole is, if a statement says that by plain words and nothing else.
-fn place_of(stmt: &Stmt) -> Option<&Point> {
-    match &stmt.op {
-        Op::Hole(m) if stmt.skip.is_none() && m.to.axes[Axis::A as usize..].iter().all(Option::is_none) => {
-            Some(&m.to)
-        }
-        _ => None,
-    }
-}
-
 /// Whether statements are nothing but holes at places of plain words.
 pub fn are_holes(stmts: &[Stmt]) -> bool {
     stmts.iter().all(|stmt| is_silent(stmt) || place_of(stmt).is_some()) && !stmts.iter().all(is_silent)
@@ -53,20 +44,18 @@ pub fn are_holes(stmts: &[Stmt]) -> bool {
 
 impl Exec {
     /// Executes holes for their effect on the state alone; gives the number of their events, and appends the places of
-    /// the program where they are, along the cycle's plane.
+    /// the program where they are, along the cycle's plane. With their values most of them are not executed one by one.
     ///
     /// # Errors
     /// As of [`Exec::step`].
-    pub fn pass_holes(&mut self, stmts: &[Stmt], places: &mut Vec<[Nanos; AXES]>) -> Result<u64, Diagnostic> {
+    pub fn pass_holes(
+        &mut self,
+        stmts: &[Stmt],
+        valued: Option<&ValuedHoles>,
+        places: &mut Vec<[Nanos; AXES]>,
+    ) -> Result<u64, Diagnostic> {
         (self.quiet, self.counted) = (true, 0);
-        let mut none: Vec<Event> = Vec::new();
-        let passed = stmts.iter().try_for_each(|stmt| {
-            self.step(stmt, &mut none)?;
-            if !is_silent(stmt) {
-                places.push(self.position);
-            }
-            Ok(())
-        });
+        let passed = self.make_holes(stmts, valued, |place| places.push(place));
         self.quiet = false;
         passed.map(|()| self.counted)
     }
@@ -81,6 +70,11 @@ impl Exec {
     pub fn has_cycle_like(&self, other: &Exec) -> bool {
         let moves = self.moves_of_holes();
         moves.is_some() && moves == other.moves_of_holes()
+    }
+
+    /// Whether the holes of the cycle in force hang on nothing else than where they are.
+    pub(super) fn makes_holes_anywhere(&self) -> bool {
+        self.moves_of_holes().is_some()
     }
 
     /// What the cycle in force comes to, if its holes hang on nothing else than where they are.
@@ -116,27 +110,20 @@ impl Exec {
     }
 
     /// Whether these are holes at these places, under the cycle in force; `false` where that is not plain to see.
-    pub fn has_holes_at(&mut self, stmts: &[Stmt], places: &[[Nanos; AXES]]) -> bool {
+    pub fn has_holes_at(&mut self, holes: &ValuedHoles, places: &[[Nanos; AXES]]) -> bool {
         let Some(normal) = self.cycle.as_ref().map(|cycle| cycle.plane.axes().2 as usize) else {
             return false;
         };
-        let (mut at, mut named, mut places) = (self.position, 0, places.iter());
-        let mut same = |stmt: &Stmt| {
-            let (Some(to), Some(place)) = (place_of(stmt), places.next()) else { return false };
-            for (axis, word) in to.axes.iter().enumerate() {
-                let Some(Coord { value, distance }) = word else { continue };
-                let absolute = distance.or(Distance::Absolute) == Distance::Absolute;
-                match self.value(value, stmt.span) {
-                    Ok(value) if absolute && axis != normal => at[axis] = value,
-                    _ => return false,
-                }
-                named |= 1 << axis;
-            }
+        let mut places = places.iter();
+        let there = |at: &[Nanos; AXES], place: &[Nanos; AXES]| {
             (0..AXES).all(|axis| axis == normal || at[axis] == place[axis])
         };
-        let same = stmts.iter().filter(|stmt| !is_silent(stmt)).all(&mut same) && places.next().is_none();
+        let same = holes.inch() == self.modes.inch
+            && holes.names_no(normal)
+            && holes.places(0, self.position).all(|at| places.next().is_some_and(|place| there(&at, place)))
+            && places.next().is_none();
         if same {
-            self.relies_on_slots(named);
+            self.relies_on_slots(holes.named());
         }
         same
     }
@@ -145,12 +132,13 @@ impl Exec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Event;
     use crate::moves::sketch::{drilling, hole, mm, stmt, to, word};
     use crate::world::World;
     use ncc_ir::canon::{Fact, Modes, ReturnLevel, Spindle, Turn};
     use ncc_ir::expr::Expr;
-    use ncc_ir::program::Pitch;
     use ncc_ir::program::cycle::{Approach, BoreStop, Clearance, Cycle, CycleKind, Tap};
+    use ncc_ir::program::{Op, Pitch};
 
     fn peck(peck: i64, clearance: Clearance) -> CycleKind {
         let (first, less, pause, settle, dwell) = (None, None, None, None, None);
@@ -246,8 +234,9 @@ mod tests {
                     let what = format!("{one:?} and {other:?} behind {made}");
                     let same = one.makes_holes_of(&other);
                     let (mut passed, mut places) = (one.clone(), Vec::new());
-                    let counted = passed.pass_holes(&holes[made..], &mut places);
-                    let is_at = other.clone().has_holes_at(&holes[made..], &places);
+                    let valued = one.value_holes(&holes[made..]).expect("plain words");
+                    let counted = passed.pass_holes(&holes[made..], Some(&valued), &mut places);
+                    let is_at = other.clone().has_holes_at(&valued, &places);
                     let [a, b] = [&mut one, &mut other].map(|exec| events(exec, &holes[made..]));
                     if !same {
                         differ += u32::from(a != b);
@@ -286,9 +275,11 @@ mod tests {
         let mut exec = control(&drilling(), 0);
         let mut places = Vec::new();
         let said = [hole(1_000, 2_000), stmt(Op::Blank), hole(3_000, 2_000)];
-        exec.clone().pass_holes(&said, &mut places).expect("plain holes");
+        exec.clone().pass_holes(&said, None, &mut places).expect("plain holes");
         let only_x = stmt(Op::Hole(to([Some(3_000), None, None])));
-        let mut holds = |written: &[Stmt]| exec.has_holes_at(written, &places);
+        let mut holds = |written: &[Stmt]| {
+            exec.value_holes(written).is_some_and(|written| exec.has_holes_at(&written, &places))
+        };
         assert!(holds(&said) && holds(&[hole(1_000, 2_000), only_x]));
         assert!(!holds(&[hole(1_001, 2_000), hole(3_000, 2_000)]));
         assert!(!holds(&[hole(1_000, 2_000), hole(3_000, 2_001)]));

@@ -18,8 +18,9 @@
 //! Not here: holes that both controls make as holes (`same`).
 
 use super::Way;
+use super::repeated::ValuedHoles;
 use crate::moves::lines::valued::{Stroke, ValuedLines};
-use crate::{Event, Exec, Kind};
+use crate::{Exec, Kind};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Stmt;
 
@@ -44,17 +45,39 @@ impl Exec {
         }
     }
 
+    /// How many strokes are kept.
+    pub(super) fn strokes_kept(&self) -> usize {
+        self.strokes.as_ref().map_or(0, |strokes| strokes.kept.len())
+    }
+
+    /// The strokes that are kept behind the first so many.
+    pub(super) fn strokes_from(&self, first: usize) -> &[Stroke] {
+        let kept = self.strokes.as_ref().and_then(|strokes| strokes.kept.get(first..));
+        kept.unwrap_or_default()
+    }
+
+    /// Keeps a stroke of a hole that is not executed.
+    pub(super) fn keep(&mut self, stroke: Stroke) {
+        if let Some(strokes) = &mut self.strokes {
+            strokes.kept.push(stroke);
+        }
+    }
+
     /// Executes holes for their effect on the state alone; gives their strokes, or `None` where they make anything else.
+    /// With their values most of them are not executed one by one.
     ///
     /// # Errors
     /// As of [`Exec::step`].
-    pub fn pass_strokes(&mut self, stmts: &[Stmt]) -> Result<Option<Vec<Stroke>>, Diagnostic> {
+    pub fn pass_strokes(
+        &mut self,
+        stmts: &[Stmt],
+        valued: Option<&ValuedHoles>,
+    ) -> Result<Option<Vec<Stroke>>, Diagnostic> {
         // Most holes are four of them.
         let kept = Vec::with_capacity(4 * stmts.len());
         (self.quiet, self.counted) = (true, 0);
         self.strokes = Some(Box::new(Strokes { kept, alone: true }));
-        let mut none: Vec<Event> = Vec::new();
-        let passed = stmts.iter().try_for_each(|stmt| self.step(stmt, &mut none));
+        let passed = self.make_holes(stmts, valued, |_| {});
         self.quiet = false;
         let strokes = self.strokes.take();
         passed.map(|()| strokes.filter(|strokes| strokes.alone).map(|strokes| strokes.kept))
@@ -78,6 +101,7 @@ impl Exec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Event;
     use crate::moves::sketch::{drilling, hole, mm, stmt, to, word};
     use crate::world::World;
     use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel};
@@ -175,7 +199,7 @@ mod tests {
             let what = format!("{cycle:?} behind {made}");
             let start = Op::StartCycle(Box::new(cycle.clone()));
             let (mut source, mut target) = (control(&[start]), control(&[]));
-            let strokes = source.pass_strokes(&holes[..made]).expect("plain holes");
+            let strokes = source.pass_strokes(&holes[..made], None).expect("plain holes");
             let Some(strokes) = strokes.filter(|_| source.makes_strokes_of(&target) || made > 0) else {
                 continue;
             };
@@ -184,7 +208,9 @@ mod tests {
                 continue;
             }
             let mut behind = source.clone();
-            let Some(strokes) = behind.pass_strokes(&holes[made..]).expect("plain holes") else { continue };
+            let valued = source.value_holes(&holes[made..]).expect("plain words");
+            let strokes = behind.pass_strokes(&holes[made..], Some(&valued)).expect("plain holes");
+            let Some(strokes) = strokes else { continue };
             let written = lines(&strokes);
             assert!(goes_along(&target, &written, &strokes), "{what}");
             let mut after = target.clone();
@@ -212,7 +238,8 @@ mod tests {
     fn what_is_no_plain_line_goes_along_nothing() {
         let start = Op::StartCycle(Box::new(cycles().remove(0)));
         let (mut source, target) = (control(&[start]), control(&[]));
-        let strokes = source.pass_strokes(&[hole(1_000, 2_000)]).expect("a hole").expect("plain strokes");
+        let strokes =
+            source.pass_strokes(&[hole(1_000, 2_000)], None).expect("a hole").expect("plain strokes");
         let written = lines(&strokes);
         assert!(goes_along(&target, &written, &strokes));
         for at in 0..written.len() {
