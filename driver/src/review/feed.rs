@@ -170,7 +170,7 @@ mod tests {
         let heads = [
             "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n",
             "G21 G17 G90 G95 G40 G49 G80\nG55\nT1 M6\nS500 M3\nG0 X0.\n",
-            "G20 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nS500 M3\nG0 X0. Y0. Z0.\nG68 X0. Y0. R30.\n",
+            "G20 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nS500 M3\nG0 X0. Y0. Z0.\nG1 Z-0.1 F9.\n",
             "G21 G17 G90 G94 G40 G49 G80\nG54\n",
         ];
         for head in heads {
