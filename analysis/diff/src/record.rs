@@ -221,6 +221,8 @@ pub struct Recorder {
     /// Where the axes stood after the last record, world by world.
     stood: [[Nanos; AXES]; 1 + WORLDS],
     hole: u32,
+    /// What was recorded last, if it is a straight line of all worlds.
+    line: Option<Record>,
 }
 
 impl Recorder {
@@ -233,6 +235,7 @@ impl Recorder {
             kept: 0,
             stood: stand,
             hole: 0,
+            line: None,
         }
     }
 
@@ -249,6 +252,26 @@ impl Recorder {
         self.stood = stand;
     }
 
+    /// Records lines that go on in all worlds as the one of the block `at`, from where they stand behind it: each by the
+    /// place of its block, and where it ends in the plain world. `None` where that was not recorded last. Behind the lines,
+    /// it is to be told where the worlds [stand](Recorder::stand).
+    pub fn goes_on(
+        &mut self,
+        at: u32,
+        stand: [[Nanos; AXES]; 1 + WORLDS],
+    ) -> Option<impl FnMut(u32, &[Nanos; AXES]) + use<'_>> {
+        let line = self.line.filter(|line| line.at == at && self.stood == stand)?;
+        let (records, stood) = (&mut self.batch.records, &mut self.stood);
+        Some(move |at, end: &[Nanos; AXES]| {
+            if same_point(end, &stood[0]) {
+                return;
+            }
+            stood[0] = *end;
+            let [x, y, z, a, b, c] = *end;
+            records.push(Record { end: [x, y, z], more: [a, b, c], at, ..line });
+        })
+    }
+
     /// Records that wait to be taken.
     pub fn waiting(&self) -> usize {
         self.batch.records.len()
@@ -262,6 +285,7 @@ impl Recorder {
     /// Records what one statement has made in every world, the plain one first; `plain` is the plain
     /// world's control after it. `incremental` says whether its words measure from where the tool stands.
     pub fn record(&mut self, plain: &Exec, worlds: [&[Event]; 1 + WORLDS], incremental: bool) {
+        self.line = None;
         let terms = (
             plain.offset_in_force(),
             match plain.length_edge() {
@@ -309,6 +333,7 @@ impl Recorder {
         incremental: bool,
         hole: u32,
     ) {
+        self.line = None;
         let [Some(plain), Some(one), Some(two)] = worlds else { return };
         let Some(what) = what(&plain.kind) else { return };
         let ends = [&plain.end, &one.end, &two.end];
@@ -319,6 +344,8 @@ impl Recorder {
         let start = std::mem::replace(&mut self.stood, [plain.end, one.end, two.end])[0];
         let apart = [one.end, two.end].map(|w| std::array::from_fn(|axis| w[axis] - plain.end[axis]));
         self.push(plain, &start, what, terms, apart, incremental, hole, 0);
+        let line = matches!(what, What::Traverse | What::Feed) && hole == 0;
+        self.line = if line { self.batch.records.last().copied() } else { None };
     }
 
     fn alone(&mut self, event: &Event, world: usize, terms: (u16, Length), incremental: bool) {

@@ -24,10 +24,12 @@ pub struct Path {
 }
 
 /// Millimetres or degrees of nanos.
+#[inline]
 pub(crate) fn units(n: Nanos) -> f64 {
     n as f64 / ONE as f64
 }
 
+#[inline]
 fn norm(v: [f64; 3]) -> f64 {
     // Coordinates are below 1e10: no square can overflow, and `hypot` costs many times as much.
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
@@ -45,6 +47,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 
 /// The way of an event from a point, both in one coordinate system. An event that is no move has a
 /// way of no length.
+#[inline]
 pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
     match event.kind.moves() {
         Some(Movement::Rapid | Movement::Feed) => line(&event.end, from),
@@ -65,13 +68,13 @@ pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
 /// Change of every axis.
 #[inline]
 fn change(end: &[Nanos; AXES], from: &[Nanos; AXES]) -> [f64; AXES] {
-    let [x, y, z] = [0, 1, 2].map(|i: usize| units(end[i] - from[i]));
+    let of = |axis: usize| units(end[axis] - from[axis]);
+    let [x, y, z] = [of(0), of(1), of(2)];
     // Rotary axes stand still in most moves.
-    if end[3..] == from[3..] {
+    if (end[3], end[4], end[5]) == (from[3], from[4], from[5]) {
         return [x, y, z, 0.0, 0.0, 0.0];
     }
-    let [a, b, c] = [3, 4, 5].map(|i: usize| units(end[i] - from[i]));
-    [x, y, z, a, b, c]
+    [x, y, z, of(3), of(4), of(5)]
 }
 
 /// Of a straight move.
@@ -83,7 +86,7 @@ pub(crate) fn line(end: &[Nanos; AXES], from: &[Nanos; AXES]) -> Path {
         0.0 => (change[3].hypot(change[4]).hypot(change[5]), [0.0; 3]),
         length => {
             let each = 1.0 / length;
-            (length, linear.map(|x| x * each))
+            (length, [linear[0] * each, linear[1] * each, linear[2] * each])
         }
     };
     Path { length, change, heading_from: heading, heading_to: heading, radius: f64::INFINITY, sweep: 0.0 }

@@ -118,11 +118,11 @@ fn count_same(job: &Job, skip: u16, mut from: [Pieces<Reading>; 2]) -> Option<u6
                 continue;
             }
             (waiting[side], at[side]) = (Vec::new(), 0);
-            let Some(Reading { stmts, assumed }) = from() else { continue };
-            waiting[side] = stmts;
+            let Some(reading) = from() else { continue };
             if side == 0 {
-                begin(job, &mut controls, &assumed, std::mem::replace(&mut stood, true));
+                begin(job, &mut controls, &reading.assumed, std::mem::replace(&mut stood, true));
             }
+            waiting[side] = reading.statements();
         }
         let [first, second] = [0, 1].map(|side| waiting[side].get(at[side]..).unwrap_or_default());
         let both = first.len().min(second.len());

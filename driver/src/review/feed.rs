@@ -8,9 +8,10 @@ use ncc_exec::Exec;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Distance, Fact};
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{Op, Point, Stmt};
 
-use super::stream::{Course, Made, Stage, stream, worlds};
+use super::stream::{Control, Course, Made, Stage, Takes, stream_lines, worlds};
 use crate::side::Side;
 
 /// Records of a piece.
@@ -60,31 +61,64 @@ pub fn records(
             exec
         })
         .collect();
-    let mut recorder = Recorder::new([[0; AXES]; 1 + WORLDS]);
-    let mut broken_off = false;
+    let recorder = Recorder::new([[0; AXES]; 1 + WORLDS]);
+    let mut feed = Feed { recorder, take, broken_off: false };
     let Side { source, job } = side;
-    let course = stream(job, &mut source.file, controls, &mut |made: Made| {
+    let course = stream_lines(job, &mut source.file, controls, &mut feed)?;
+    if !feed.broken_off {
+        let _ = (feed.take)(feed.recorder.take());
+    }
+    Ok(course)
+}
+
+/// Makes records of what a program makes, and hands them out.
+struct Feed<'f> {
+    recorder: Recorder,
+    take: &'f mut dyn FnMut(Batch) -> ControlFlow<()>,
+    broken_off: bool,
+}
+
+impl Takes for Feed<'_> {
+    fn made(&mut self, made: Made) -> ControlFlow<()> {
         let [plain, one, two] = made.controls else { return ControlFlow::Break(()) };
         let incremental = match made.stage {
             Stage::Start => {
-                recorder.stand([&plain.exec, &one.exec, &two.exec].map(Exec::machine));
+                self.recorder.stand([&plain.exec, &one.exec, &two.exec].map(Exec::machine));
                 return ControlFlow::Continue(());
             }
             Stage::Stmt(stmt) => incremental(stmt),
             Stage::End => false,
         };
-        recorder.record(&plain.exec, [&plain.events, &one.events, &two.events], incremental);
-        if recorder.waiting() < PIECE {
+        self.recorder.record(&plain.exec, [&plain.events, &one.events, &two.events], incremental);
+        if self.recorder.waiting() < PIECE {
             return ControlFlow::Continue(());
         }
-        let goes_on = take(recorder.take());
-        broken_off = goes_on.is_break();
+        let goes_on = (self.take)(self.recorder.take());
+        self.broken_off = goes_on.is_break();
         goes_on
-    })?;
-    if !broken_off {
-        let _ = take(recorder.take());
     }
-    Ok(course)
+
+    fn lines(&mut self, lines: Rows, controls: &mut [Control]) -> usize {
+        let [plain, one, two] = controls else { return 0 };
+        let last = |control: &Control| match control.events.as_slice() {
+            [event] => Some(event.clone()),
+            _ => None,
+        };
+        let along = |control: &Control| {
+            last(control).is_some_and(|last| control.exec.goes_along_with(&plain.exec, &last))
+        };
+        let (Some(last), true, true) = (last(plain), along(one), along(two)) else { return 0 };
+        let stand = [&plain.exec, &one.exec, &two.exec].map(Exec::machine);
+        let Some(mut record) = self.recorder.goes_on(last.span.start, stand) else { return 0 };
+        let way = plain.exec.way_along(lines, &last, |row, _, end| record(row.span().start, end));
+        drop(record);
+        let Some(way) = way else { return 0 };
+        for control in [&mut *plain, &mut *one, &mut *two] {
+            control.exec.go_along(&way);
+        }
+        self.recorder.stand([&plain.exec, &one.exec, &two.exec].map(Exec::machine));
+        way.lines()
+    }
 }
 
 /// Whether a statement measures from where the tool stands.
@@ -95,5 +129,65 @@ fn incremental(stmt: &Stmt) -> bool {
         Op::StraightFeed(to) | Op::StraightTraverse(to) | Op::Position(to) | Op::Hole(to) => measured(&to.to),
         Op::ArcFeed(arc) => measured(&arc.to),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machines::pair::Machines;
+    use crate::source::Source;
+    use crate::source::spool::Spool;
+    use ncc_dialects::{Settings as Options, builtin};
+    use ncc_diff::record::{Record, Style};
+
+    fn recorded(text: &str) -> (Vec<Record>, Vec<Style>) {
+        let settings = Options::new(builtin("fanuc").expect("a built-in dialect"));
+        let machines = Machines { from: None, to: None };
+        let mut side = Side::of(Source::of(Spool::of(text.into()), "a"), settings, machines, None);
+        let (mut all, mut styles) = (Vec::new(), Vec::new());
+        let course = records(&mut side, Settings::default(), &mut |batch| {
+            all.extend(batch.records);
+            styles.extend(batch.styles);
+            ControlFlow::Continue(())
+        });
+        assert!(!course.expect("memory").refused);
+        (all, styles)
+    }
+
+    /// Lines of tables leave the records that statements leave: blocks under a level of block skip that is off are such.
+    #[test]
+    fn lines_of_tables_are_recorded_as_statements() {
+        let line = |n: usize| match n % 11 {
+            0 => format!("G1 X{n}. F{}.", 100 + n % 3),
+            4 => format!("G0 Z{n}."),
+            5 => format!("G1 Z-0.{n:04}"),
+            7 => "X1. Y2.".to_owned(),
+            8 => "X1.".to_owned(),
+            _ => format!("X{n}.5 Y-{n}.25"),
+        };
+        let lines: Vec<String> = (0..3_000).map(line).collect();
+        let heads = [
+            "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n",
+            "G21 G17 G90 G95 G40 G49 G80\nG55\nT1 M6\nS500 M3\nG0 X0.\n",
+            "G20 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nS500 M3\nG0 X0. Y0. Z0.\nG1 Z-0.1 F9.\n",
+            "G21 G17 G90 G94 G40 G49 G80\nG54\n",
+        ];
+        for head in heads {
+            let program = |skip: &str| {
+                let lines: Vec<String> = lines.iter().map(|line| format!("{skip}{line}")).collect();
+                format!("%\nO1\n{head}{}\nM5\nM30\n%\n", lines.join("\n"))
+            };
+            let [(tables, styles), (statements, styles_there)] =
+                ["", "/"].map(|skip| recorded(&program(skip)));
+            assert_eq!(styles, styles_there, "{head}");
+            assert_eq!(tables.len(), statements.len(), "{head}");
+            for (one, other) in tables.iter().zip(&statements) {
+                let mut one = *one;
+                one.at = other.at;
+                assert_eq!(one, *other, "{head}");
+            }
+            assert!(tables.len() > 2_000);
+        }
     }
 }

@@ -13,6 +13,8 @@
 //! if course.refused { /* course.diagnostics say why, at their places */ }
 //! ```
 
+mod lines;
+
 use std::io;
 use std::mem::discriminant;
 use std::ops::ControlFlow;
@@ -27,11 +29,14 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::expr::system::System;
 use ncc_ir::program::cycle::{Clearance, CycleKind};
+use ncc_ir::program::line_table::LineTable;
+use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::FlowUnexecuted;
 use ncc_machines::reading::Told;
 
+use self::lines::OfStatements;
 use crate::job::Job;
 use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
@@ -40,6 +45,8 @@ use crate::source::chunks::{Chunk, Chunks, PIECE};
 use crate::source::reader::reader_for;
 use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
+
+pub use self::lines::Takes;
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -104,6 +111,8 @@ pub struct Course {
 
 /// Statements of a program that streams, in their order, not executed.
 pub struct Reading {
+    /// Lines of a piece before its statements.
+    pub table: LineTable,
     /// The statements of a piece.
     pub stmts: Vec<Stmt>,
     /// What the program has taken for granted so far.
@@ -199,7 +208,25 @@ pub fn stream_as(
     controls: Vec<Exec>,
     take: &mut dyn FnMut(Made) -> ControlFlow<()>,
 ) -> io::Result<Course> {
-    let mut run = Run::new(job, file, unsaid, take)?;
+    let mut take = OfStatements(take);
+    execute(Run::new(job, file, unsaid, &mut take)?, file, controls)
+}
+
+/// The same for somebody who takes lines by many.
+///
+/// # Errors
+/// Reading the source.
+pub fn stream_lines(
+    job: &Job,
+    file: &mut dyn Readable,
+    controls: Vec<Exec>,
+    take: &mut dyn Takes,
+) -> io::Result<Course> {
+    let run = Run { tabled: true, ..Run::new(job, file, Unsaid::Taken, take)? };
+    execute(run, file, controls)
+}
+
+fn execute(mut run: Run, file: &mut dyn Readable, controls: Vec<Exec>) -> io::Result<Course> {
     run.controls = controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect();
     run.through(&mut Chunks::new(file))?;
     run.last_statements();
@@ -212,7 +239,8 @@ pub fn stream_as(
 /// Reading the source.
 pub fn look(job: &Job, file: &mut dyn Readable) -> io::Result<Course> {
     let mut nothing = |_: Made| ControlFlow::Continue(());
-    let mut run = Run::new(job, file, Unsaid::Taken, &mut nothing)?;
+    let mut nothing = OfStatements(&mut nothing);
+    let mut run = Run { tabled: true, ..Run::new(job, file, Unsaid::Taken, &mut nothing)? };
     let mut chunks = Chunks::hashed(file, PIECE);
     let over = run.through(&mut chunks)?;
     run.last_statements();
@@ -232,7 +260,8 @@ pub fn read(
     hand_out: &mut dyn FnMut(Reading) -> ControlFlow<()>,
 ) -> io::Result<Course> {
     let mut nothing = |_: Made| ControlFlow::Continue(());
-    let mut run = Run::new(job, file, unsaid, &mut nothing)?;
+    let mut nothing = OfStatements(&mut nothing);
+    let mut run = Run { tabled: true, ..Run::new(job, file, unsaid, &mut nothing)? };
     run.reads = Some(hand_out);
     run.through(&mut Chunks::new(file))?;
     run.reader.finish(&mut run.batch);
@@ -253,7 +282,9 @@ struct Run<'r> {
     stood: bool,
     course: Course,
     errors: usize,
-    take: &'r mut dyn FnMut(Made) -> ControlFlow<()>,
+    take: &'r mut dyn Takes,
+    /// Whether lines are read as tables.
+    tabled: bool,
     /// Takes statements that are read and not executed here.
     reads: Option<&'r mut dyn FnMut(Reading) -> ControlFlow<()>>,
     broken_off: bool,
@@ -265,7 +296,7 @@ impl<'r> Run<'r> {
         job: &'r Job,
         file: &mut dyn Readable,
         unsaid: Unsaid,
-        take: &'r mut dyn FnMut(Made) -> ControlFlow<()>,
+        take: &'r mut dyn Takes,
     ) -> io::Result<Run<'r>> {
         Ok(Run {
             job,
@@ -277,6 +308,7 @@ impl<'r> Run<'r> {
             course: Course::default(),
             errors: 0,
             take,
+            tabled: false,
             reads: None,
             broken_off: false,
         })
@@ -298,26 +330,36 @@ impl<'r> Run<'r> {
     }
 
     fn piece(&mut self, text: &[u8], base: u32) {
-        self.reader.read(text, base, &mut self.batch);
+        match self.tabled {
+            true => self.reader.read_to_table(text, base, &mut self.batch),
+            false => self.reader.read(text, base, &mut self.batch),
+        }
         self.take_diagnostics();
-        if !self.batch.whole {
+        if self.batch.whole {
+            self.batch.unpack_table();
+        } else {
             self.next_statements();
         }
     }
 
     /// Executes what was read, or hands it out.
     fn next_statements(&mut self) {
+        let mut table = std::mem::take(&mut self.batch.table);
         let mut stmts = std::mem::take(&mut self.batch.stmts);
         match &mut self.reads {
             None => {
+                self.lines(Rows::of(&table));
                 self.statements(&stmts);
+                // Their memory serves the next piece.
+                table.clear();
                 stmts.clear();
-                self.batch.stmts = stmts;
+                (self.batch.table, self.batch.stmts) = (table, stmts);
             }
-            Some(_) if self.errors > 0 || stmts.is_empty() => {}
+            Some(_) if self.errors > 0 || table.is_empty() && stmts.is_empty() => {}
             Some(hand_out) => {
                 self.course.skip_levels |= levels(&stmts);
-                self.broken_off = hand_out(Reading { stmts, assumed: self.batch.assumed }).is_break();
+                let assumed = self.batch.assumed;
+                self.broken_off = hand_out(Reading { table, stmts, assumed }).is_break();
             }
         }
     }
@@ -340,6 +382,10 @@ impl<'r> Run<'r> {
             return;
         }
         self.assume();
+        self.each_statement(stmts);
+    }
+
+    fn each_statement(&mut self, stmts: &[Stmt]) {
         for stmt in stmts {
             if self.broken_off {
                 return;
@@ -452,7 +498,7 @@ impl<'r> Run<'r> {
     }
 
     fn hand_out(&mut self, stage: Stage) {
-        self.broken_off = (self.take)(Made { stage, controls: &self.controls }).is_break();
+        self.broken_off = self.take.made(Made { stage, controls: &self.controls }).is_break();
     }
 
     fn end(mut self) -> Course {

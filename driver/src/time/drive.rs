@@ -5,6 +5,7 @@
 //! rest is kept whole and run from there. What comes out goes to a [`Sink`], function by function.
 //! Not here: what is made of them, and where it is written.
 
+mod lines;
 mod notes;
 
 use std::collections::{BTreeSet, VecDeque};
@@ -20,13 +21,14 @@ use ncc_ir::canon::{AXES, Modes, PathMode};
 use ncc_ir::computed::free_variables::asked_of_the_machine;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_plot::Turned;
-use ncc_time::{Act, Clock, Longest, Machine, Model, Place, Timed};
+use ncc_time::{Clock, Longest, Machine, Model, Place, Timed};
 
 use super::blocks::Blocks;
-use super::reach::{Reach, reach, turned};
+use super::reach::Reach;
 use crate::job::Job;
 use crate::job::parameters::parameter;
 use crate::review::stream::as_stated;
@@ -264,6 +266,10 @@ struct Drive<'d> {
     events: Vec<Event>,
     /// Of functions whose time is not certain yet, in order.
     said: VecDeque<Said>,
+    /// The event of the last statement, where it made just one.
+    line: Option<Event>,
+    /// Memory for lines of tables.
+    along: Vec<lines::Made>,
     /// The text of blocks that nobody asks for.
     nothing: Rc<str>,
     /// Blocks whose events may wait for the next ones: a contour's end is not known before.
@@ -303,6 +309,8 @@ impl<'d> Drive<'d> {
             beside: (wants_bounds && model == Model::Ideal).then(|| Longest::new(plan.machine.clone())),
             events: Vec::new(),
             said: VecDeque::new(),
+            line: None,
+            along: Vec::new(),
             nothing: Rc::from(""),
             held: VecDeque::new(),
             course: Course {
@@ -330,14 +338,20 @@ impl<'d> Drive<'d> {
 
     /// A piece of the source.
     fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
-        self.reader.read(text, base, &mut self.batch);
+        self.reader.read_to_table(text, base, &mut self.batch);
         self.take_diagnostics();
         self.blocks.begin(base);
-        if !self.batch.whole {
+        if self.batch.whole {
+            self.batch.unpack_table();
+        } else {
+            let mut table = std::mem::take(&mut self.batch.table);
             let mut stmts = std::mem::take(&mut self.batch.stmts);
+            self.lines(Rows::of(&table), text)?;
             self.statements(&stmts, text)?;
+            // Their memory serves the next piece.
+            table.clear();
             stmts.clear();
-            self.batch.stmts = stmts;
+            (self.batch.table, self.batch.stmts) = (table, stmts);
         }
         self.blocks.end(text);
         Ok(())
@@ -458,21 +472,14 @@ impl<'d> Drive<'d> {
     /// Passes on the events that were made; those of a contour may be of an earlier block.
     fn pass_on(&mut self, contour: bool, place: Place, said: &Said) {
         let mut events = std::mem::take(&mut self.events);
+        self.line = match events.as_slice() {
+            [event] if !contour => Some(event.clone()),
+            _ => None,
+        };
         for event in events.drain(..) {
             let held = self.held.iter().rev().find(|(span, ..)| contour && *span == event.span);
             let (place, said) = held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
-            let act = Act::of(event, self.last, &self.exec, place);
-            self.moves(&act);
-            self.last = act.event.end;
-            let arc = matches!(act.event.kind, Kind::Arc { .. });
-            let reach = if arc && self.wants_reach { reach(&act, &self.exec) } else { None };
-            let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
-            let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
-            self.said.push_back(Said { reach, turned, ..said });
-            if let Some(longest) = &mut self.beside {
-                longest.push(&act);
-            }
-            self.clock.push(act);
+            self.event(event, place, said);
         }
         self.events = events;
     }

@@ -8,7 +8,6 @@ use std::io;
 
 use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::Spindle;
-use ncc_ir::expr::num::Nanos;
 use ncc_time::{Machine, Timed, ToolChangeOn, path};
 use serde::Serialize;
 
@@ -228,15 +227,14 @@ impl Sink for Tallier {
             }
             return Ok(());
         }
-        let hole = timed.act.event.kind == Kind::Attribute(Attribute::Hole);
-        let mark = hole || timed.act.event.kind == Kind::TextEnd;
+        let mark = matches!(timed.act.event.kind, Kind::Attribute(Attribute::Hole) | Kind::TextEnd);
         self.account.functions += u64::from(!mark);
         let change = self.change(timed);
         let tool = match (change, self.change_on) {
             (Some(tool), _) => tool,
             // From the selection on, where that takes the time.
             (None, ToolChangeOn::Select) => match self.account.tools.get(self.tool) {
-                Some(tool) if timed.act.event.kind != Kind::ToolChange => tool.tool.unwrap_or(-1),
+                Some(tool) if !matches!(timed.act.event.kind, Kind::ToolChange) => tool.tool.unwrap_or(-1),
                 Some(_) | None => timed.act.event.state.tool,
             },
             (None, ToolChangeOn::Change) => timed.act.event.state.tool,
@@ -316,24 +314,30 @@ impl Step {
         let length = if moves { way.length } else { 0.0 };
         let cuts = matches!(kind, Sort::Cutting) && way.length > 0.0;
         let ends = || -> Reach {
-            std::array::from_fn(|i| {
-                let (a, b) = (act.program_from[i], act.program_to[i]);
-                [a.min(b), a.max(b)]
-            })
+            let mut reach = Reach::default();
+            for (side, (a, b)) in reach.iter_mut().zip(act.program_from.iter().zip(&act.program_to)) {
+                *side = [*a.min(b), *a.max(b)];
+            }
+            reach
         };
+        let reach = cuts.then(|| {
+            let reach = said.reach.as_deref().copied().unwrap_or_else(ends);
+            let mut sides = [[0.0; 2]; 3];
+            for (side, [least, most]) in sides.iter_mut().zip(reach) {
+                *side = [units(least), units(most)];
+            }
+            sides
+        });
         Step {
             kind,
             seconds: timed.duration,
             length,
             cuts,
-            hole: event.kind == Kind::Attribute(Attribute::Hole),
+            hole: matches!(event.kind, Kind::Attribute(Attribute::Hole)),
             feed: cuts.then(|| units(event.rate)),
             speed: (cuts && event.state.spindle != Spindle::Stopped)
                 .then(|| units(event.state.turns(event.end[0]))),
-            reach: cuts.then(|| {
-                let reach = said.reach.as_deref().copied().unwrap_or_else(ends);
-                reach.map(|side| side.map(|n: Nanos| units(n)))
-            }),
+            reach,
         }
     }
 }
@@ -360,18 +364,22 @@ impl Tally {
         }
         self.cuts += u64::from(step.cuts);
         self.holes += u64::from(step.hole);
-        self.feed = wider(self.feed, step.feed.map(|f| [f, f]));
-        self.speed = wider(self.speed, step.speed.map(|s| [s, s]));
+        if let Some(feed) = step.feed {
+            widen(&mut self.feed, [feed; 2]);
+        }
+        if let Some(speed) = step.speed {
+            widen(&mut self.speed, [speed; 2]);
+        }
         if let Some(reach) = step.reach {
             self.reach(reach);
         }
     }
 
     fn reach(&mut self, reach: [[f64; 2]; 3]) {
-        self.extents = Some(match self.extents {
-            None => reach,
-            Some(own) => std::array::from_fn(|i| wider(Some(own[i]), Some(reach[i])).unwrap_or(own[i])),
-        });
+        match &mut self.extents {
+            None => self.extents = Some(reach),
+            Some(own) => own.iter_mut().zip(reach).for_each(|(own, side)| take_in(own, side)),
+        }
     }
 
     /// This and another one.
@@ -388,8 +396,8 @@ impl Tally {
         self.rapid_distance += other.rapid_distance;
         self.cuts += other.cuts;
         self.holes += other.holes;
-        self.feed = wider(self.feed, other.feed);
-        self.speed = wider(self.speed, other.speed);
+        other.feed.into_iter().for_each(|feed| widen(&mut self.feed, feed));
+        other.speed.into_iter().for_each(|speed| widen(&mut self.speed, speed));
         if let Some(reach) = other.extents {
             self.reach(reach);
         }
@@ -418,10 +426,17 @@ impl Tally {
     }
 }
 
-/// The least and the greatest of both.
-fn wider(a: Option<[f64; 2]>, b: Option<[f64; 2]>) -> Option<[f64; 2]> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].max(b[1])]),
-        (one, None) | (None, one) => one,
+/// Has a range have the least and the greatest of another one, too.
+#[inline]
+fn take_in(own: &mut [f64; 2], other: [f64; 2]) {
+    *own = [own[0].min(other[0]), own[1].max(other[1])];
+}
+
+/// The same, where there may be none yet.
+#[inline]
+fn widen(own: &mut Option<[f64; 2]>, other: [f64; 2]) {
+    match own {
+        Some(own) => take_in(own, other),
+        None => *own = Some(other),
     }
 }

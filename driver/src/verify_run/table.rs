@@ -12,6 +12,7 @@
 use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
 use ncc_ir::program::line_table::LineTable;
+use ncc_ir::program::rows::Rows;
 
 use super::verifier::{Run, Stop, Verifier};
 
@@ -55,7 +56,7 @@ impl Verifier {
         self.assume(assumed);
         self.read_back(inherited)?;
         let agree = |run: &Run| run.source.agrees_on_lines(&run.target) && !run.target.carries_linear();
-        let mut valued = self.runs.first().and_then(|run| run.source.value_table(table));
+        let mut valued = self.runs.first().and_then(|run| run.source.value_rows(Rows::of(table)));
         let Some(valued) = valued.as_mut().filter(|_| self.runs.iter().all(agree)) else { return Ok(false) };
         let mut stmts: Vec<Stmt> = Vec::new();
         for run in &mut self.runs {

@@ -43,6 +43,7 @@ pub use moves::fine::Increments;
 pub use moves::holes::repeated::ValuedHoles;
 pub use moves::holes::same::are_holes;
 pub use moves::lines::paced::{PacedLines, PacedMove};
+pub use moves::lines::told::Along;
 pub use moves::lines::valued::{Stroke, ValuedLines};
 pub use moves::pace::{DEGREES, LINEAR};
 pub use moves::rotary::end as rotary_end;

@@ -39,7 +39,10 @@ impl Exec {
 
     /// A point of the machine in program coordinates.
     pub(super) fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
-        let p = std::array::from_fn(|i| p[i].wrapping_sub(self.frame[i]));
+        let mut p = *p;
+        for (place, shift) in p.iter_mut().zip(&self.frame) {
+            *place = place.wrapping_sub(*shift);
+        }
         match &self.chain {
             None => p,
             Some(chain) => chain.unplace(&p),

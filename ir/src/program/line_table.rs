@@ -98,6 +98,12 @@ impl Row {
         self.form & FEED != 0
     }
 
+    /// Whether another one says the same line; of the feeds that they state nothing is said.
+    #[inline(always)]
+    pub fn says_the_same(&self, other: &Row) -> bool {
+        self.mantissas == other.mantissas && (self.form ^ other.form) & SAME == 0
+    }
+
     /// Its block number.
     #[inline(always)]
     pub fn number(&self) -> Option<u32> {
@@ -268,7 +274,7 @@ impl LineTable {
 
     /// Whether two texts say the same lines and feeds.
     pub fn says_the_same(&self, other: &LineTable) -> bool {
-        let same_row = |(a, b): (&Row, &Row)| a.mantissas == b.mantissas && (a.form ^ b.form) & SAME == 0;
+        let same_row = |(a, b): (&Row, &Row)| a.says_the_same(b);
         let same_feed = |(a, b): (&StatedFeed, &StatedFeed)| {
             (a.0.mantissa, a.0.scale, a.0.unit) == (b.0.mantissa, b.0.scale, b.0.unit)
         };

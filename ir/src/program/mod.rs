@@ -17,6 +17,7 @@ pub mod line_table;
 pub mod numbered;
 pub mod packed;
 pub mod packing;
+pub mod rows;
 pub mod shapes;
 pub mod valid;
 

@@ -20,6 +20,8 @@ use ncc_exec::verify::{Comparison, counts_from_there, same_plain};
 use ncc_exec::{Event, Exec};
 use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
+use ncc_ir::program::line_table::LineTable;
+use ncc_ir::program::rows::Rows;
 
 use super::plan::Plan;
 use crate::job::Job;
@@ -29,6 +31,8 @@ use crate::side_by_side::{self, Pieces, Take};
 
 /// Pieces that the reader of a side may be ahead.
 const AHEAD: usize = 4;
+/// Lines of tables that become statements at once where both sides have lines that do not pass.
+const FEW: usize = 32;
 /// Statements after which controls that were in different states are looked at again, at the most.
 const MOST_PATIENCE: usize = 256;
 
@@ -63,6 +67,17 @@ struct Run {
 }
 
 impl Run {
+    /// Whether lines of a table, which count from zero and no level of block skip leaves out, make the same events on both
+    /// controls.
+    fn agrees_on_rows(&self) -> bool {
+        let [source, target] = &self.controls;
+        self.comparison.is_settled()
+            && source.agrees_on_lines(target)
+            && source.counts_absolute()
+            && target.counts_absolute()
+            && !target.carries_linear()
+    }
+
     /// Whether these lines make the same events on both controls.
     fn agrees_on(&self, lines: &[Stmt], absolute: bool) -> bool {
         let [source, target] = &self.controls;
@@ -75,11 +90,15 @@ impl Run {
     }
 }
 
-/// Statements of a side that are not executed yet.
+/// What is not executed yet of a piece of a side: statements, lines behind them, and statements behind these.
 #[derive(Default)]
 struct Waiting {
     stmts: Vec<Stmt>,
     at: usize,
+    table: LineTable,
+    /// Rows of it that are behind.
+    passed: usize,
+    behind: Vec<Stmt>,
     /// Whether anything was executed of the side.
     stood: bool,
     /// Whether there are no more.
@@ -87,8 +106,34 @@ struct Waiting {
 }
 
 impl Waiting {
+    /// Whether nothing is left of the piece.
+    fn is_empty(&mut self) -> bool {
+        if self.rest().is_empty() && self.rows().is_empty() {
+            (self.stmts, self.at) = (std::mem::take(&mut self.behind), 0);
+        }
+        self.rest().is_empty() && self.rows().is_empty()
+    }
+
+    /// Statements that come next.
     fn rest(&self) -> &[Stmt] {
         self.stmts.get(self.at..).unwrap_or_default()
+    }
+
+    /// Lines behind them.
+    fn rows(&self) -> Rows<'_> {
+        Rows::of(&self.table).split(self.passed).1
+    }
+
+    /// Makes statements of so many of the lines, where these come next.
+    fn unpack(&mut self, many: usize) {
+        if !self.rest().is_empty() {
+            return;
+        }
+        let mut stmts = std::mem::take(&mut self.stmts);
+        stmts.clear();
+        self.rows().split(many).0.unpack(&mut stmts);
+        (self.stmts, self.at) = (stmts, 0);
+        self.passed += many;
     }
 }
 
@@ -118,7 +163,7 @@ impl InStep {
     fn go(&mut self, jobs: [&Job; 2], mut from: [Pieces<Reading>; 2]) -> Option<()> {
         loop {
             for side in [0, 1] {
-                while self.waiting[side].rest().is_empty() && !self.waiting[side].over {
+                while self.waiting[side].is_empty() && !self.waiting[side].over {
                     match from[side]() {
                         Some(reading) => self.take(side, jobs[side], reading),
                         None => self.end(side)?,
@@ -134,10 +179,10 @@ impl InStep {
         }
     }
 
-    fn take(&mut self, side: usize, job: &Job, Reading { stmts, assumed }: Reading) {
+    fn take(&mut self, side: usize, job: &Job, Reading { table, stmts, assumed }: Reading) {
         let waiting = &mut self.waiting[side];
         let stood = std::mem::replace(&mut waiting.stood, true);
-        (waiting.stmts, waiting.at) = (stmts, 0);
+        (waiting.table, waiting.passed, waiting.behind) = (table, 0, stmts);
         let facts: Option<Modes> = match &self.unsaid {
             Unsaid::Only(facts) if side == 1 => Some(*facts),
             Unsaid::Only(_) | Unsaid::Taken => None,
@@ -172,6 +217,10 @@ impl InStep {
         if !self.runs.iter().all(nothing_left) {
             return Some(false);
         }
+        if self.pass_rows()? {
+            return Some(true);
+        }
+        self.unpack();
         let [said, read] = self.waiting.each_ref().map(Waiting::rest);
         let same = said.iter().zip(read).take_while(|(a, b)| same_plain(a, b)).count();
         if same == 0 {
@@ -195,8 +244,49 @@ impl InStep {
         Some(true)
     }
 
+    /// Lets lines of tables pass that both sides say next, in one state of their controls; whether there are any.
+    fn pass_rows(&mut self) -> Option<bool> {
+        if self.waiting.iter().any(|side| !side.rest().is_empty()) {
+            return Some(false);
+        }
+        let [said, read] = self.waiting.each_ref().map(Waiting::rows);
+        let same = said.said_by(read);
+        if same == 0 || !self.runs.iter().all(Run::agrees_on_rows) {
+            return Some(false);
+        }
+        let lines = said.split(same).0;
+        let Some(mut valued) = self.runs.first().and_then(|run| run.controls[0].value_rows(lines)) else {
+            return Some(false);
+        };
+        let mut stmts: Vec<Stmt> = Vec::new();
+        for Run { controls: [source, target], comparison, .. } in &mut self.runs {
+            let events = match source.pass_valued(&mut valued) {
+                Some(events) => events,
+                None => {
+                    if stmts.is_empty() {
+                        lines.unpack(&mut stmts);
+                    }
+                    source.pass(&stmts).ok()?
+                }
+            };
+            target.follow(source);
+            comparison.pass(events, source.machine());
+        }
+        self.waiting.iter_mut().for_each(|side| side.passed += same);
+        Some(true)
+    }
+
+    /// Makes statements of lines that come next, as many as are held against statements of the other side.
+    fn unpack(&mut self) {
+        let many = self.waiting.each_ref().map(|side| side.rest().len());
+        for (side, there) in self.waiting.iter_mut().zip([many[1], many[0]]) {
+            side.unpack(if there == 0 { FEW } else { there });
+        }
+    }
+
     /// Executes the next statement of the side that is behind, and compares.
     fn step(&mut self) -> Option<()> {
+        self.unpack();
         let ahead = |run: &Run| run.events[0].len() > run.events[1].len();
         let side = match self.waiting.each_ref().map(|side| side.over) {
             [true, _] => 1,
@@ -302,6 +392,62 @@ mod tests {
                 let verdict = compared([&text, &program(HEAD, &other)]).0;
                 assert_eq!(verdict, Verdict::Different, "{} as {line}", all[at]);
             }
+        }
+    }
+
+    /// Plain lines of several pieces, which are read as tables.
+    fn many_lines() -> Vec<String> {
+        let line = |n: usize| match n % 9 {
+            0 => format!("G1 X{n}. F{}.", 100 + n),
+            4 => format!("G0 Z{n}."),
+            5 => format!("G1 Z-0.{n:04}"),
+            _ => format!("X{n}.5 Y-{n}.25"),
+        };
+        (0..3_000).map(line).collect()
+    }
+
+    /// Those of tables are counted too, wherever the pieces of both texts end.
+    #[test]
+    fn lines_of_tables_are_counted() {
+        let lines = many_lines();
+        let text = program(HEAD, &lines);
+        let (verdict, events) = compared([&text, &text]);
+        assert_eq!(verdict, Verdict::Equal);
+        let skipped: Vec<String> = lines.iter().map(|line| format!("{line} (A REMARK)")).collect();
+        for other in [
+            text.replacen("O1\n", "O1\n(OTHER)\nG80\n", 1),
+            text.replacen("\nX1000", "\n(A REMARK)\nX1000", 1),
+            text.replace("\nX", "\nN7 X"),
+            program(HEAD, &skipped),
+        ] {
+            assert_eq!(compared([&text, &other]), (Verdict::Equal, events));
+            assert_eq!(compared([&other, &text]), (Verdict::Equal, events));
+        }
+    }
+
+    /// Whichever line of a table is another one, the programs are different; and so they are where they are in another
+    /// state before all of them.
+    #[test]
+    fn lines_of_tables_that_say_something_else_do_not_pass() {
+        let lines = many_lines();
+        let text = program(HEAD, &lines);
+        for at in (1_000..lines.len()).step_by(211) {
+            let fed = match lines[at].contains('F') {
+                true => lines[at].replacen(" F", " F9", 1),
+                false => format!("{} F7.", lines[at]),
+            };
+            for line in [lines[at].replacen('.', "1.", 1), fed, "G0 Z7.5".to_owned()] {
+                let mut other = lines.clone();
+                other[at].clone_from(&line);
+                let verdict = compared([&text, &program(HEAD, &other)]).0;
+                assert_eq!(verdict, Verdict::Different, "{} as {line}", lines[at]);
+            }
+        }
+        for (from, to) in
+            [("S500", "S600"), ("G54", "G55"), ("H1", "H2"), ("G21", "G20"), ("G94", "G95"), ("M3", "M4")]
+        {
+            let other = program(&HEAD.replacen(from, to, 1), &lines);
+            assert_ne!(compared([&text, &other]).0, Verdict::Equal, "{from} as {to}");
         }
     }
 

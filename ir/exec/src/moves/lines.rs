@@ -2,6 +2,7 @@
 //! programs. What is not so plain is left to [`Exec::step`].
 
 pub(crate) mod paced;
+pub(crate) mod told;
 pub(crate) mod valued;
 
 use crate::moves::arcs::same::is_plain_arc;
@@ -61,7 +62,8 @@ impl Exec {
         self.state.feed_mode != FeedMode::InverseTime && self.takes_timed_lines()
     }
 
-    /// The same, whatever a line makes besides an event of it.
+    /// The same, whatever a line makes besides an event of it. (The path of the tool's centre counts on a contour, which is
+    /// watched, alone.)
     pub(crate) fn goes_plainly(&self) -> bool {
         let state = &self.state;
         !(state.tip || state.tilted || self.contour.watched)
@@ -72,7 +74,6 @@ impl Exec {
             && self.waiting.is_none()
             && self.in_block.is_none()
             && self.corner.is_none()
-            && self.centre_path.is_none()
             && self.cycle.is_none()
             && self.ways.is_none()
             && self.after_stop.is_none()

@@ -10,7 +10,7 @@
 use crate::{Exec, Heading, MOTION, Z};
 use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, same_point};
 use ncc_ir::expr::num::Nanos;
-use ncc_ir::program::line_table::LineTable;
+use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{Op, Stmt};
 
 /// A line, a feed, or a remark.
@@ -45,13 +45,13 @@ pub struct ValuedLines {
 
 /// All that a course depends on besides its lines, where the machine stands where the program does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Start {
+pub(super) struct Start {
     /// Block-skip switches, bit n is level n.
     skip: u16,
     /// Position in the program.
-    at: [Nanos; AXES],
-    motion: Motion,
-    feed: Nanos,
+    pub(super) at: [Nanos; AXES],
+    pub(super) motion: Motion,
+    pub(super) feed: Nanos,
     /// Whether each cut uses its feed up.
     by_time: bool,
     /// Whether the machine stands there.
@@ -60,20 +60,20 @@ struct Start {
 
 /// How lines go, in coordinates of the program.
 #[derive(Clone, Copy, Debug)]
-struct Course {
-    start: Start,
-    at: [Nanos; AXES],
+pub(super) struct Course {
+    pub(super) start: Start,
+    pub(super) at: [Nanos; AXES],
     /// From where the last move went.
-    heading: Option<[Nanos; AXES]>,
-    motion: Motion,
-    feed: Nanos,
-    feed_said: bool,
-    moved: bool,
-    events: u64,
+    pub(super) heading: Option<[Nanos; AXES]>,
+    pub(super) motion: Motion,
+    pub(super) feed: Nanos,
+    pub(super) feed_said: bool,
+    pub(super) moved: bool,
+    pub(super) events: u64,
     /// Axes that are named, a bit each.
-    named: u32,
+    pub(super) named: u32,
     /// Statements that are not skipped.
-    executed: u32,
+    pub(super) executed: u32,
 }
 
 /// A straight move that makes an event: of a line, or of a hole.
@@ -131,22 +131,20 @@ impl Exec {
         Some(ValuedLines { lines, inch: self.modes.inch, courses: Vec::new() })
     }
 
-    /// The same of the lines of a table.
-    pub fn value_table(&self, table: &LineTable) -> Option<ValuedLines> {
+    /// The same of rows of a table.
+    pub fn value_rows(&self, rows: Rows) -> Option<ValuedLines> {
         if !self.takes_lines() {
             return None;
         }
-        let mut lines = Vec::with_capacity(table.counts().0);
-        let mut feeds = table.feeds().iter();
-        for row in table.rows() {
-            if row.has_feed() {
-                let (feed, _) = feeds.next()?;
+        let mut lines = Vec::with_capacity(rows.len() + rows.len() / 8);
+        for (row, feed) in rows.each() {
+            if let Some((feed, _)) = feed {
                 let values = [self.plain_number(*feed)?, 0, 0];
                 lines.push(Valued { level: 0, does: Does::Feeds, values });
             }
             let mut values = [0; 3];
             for (axis, value) in values.iter_mut().enumerate() {
-                if let Some(num) = row.word(axis, table.unit()) {
+                if let Some(num) = row.word(axis, rows.unit) {
                     *value = self.plain_number(num)?;
                 }
             }
@@ -215,7 +213,7 @@ impl Exec {
         Some(self.take_course(&course, valued.inch))
     }
 
-    fn start_of_course(&self) -> Start {
+    pub(super) fn start_of_course(&self) -> Start {
         Start {
             skip: self.skip,
             at: self.position,
@@ -277,7 +275,7 @@ impl Exec {
         Some(Course { start, at, heading, motion, feed, feed_said, moved, events, named, executed })
     }
 
-    fn take_course(&mut self, course: &Course, inch: bool) -> u64 {
+    pub(super) fn take_course(&mut self, course: &Course, inch: bool) -> u64 {
         // What a statement does to messages, it does no more behind the second one.
         (0..course.executed.min(2)).for_each(|_| self.shown.goes_on());
         self.feed = course.feed;

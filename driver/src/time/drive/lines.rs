@@ -1,0 +1,172 @@
+//! Lines of a table with their times: the first that goes in a way as a statement, those behind it along their way.
+//!
+//! ```text
+//! G1 X5. F100.    a step of the control makes an event of it
+//! X6.             the same event, elsewhere
+//! ```
+//!
+//! Not here: when that is so ([`Exec::way_along`](ncc_exec::Exec::way_along)).
+
+use std::io;
+
+use ncc_exec::{Event, Kind};
+use ncc_ir::canon::AXES;
+use ncc_ir::expr::num::Nanos;
+use ncc_ir::program::rows::Rows;
+use ncc_ir::source::Span;
+use ncc_time::{Act, Place};
+
+use super::super::reach::{reach, turned};
+use super::{Drive, Said};
+
+impl<'d> Drive<'d> {
+    /// Executes lines, which have nothing of what is noted of statements but that they are blocks.
+    pub(super) fn lines(&mut self, mut lines: Rows, text: &[u8]) -> io::Result<()> {
+        self.course.blocks += lines.len() as u64;
+        if self.errors > 0 || lines.is_empty() {
+            return Ok(());
+        }
+        self.assume(self.batch.assumed);
+        let mut stmts = Vec::new();
+        while !lines.is_empty() {
+            let (first, behind) = lines.split(1);
+            stmts.clear();
+            first.unpack(&mut stmts);
+            for stmt in &stmts {
+                self.line = None;
+                if let Err(refusal) = self.statement(stmt, text)? {
+                    self.take(refusal);
+                    return Ok(());
+                }
+            }
+            let along = match self.line.take() {
+                Some(last) => self.along(behind, &last, text)?,
+                None => 0,
+            };
+            lines = behind.split(along).1;
+        }
+        Ok(())
+    }
+
+    /// Goes along the lines that make the same event as the last one, and passes it on for each; gives how many they are.
+    fn along(&mut self, lines: Rows, last: &Event, text: &[u8]) -> io::Result<usize> {
+        let mut made = std::mem::take(&mut self.along);
+        made.clear();
+        let way = self.exec.way_along(lines, last, |row, _, end| made.push((row.span(), *end)));
+        if let Some(way) = &way {
+            self.exec.go_along(way);
+        }
+        for (span, end) in &made {
+            let (place, said) = self.place(*span, text);
+            self.event(Event { span: *span, end: *end, ..last.clone() }, place, said);
+        }
+        self.along = made;
+        self.deliver()?;
+        Ok(way.map_or(0, |way| way.lines()))
+    }
+
+    /// Passes an event on, with what its block says.
+    pub(super) fn event(&mut self, event: Event, place: Place, said: Said) {
+        let act = Act::of(event, self.last, &self.exec, place);
+        self.moves(&act);
+        self.last = act.event.end;
+        let arc = matches!(act.event.kind, Kind::Arc { .. });
+        let reach = if arc && self.wants_reach { reach(&act, &self.exec) } else { None };
+        let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
+        let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
+        self.said.push_back(Said { reach, turned, ..said });
+        if let Some(longest) = &mut self.beside {
+            longest.push(&act);
+        }
+        self.clock.push(act);
+    }
+}
+
+/// Where a line stands, and where it ends in the machine.
+pub(super) type Made = (Span, [Nanos; AXES]);
+
+#[cfg(test)]
+mod tests {
+    use ncc_dialects::{Settings, builtin};
+    use ncc_exec::world::Tables;
+    use ncc_time::{Machine, Model, Timed};
+
+    use super::super::{Plan, Said, Sink, Stage, Unwatched, drive};
+    use super::*;
+    use crate::job::Job;
+    use crate::source::Source;
+    use crate::source::spool::Spool;
+
+    #[derive(Default)]
+    struct Kept(Vec<Timed>);
+
+    impl Sink for Kept {
+        fn wants_bounds(&self) -> bool {
+            true
+        }
+
+        fn function(&mut self, timed: &Timed, _: &Said) -> io::Result<()> {
+            let mut timed = timed.clone();
+            (timed.act.event.span, timed.act.place.span) = (Span::default(), Span::default());
+            self.0.push(timed);
+            Ok(())
+        }
+    }
+
+    /// All functions, how many blocks there are, and the bounds of the whole.
+    fn timed(text: &str, model: Model, centre: bool) -> (Vec<Timed>, u64, Option<[f64; 2]>) {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        let job = Job::new(settings.clone(), settings, "a.nc");
+        let mut plan = Plan {
+            job: &job,
+            machine: Machine::default(),
+            tables: Tables::default(),
+            parameters: [None; 2],
+            model,
+            skip: 0,
+            start_time: 10.0,
+            stage: Stage::After,
+            centre,
+        };
+        plan.machine.rapid_rate = Some(9_000.0);
+        let mut kept = Kept::default();
+        let mut source = Source::of(Spool::of(text.into()), "a.nc");
+        let course = drive(&plan, &mut source, &mut kept, &mut Unwatched).expect("memory");
+        assert!(!course.refused, "{:?}", course.diagnostics);
+        (kept.0, course.blocks, course.bounds)
+    }
+
+    /// Lines of tables are told with the times of statements: blocks under a level of block skip that is off are such.
+    #[test]
+    fn lines_of_tables_have_the_times_of_statements() {
+        let line = |n: usize| match n % 11 {
+            0 => format!("G1 X{n}. F{}.", 100 + n % 3),
+            4 => format!("G0 Z{n}."),
+            5 => format!("G1 Z-0.{n:04}"),
+            7 => "X1. Y2.".to_owned(),
+            8 => "X1.".to_owned(),
+            _ => format!("X{n}.5 Y-{n}.25"),
+        };
+        let lines: Vec<String> = (0..2_000).map(line).collect();
+        for head in [
+            "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n",
+            "G21 G17 G90 G95 G40 G49 G80\nG55\nT1 M6\nS500 M3\nG0 X0.\n",
+            "G20 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nS500 M3\nG0 X0. Y0. Z0.\nG1 Z-0.1 F9.\n",
+            "G21 G17 G90 G94 G40 G49 G80\nG54\n",
+        ] {
+            for (model, centre) in [(Model::Ideal, true), (Model::Ideal, false), (Model::Trapezoidal, true)] {
+                let program = |skip: &str| {
+                    let lines: Vec<String> = lines.iter().map(|line| format!("{skip}{line}")).collect();
+                    format!("%\nO1\n{head}{}\nM5\nM30\n%\n", lines.join("\n"))
+                };
+                let [tables, statements] = ["", "/"].map(|skip| timed(&program(skip), model, centre));
+                assert_eq!(tables.0.len(), statements.0.len(), "{head}");
+                for (one, other) in tables.0.iter().zip(&statements.0) {
+                    assert_eq!(one, other, "{head}");
+                }
+                assert_eq!((tables.1, tables.2), (statements.1, statements.2), "{head}");
+                assert!(tables.0.len() > 2_000);
+            }
+        }
+    }
+}
