@@ -31,8 +31,8 @@ impl Exec {
             None => *p,
             Some(chain) => chain.place(p),
         };
-        for axis in 0..AXES {
-            at[axis] = at[axis].wrapping_add(self.frame[axis]);
+        for (at, shift) in at.iter_mut().zip(&self.frame) {
+            *at = at.wrapping_add(*shift);
         }
         at
     }

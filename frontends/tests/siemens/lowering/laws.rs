@@ -177,11 +177,12 @@ proptest! {
         // What is in a table stands before all other statements of what is read at once.
         let (front, tail) = (HEAD.len(), text.rfind("\nX1. Y2.").expect("the tail") + 1);
         let tabled = tabled && !text.contains("GOTO");
-        let cuts = if tabled { vec![0..front, front..tail, tail..text.len()] } else { vec![0..text.len()] };
+        let ends = if tabled { vec![front, tail, text.len()] } else { vec![text.len()] };
         let mut before = Vec::new();
-        for cut in cuts {
+        for (at, end) in ends.iter().enumerate() {
+                let start = if at == 0 { 0 } else { ends[at - 1] };
             short.tabled = tabled && !short.whole;
-            first.read(&text.as_bytes()[cut.clone()], cut.start as u32, &mut short);
+            first.read(&text.as_bytes()[start..*end], start as u32, &mut short);
             short.unpack_table();
             if !short.whole {
                 before.append(&mut short.stmts);

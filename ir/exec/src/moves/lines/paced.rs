@@ -364,14 +364,14 @@ mod tests {
 
     /// Whether two programs are said to be the same by their moves, and are by their events; `None` where one of them is
     /// left to steps.
-    fn same(programs: [(&[(Behaviour, u8)], &[Stmt]); 2]) -> Option<[bool; 2]> {
-        let [own, other] = programs.map(|(facts, _)| control(0, facts, &[]));
+    fn same(facts: [&[(Behaviour, u8)]; 2], programs: [&[Stmt]; 2]) -> Option<[bool; 2]> {
+        let [own, other] = facts.map(|facts| control(0, facts, &[]));
         assert!(own.paces_as(&other) && other.paces_as(&own));
         let comparison = Comparison::new(RESOLUTION, own.last);
         let mut moves = Vec::new();
         let mut events = [Vec::new(), Vec::new()];
         let mut behind = Vec::new();
-        for (side, (exec, (_, lines))) in [own, other].iter().zip(programs).enumerate() {
+        for (side, (exec, lines)) in [own, other].iter().zip(programs).enumerate() {
             let mut passed = exec.clone();
             moves.push(passed.pass_paced(&exec.value_paced(lines)?)?);
             behind.push(passed);
@@ -391,7 +391,7 @@ mod tests {
         for seed in 0..60 {
             let lines = lines(seed);
             for (own, there) in facts().flat_map(|own| facts().map(move |there| (own, there))) {
-                let Some([by_moves, by_events]) = same([(&own, &lines), (&there, &lines)]) else { continue };
+                let Some([by_moves, by_events]) = same([&own, &there], [&lines; 2]) else { continue };
                 assert_eq!(by_moves, by_events, "{own:?} {there:?} {lines:?}");
                 (alike, differ) = (alike + u32::from(by_moves), differ + u32::from(!by_moves));
             }
@@ -412,7 +412,7 @@ mod tests {
                         changed.remove(at);
                     }
                 }
-                let Some([by_moves, by_events]) = same([(&own, &lines), (&own, &changed)]) else { continue };
+                let Some([by_moves, by_events]) = same([&own; 2], [&lines, &changed]) else { continue };
                 assert!(!by_moves || by_events, "{lines:?} {changed:?}");
                 differ += u32::from(!by_moves);
             }
