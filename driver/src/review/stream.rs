@@ -14,6 +14,7 @@
 //! ```
 
 mod lines;
+mod made;
 
 use std::io;
 use std::mem::discriminant;
@@ -21,7 +22,7 @@ use std::ops::ControlFlow;
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
 use ncc_exec::world::World;
-use ncc_exec::{Event, Exec, Runner};
+use ncc_exec::{Exec, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::control_fact::ControlFact;
@@ -36,7 +37,7 @@ use ncc_ir::source::Span;
 use ncc_ir::unexecuted::FlowUnexecuted;
 use ncc_machines::reading::Told;
 
-use self::lines::OfStatements;
+use self::made::OfStatements;
 use crate::job::Job;
 use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
@@ -46,38 +47,10 @@ use crate::source::reader::reader_for;
 use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
 
-pub use self::lines::Takes;
+pub use self::made::{Control, Made, Stage, Takes};
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
-
-/// A control in a world, and what the last statement made in it.
-#[derive(Clone, Debug)]
-pub struct Control {
-    /// The control.
-    pub exec: Exec,
-    /// Events of the last statement.
-    pub events: Vec<Event>,
-}
-
-/// What is handed out.
-#[derive(Clone, Copy)]
-pub enum Stage<'s> {
-    /// Nothing has been executed; the tools stand where they start.
-    Start,
-    /// A statement that made events in one world at least.
-    Stmt(&'s Stmt),
-    /// The text is over.
-    End,
-}
-
-/// What one statement made.
-pub struct Made<'m> {
-    /// How far the program is.
-    pub stage: Stage<'m>,
-    /// The controls, in the order in which they were given, after it.
-    pub controls: &'m [Control],
-}
 
 /// What becomes of facts that a program relies on and never says.
 #[derive(Clone, Copy, Debug)]

@@ -1,36 +1,11 @@
-//! Lines of tables: who takes them by many, and how they are executed.
+//! Lines of tables: how they are executed.
 //!
 //! Not here: how a line is taken (`feed`).
-
-use std::ops::ControlFlow;
 
 use ncc_ir::program::Stmt;
 use ncc_ir::program::rows::Rows;
 
-use super::{Control, Made, Reading, Run};
-
-/// Takes what a program makes.
-pub trait Takes {
-    /// The start, a statement, or the end; it may break off.
-    fn made(&mut self, made: Made) -> ControlFlow<()>;
-
-    /// Executes lines behind the one whose statement has made what was taken last, where they make as much, and takes that:
-    /// so many from the first one on. Those behind them are executed as statements.
-    fn lines(&mut self, lines: Rows, controls: &mut [Control]) -> usize;
-}
-
-/// Takes what statements make.
-pub(super) struct OfStatements<'t>(pub(super) &'t mut dyn FnMut(Made) -> ControlFlow<()>);
-
-impl Takes for OfStatements<'_> {
-    fn made(&mut self, made: Made) -> ControlFlow<()> {
-        (self.0)(made)
-    }
-
-    fn lines(&mut self, _: Rows, _: &mut [Control]) -> usize {
-        0
-    }
-}
+use super::{Reading, Run};
 
 impl Reading {
     /// All of it as statements.

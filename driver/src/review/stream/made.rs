@@ -1,0 +1,58 @@
+//! What a program makes, statement by statement, and who takes it.
+
+use std::ops::ControlFlow;
+
+use ncc_exec::{Event, Exec};
+use ncc_ir::program::Stmt;
+use ncc_ir::program::rows::Rows;
+
+/// A control in a world, and what the last statement made in it.
+#[derive(Clone, Debug)]
+pub struct Control {
+    /// The control.
+    pub exec: Exec,
+    /// Events of the last statement.
+    pub events: Vec<Event>,
+}
+
+/// What is handed out.
+#[derive(Clone, Copy)]
+pub enum Stage<'s> {
+    /// Nothing has been executed; the tools stand where they start.
+    Start,
+    /// A statement that made events in one world at least.
+    Stmt(&'s Stmt),
+    /// The text is over.
+    End,
+}
+
+/// What one statement made.
+pub struct Made<'m> {
+    /// How far the program is.
+    pub stage: Stage<'m>,
+    /// The controls, in the order in which they were given, after it.
+    pub controls: &'m [Control],
+}
+
+/// Takes what a program makes.
+pub trait Takes {
+    /// The start, a statement, or the end; it may break off.
+    fn made(&mut self, made: Made) -> ControlFlow<()>;
+
+    /// Executes lines behind the one whose statement has made what was taken last, where they make as much, and takes that:
+    /// so many from the first one on. Those behind them are executed as statements.
+    fn lines(&mut self, lines: Rows, controls: &mut [Control]) -> usize;
+}
+
+/// Takes what statements make.
+pub(super) struct OfStatements<'t>(pub(super) &'t mut dyn FnMut(Made) -> ControlFlow<()>);
+
+impl Takes for OfStatements<'_> {
+    fn made(&mut self, made: Made) -> ControlFlow<()> {
+        (self.0)(made)
+    }
+
+    fn lines(&mut self, _: Rows, _: &mut [Control]) -> usize {
+        0
+    }
+}
