@@ -137,11 +137,12 @@ mod tests {
     use super::*;
     use crate::machines::pair::Machines;
     use crate::source::Source;
+    use crate::source::spliced::{CHANGES, behind_a_piece};
     use crate::source::spool::Spool;
     use ncc_dialects::{Settings as Options, builtin};
     use ncc_diff::record::{Record, Style};
 
-    fn recorded(text: &str) -> (Vec<Record>, Vec<Style>) {
+    fn recorded(text: &str) -> (Vec<Record>, Vec<Style>, bool) {
         let settings = Options::new(builtin("fanuc").expect("a built-in dialect"));
         let machines = Machines { from: None, to: None };
         let mut side = Side::of(Source::of(Spool::of(text.into()), "a"), settings, machines, None);
@@ -151,8 +152,7 @@ mod tests {
             styles.extend(batch.styles);
             ControlFlow::Continue(())
         });
-        assert!(!course.expect("memory").refused);
-        (all, styles)
+        (all, styles, course.expect("memory").refused)
     }
 
     /// Lines of tables leave the records that statements leave: blocks under a level of block skip that is off are such.
@@ -178,8 +178,9 @@ mod tests {
                 let lines: Vec<String> = lines.iter().map(|line| format!("{skip}{line}")).collect();
                 format!("%\nO1\n{head}{}\nM5\nM30\n%\n", lines.join("\n"))
             };
-            let [(tables, styles), (statements, styles_there)] =
+            let [(tables, styles, refused), (statements, styles_there, _)] =
                 ["", "/"].map(|skip| recorded(&program(skip)));
+            assert!(!refused);
             assert_eq!(styles, styles_there, "{head}");
             assert_eq!(tables.len(), statements.len(), "{head}");
             for (one, other) in tables.iter().zip(&statements) {
@@ -188,6 +189,31 @@ mod tests {
                 assert_eq!(one, *other, "{head}");
             }
             assert!(tables.len() > 2_000);
+        }
+    }
+
+    /// So are those that begin a piece behind a block that changes what they hang on, or where each world has the machine.
+    #[test]
+    fn lines_of_tables_are_recorded_as_statements_behind_changes() {
+        let head = "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\nG1 X0. F100.\n";
+        let rows: [&[&str]; 3] = [
+            &["G1 X1.", "X2.", "X3. Z5.", "Y4.", "Y4.", "X5. Y1. F90.", "G0 X1.", "Z7.", "Z8."],
+            &["G1 X1. F9.", "X2. F9.", "X3. F8."],
+            &["G0 X1.", "X2.", "Y3. Z1.", "G1 X1."],
+        ];
+        for (block, rows) in CHANGES.into_iter().flat_map(|block| rows.map(|rows| (block, rows))) {
+            let [tables, statements] = ["", "/"].map(|skip| {
+                let rows: Vec<String> = rows.iter().map(|row| format!("{skip}{row}")).collect();
+                recorded(&behind_a_piece(head, block, &rows))
+            });
+            assert_eq!((&tables.1, tables.2), (&statements.1, statements.2), "{block} {rows:?}");
+            let few = tables.0.len().min(statements.0.len());
+            assert!(few > 500 || tables.2, "{block} {rows:?}");
+            for (one, other) in tables.0.iter().zip(&statements.0) {
+                let mut one = *one;
+                one.at = other.at;
+                assert_eq!(one, *other, "{block} {rows:?}");
+            }
         }
     }
 }

@@ -14,6 +14,8 @@ pub mod halted;
 pub mod interrupted;
 pub mod not_milling;
 pub(crate) mod reader;
+#[cfg(test)]
+pub(crate) mod spliced;
 pub mod spool;
 
 use std::fmt;

@@ -325,6 +325,7 @@ mod tests {
     use crate::machines::pair::Machines;
     use crate::review::verify::pair::{Verdict, compare};
     use crate::source::Source;
+    use crate::source::spliced::behind_a_piece;
     use crate::source::spool::Spool;
 
     const HEAD: &str = "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n";
@@ -448,6 +449,23 @@ mod tests {
         {
             let other = program(&HEAD.replacen(from, to, 1), &lines);
             assert_ne!(compared([&text, &other]).0, Verdict::Equal, "{from} as {to}");
+        }
+    }
+
+    /// Lines of a table are something else to a control in another state, where just the block before them, which makes
+    /// nothing by itself, has brought it there.
+    #[test]
+    fn lines_of_tables_do_not_pass_in_another_state() {
+        let lines = ["X1. Y1.", "X2. Y1.", "Y2. Z-1.", "X1.5"].map(str::to_owned);
+        let head = format!("{HEAD}G1 X0. F100.\n");
+        let text = behind_a_piece(&head, "G54", &lines);
+        assert_eq!(compared([&text, &text]).0, Verdict::Equal);
+        for block in
+            ["S600", "G55", "G95", "G91", "G20", "G52 X1.", "F50.", "M4", "G49", "G54\nG68 X0. Y0. R30."]
+        {
+            let other = behind_a_piece(&head, block, &lines);
+            assert_ne!(compared([&text, &other]).0, Verdict::Equal, "{block}");
+            assert_ne!(compared([&other, &text]).0, Verdict::Equal, "{block}");
         }
     }
 

@@ -95,6 +95,7 @@ mod tests {
     use super::*;
     use crate::job::Job;
     use crate::source::Source;
+    use crate::source::spliced::{CHANGES, behind_a_piece};
     use crate::source::spool::Spool;
 
     #[derive(Default)]
@@ -113,8 +114,8 @@ mod tests {
         }
     }
 
-    /// All functions, how many blocks there are, and the bounds of the whole.
-    fn timed(text: &str, model: Model, centre: bool) -> (Vec<Timed>, u64, Option<[f64; 2]>) {
+    /// All functions, how many blocks there are, and the bounds of the whole; whether it was refused.
+    fn timed(text: &str, model: Model, centre: bool) -> (Vec<Timed>, u64, Option<[f64; 2]>, bool) {
         let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
         let job = Job::new(settings.clone(), settings, "a.nc");
         let mut plan = Plan {
@@ -132,8 +133,7 @@ mod tests {
         let mut kept = Kept::default();
         let mut source = Source::of(Spool::of(text.into()), "a.nc");
         let course = drive(&plan, &mut source, &mut kept, &mut Unwatched).expect("memory");
-        assert!(!course.refused, "{:?}", course.diagnostics);
-        (kept.0, course.blocks, course.bounds)
+        (kept.0, course.blocks, course.bounds, course.refused)
     }
 
     /// Lines of tables are told with the times of statements: blocks under a level of block skip that is off are such.
@@ -147,7 +147,7 @@ mod tests {
             8 => "X1.".to_owned(),
             _ => format!("X{n}.5 Y-{n}.25"),
         };
-        let lines: Vec<String> = (0..2_000).map(line).collect();
+        let lines: Vec<String> = (0..4_000).map(line).collect();
         for head in [
             "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n",
             "G21 G17 G90 G95 G40 G49 G80\nG55\nT1 M6\nS500 M3\nG0 X0.\n",
@@ -165,7 +165,35 @@ mod tests {
                     assert_eq!(one, other, "{head}");
                 }
                 assert_eq!((tables.1, tables.2), (statements.1, statements.2), "{head}");
-                assert!(tables.0.len() > 2_000);
+                assert!(tables.0.len() > 2_000 && !tables.3 && !statements.3);
+            }
+        }
+    }
+
+    /// So are those that begin a piece behind a block that changes what they hang on.
+    #[test]
+    fn lines_of_tables_have_the_times_of_statements_behind_changes() {
+        let head = "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\nG1 X0. F100.\n";
+        let rows: [&[&str]; 3] = [
+            &["G1 X1.", "X2.", "X3. Z5.", "Y4.", "Y4.", "X5. Y1. F90.", "G0 X1.", "Z7.", "Z8."],
+            &["G1 X1. F9.", "X2. F9.", "X3. F8."],
+            &["G0 X1.", "X2.", "Y3. Z1.", "G1 X1."],
+        ];
+        for (block, rows) in CHANGES.into_iter().flat_map(|block| rows.map(|rows| (block, rows))) {
+            let [tables, statements] = ["", "/"].map(|skip| {
+                let rows: Vec<String> = rows.iter().map(|row| format!("{skip}{row}")).collect();
+                timed(&behind_a_piece(head, block, &rows), Model::Trapezoidal, true)
+            });
+            assert_eq!(tables.3, statements.3, "{block} {rows:?}");
+            assert!(tables.0.len() > 500 || tables.3, "{block} {rows:?}");
+            for (one, other) in tables.0.iter().zip(&statements.0) {
+                assert_eq!(one, other, "{block} {rows:?}");
+            }
+            if !tables.3 {
+                assert_eq!(
+                    (tables.0.len(), tables.1, tables.2),
+                    (statements.0.len(), statements.1, statements.2)
+                );
             }
         }
     }
