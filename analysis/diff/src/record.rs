@@ -221,7 +221,7 @@ pub struct Recorder {
     /// Where the axes stood after the last record, world by world.
     stood: [[Nanos; AXES]; 1 + WORLDS],
     hole: u32,
-    /// What was recorded last, if it is a straight line of all worlds.
+    /// The last record, if it is a straight line that all worlds made.
     line: Option<Record>,
 }
 
@@ -252,9 +252,10 @@ impl Recorder {
         self.stood = stand;
     }
 
-    /// Records lines that go on in all worlds as the one of the block `at`, from where they stand behind it: each by the
-    /// place of its block, and where it ends in the plain world. `None` where that was not recorded last. Behind the lines,
-    /// it is to be told where the worlds [stand](Recorder::stand).
+    /// Records straight lines that follow the one of the block `at` with the same motion, feed and state in all worlds. Gives
+    /// a function that takes one line after the other: the place of its block, and where it ends in the plain world, in nanos.
+    /// `None` if the last record is another one, or the worlds do not stand at its end. After the last line the caller states
+    /// where the worlds [stand](Recorder::stand).
     pub fn goes_on(
         &mut self,
         at: u32,

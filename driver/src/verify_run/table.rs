@@ -10,7 +10,6 @@
 //! Not here: what a row is (`ncc_ir::program::line_table`).
 
 use ncc_ir::canon::Modes;
-use ncc_ir::program::Stmt;
 use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::rows::Rows;
 
@@ -55,20 +54,12 @@ impl Verifier {
         }
         self.assume(assumed);
         self.read_back(inherited)?;
-        let agree = |run: &Run| run.source.agrees_on_lines(&run.target) && !run.target.carries_linear();
-        let mut valued = self.runs.first().and_then(|run| run.source.value_rows(Rows::of(table)));
+        let rows = Rows::of(table);
+        let mut valued = self.runs.first().and_then(|run| run.source.value_rows(rows));
+        let agree = |run: &Run| run.source.agrees_on_rows(&run.target);
         let Some(valued) = valued.as_mut().filter(|_| self.runs.iter().all(agree)) else { return Ok(false) };
-        let mut stmts: Vec<Stmt> = Vec::new();
         for run in &mut self.runs {
-            let events = match run.source.pass_valued(valued) {
-                Some(events) => events,
-                None => {
-                    if stmts.is_empty() {
-                        table.unpack(&mut stmts);
-                    }
-                    run.source.pass(&stmts).map_err(Stop::Source)?
-                }
-            };
+            let events = run.source.pass_rows(rows, valued).map_err(Stop::Source)?;
             run.target.follow(&run.source);
             run.comparison.pass(events, run.source.machine());
         }

@@ -1,4 +1,4 @@
-//! What a program makes, statement by statement, and who takes it.
+//! What a program does, statement by statement, as it is given to its taker.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ pub struct Control {
     pub events: Vec<Event>,
 }
 
-/// What is handed out.
+/// How far an execution is.
 #[derive(Clone, Copy)]
 pub enum Stage<'s> {
     /// Nothing has been executed; the tools stand where they start.
@@ -26,7 +26,7 @@ pub enum Stage<'s> {
     End,
 }
 
-/// What one statement made.
+/// What the controls did in one statement.
 pub struct Made<'m> {
     /// How far the program is.
     pub stage: Stage<'m>,
@@ -39,8 +39,8 @@ pub trait Takes {
     /// The start, a statement, or the end; it may break off.
     fn made(&mut self, made: Made) -> ControlFlow<()>;
 
-    /// Executes lines behind the one whose statement has made what was taken last, where they make as much, and takes that:
-    /// so many from the first one on. Those behind them are executed as statements.
+    /// Executes the first of these lines together, as many as go on like the line that was taken last, and takes what they
+    /// do. Gives how many they are; the rest are executed as statements.
     fn lines(&mut self, lines: Rows, controls: &mut [Control]) -> usize;
 }
 

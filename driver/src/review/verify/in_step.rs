@@ -67,15 +67,10 @@ struct Run {
 }
 
 impl Run {
-    /// Whether lines of a table, which count from zero and no level of block skip leaves out, make the same events on both
-    /// controls.
+    /// Whether rows of a table make the same events on both controls, with nothing left to compare before them.
     fn agrees_on_rows(&self) -> bool {
         let [source, target] = &self.controls;
-        self.comparison.is_settled()
-            && source.agrees_on_lines(target)
-            && source.counts_absolute()
-            && target.counts_absolute()
-            && !target.carries_linear()
+        self.comparison.is_settled() && source.agrees_on_rows(target)
     }
 
     /// Whether these lines make the same events on both controls.
@@ -90,7 +85,7 @@ impl Run {
     }
 }
 
-/// What is not executed yet of a piece of a side: statements, lines behind them, and statements behind these.
+/// What of a side's piece is still to be executed: first statements, then rows of a table, then the other statements.
 #[derive(Default)]
 struct Waiting {
     stmts: Vec<Stmt>,
@@ -119,7 +114,7 @@ impl Waiting {
         self.stmts.get(self.at..).unwrap_or_default()
     }
 
-    /// Lines behind them.
+    /// Rows of the table that come after those statements.
     fn rows(&self) -> Rows<'_> {
         Rows::of(&self.table).split(self.passed).1
     }
@@ -258,17 +253,8 @@ impl InStep {
         let Some(mut valued) = self.runs.first().and_then(|run| run.controls[0].value_rows(lines)) else {
             return Some(false);
         };
-        let mut stmts: Vec<Stmt> = Vec::new();
         for Run { controls: [source, target], comparison, .. } in &mut self.runs {
-            let events = match source.pass_valued(&mut valued) {
-                Some(events) => events,
-                None => {
-                    if stmts.is_empty() {
-                        lines.unpack(&mut stmts);
-                    }
-                    source.pass(&stmts).ok()?
-                }
-            };
+            let events = source.pass_rows(lines, &mut valued).ok()?;
             target.follow(source);
             comparison.pass(events, source.machine());
         }

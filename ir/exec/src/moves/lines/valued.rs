@@ -9,6 +9,7 @@
 
 use crate::{Exec, Heading, MOTION, Z};
 use ncc_ir::canon::{AXES, Distance, FeedMode, Motion, same_point};
+use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{Op, Stmt};
@@ -211,6 +212,29 @@ impl Exec {
             }
         };
         Some(self.take_course(&course, valued.inch))
+    }
+
+    /// Executes rows of a table, of which these are the values, for their effect on the state alone; gives the number of
+    /// their events.
+    ///
+    /// # Errors
+    /// Those of [`Exec::pass`].
+    pub fn pass_rows(&mut self, rows: Rows, valued: &mut ValuedLines) -> Result<u64, Diagnostic> {
+        if let Some(events) = self.pass_valued(valued) {
+            return Ok(events);
+        }
+        let mut stmts = Vec::new();
+        rows.unpack(&mut stmts);
+        self.pass(&stmts)
+    }
+
+    /// Whether two controls make the same events of rows of a table, which count from zero and which no level of block skip
+    /// leaves out: one execution stands for both then.
+    pub fn agrees_on_rows(&self, other: &Exec) -> bool {
+        self.counts_absolute()
+            && other.counts_absolute()
+            && self.agrees_on_lines(other)
+            && !other.carries_linear()
     }
 
     pub(super) fn start_of_course(&self) -> Start {
@@ -461,5 +485,37 @@ mod tests {
         ] {
             assert_eq!(control(0, &[op]).pass_valued(&mut valued), None);
         }
+    }
+
+    /// Controls that agree on rows make the same events of them.
+    #[test]
+    fn controls_that_agree_on_rows_make_the_same_events() {
+        let states: [(u32, &[Op]); 9] = [
+            (2, &[]),
+            (2, &[Op::Comment("nothing else".into())]),
+            (1, &[]),
+            (2, &[Op::SetSpindleSpeed(entry(700_000))]),
+            (2, &[Op::SetFeedRate(entry(90_000))]),
+            (2, &[Op::SetFeedMode(FeedMode::PerRevolution), Op::SetFeedRate(entry(200))]),
+            (2, &[Op::SetDistanceMode(Distance::Incremental)]),
+            (2, &[Op::UseLengthUnits(Units::Inch)]),
+            (2, &[Op::StraightTraverse(to([Some(4_500), None, None]))]),
+        ];
+        let (mut agree, mut differ) = (0, 0);
+        for (one, other) in states.iter().flat_map(|one| states.iter().map(move |other| (one, other))) {
+            for seed in 0..20 {
+                let [mut one, mut other] = [one, other].map(|(world, state)| control_in(*world, 0, state));
+                let agrees = one.agrees_on_rows(&other);
+                let [mut events, mut there] = [Vec::new(), Vec::new()];
+                for line in lines(seed).into_iter().filter(|line| line.skip.is_none()) {
+                    let done = [one.step(&line, &mut events), other.step(&line, &mut there)];
+                    assert!(!agrees || done[0].is_ok() == done[1].is_ok());
+                }
+                assert!(!agrees || events == there, "{one:?} {other:?}");
+                agree += u32::from(agrees);
+                differ += u32::from(events != there);
+            }
+        }
+        assert!(agree >= 200 && differ > 500, "{agree} {differ}");
     }
 }
