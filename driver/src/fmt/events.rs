@@ -16,7 +16,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::Stmt;
 
 use crate::job::Job;
-use crate::review::stream::{Course, Made, Reading, Unsaid, clearances, read, stream, worlds};
+use crate::review::stream::{Course, Made, Reading, Unsaid, Waiting, clearances, read, stream, worlds};
 use crate::side_by_side::{self, Pieces, Take};
 use crate::source::Readable;
 
@@ -109,37 +109,67 @@ fn same_statements(
 fn count_same(job: &Job, skip: u16, mut from: [Pieces<Reading>; 2]) -> Option<u64> {
     let mut controls: Vec<Exec> =
         worlds(job, clearances(job)).iter().map(|world| Exec::new(world, skip)).collect();
-    let (mut events, mut many, mut stood) = (Vec::new(), 0, false);
-    let mut waiting: [Vec<Stmt>; 2] = Default::default();
-    let mut at = [0; 2];
+    let (mut events, mut many) = (Vec::new(), 0);
+    let mut waiting: [Waiting; 2] = Default::default();
     loop {
         for (side, from) in from.iter_mut().enumerate() {
-            if at[side] < waiting[side].len() {
-                continue;
+            while waiting[side].is_empty() && !waiting[side].over {
+                let Some(reading) = from() else {
+                    waiting[side].over = true;
+                    break;
+                };
+                let assumed = reading.assumed;
+                let stood = waiting[side].take(reading);
+                if side == 0 {
+                    begin(job, &mut controls, &assumed, stood);
+                }
             }
-            (waiting[side], at[side]) = (Vec::new(), 0);
-            let Some(reading) = from() else { continue };
-            if side == 0 {
-                begin(job, &mut controls, &reading.assumed, std::mem::replace(&mut stood, true));
-            }
-            waiting[side] = reading.statements();
         }
-        let [first, second] = [0, 1].map(|side| waiting[side].get(at[side]..).unwrap_or_default());
-        let both = first.len().min(second.len());
-        if both == 0 {
-            let over = first.is_empty() && second.is_empty();
-            return if over { end(&mut controls, many) } else { None };
+        match waiting.each_ref().map(|side| side.over) {
+            [true, true] => return end(&mut controls, many),
+            [false, false] => {}
+            [true, false] | [false, true] => return None,
         }
-        let (first, second) = (&first[..both], &second[..both]);
-        let same = |(a, b): (&Stmt, &Stmt)| a.op == b.op && a.skip == b.skip && a.joined == b.joined;
-        if !first.iter().zip(second).all(same) {
-            return None;
+        match count_rows(&mut controls, &mut waiting) {
+            Some(counted) => many += counted.ok()?,
+            None => many += count_statements(&mut controls, &mut waiting, &mut events)?,
         }
-        for control in &mut controls {
-            many += control.count(first, &mut events).ok()?;
-        }
-        at = at.map(|at| at + both);
     }
+}
+
+/// Executes rows of tables that both sides have next, and counts their events; `None`, and nothing done, where there are
+/// none that controls take together.
+fn count_rows(controls: &mut [Exec], waiting: &mut [Waiting; 2]) -> Option<Result<u64, Diagnostic>> {
+    let [first, second] = waiting.each_ref().map(Waiting::rows);
+    let same = first.said_by(second);
+    let lines = first.split(same).0;
+    let mut valued = controls.first().filter(|_| same > 0)?.value_rows(lines)?;
+    let counted = controls.iter_mut().map(|control| control.pass_rows(lines, &mut valued)).sum();
+    waiting.iter_mut().for_each(|side| side.pass_rows(same));
+    Some(counted)
+}
+
+/// Executes statements that both sides have next, and counts their events; `None` where these are others, or cannot be
+/// executed.
+fn count_statements(
+    controls: &mut [Exec],
+    waiting: &mut [Waiting; 2],
+    events: &mut Vec<Event>,
+) -> Option<u64> {
+    Waiting::unpack(waiting);
+    let [first, second] = waiting.each_ref().map(Waiting::rest);
+    let both = first.len().min(second.len());
+    let (first, second) = (&first[..both], &second[..both]);
+    let same = |(a, b): (&Stmt, &Stmt)| a.op == b.op && a.skip == b.skip && a.joined == b.joined;
+    if !first.iter().zip(second).all(same) {
+        return None;
+    }
+    let mut many = 0;
+    for control in controls {
+        many += control.count(first, events).ok()?;
+    }
+    waiting.iter_mut().for_each(|side| side.pass(both));
+    Some(many)
 }
 
 /// What holds where further statements are executed, as [`stream`] has it.

@@ -15,6 +15,7 @@
 
 mod lines;
 mod made;
+mod waiting;
 
 use std::io;
 use std::mem::discriminant;
@@ -48,6 +49,7 @@ use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
 
 pub use self::made::{Control, Made, Stage, Takes};
+pub use self::waiting::Waiting;
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;

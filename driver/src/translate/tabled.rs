@@ -55,7 +55,7 @@ impl Translation<'_> {
         self.still_to_give() == Modes::default()
             && !self.renumbering.touches(stand)
             && self.side_effects.passes(lines)
-            && self.legaliser.touches(stand, Some(lines), &self.batch.assumed) == Touch::Passes
+            && self.legaliser.follows(stand, lines)
     }
 
     fn send_table(&mut self, table: &mut LineTable, mut stand: Vec<Stmt>, lines: Lines) -> io::Result<()> {

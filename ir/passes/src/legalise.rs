@@ -335,6 +335,14 @@ impl Legaliser {
         }
     }
 
+    /// Whether all that the passes do with lines, for which these statements stand, is to follow them: nothing concerns
+    /// them but a frame that is said as it stands.
+    pub fn follows(&self, stand: &[Stmt], lines: Lines) -> bool {
+        let needs = self.needs(stand);
+        let framed = || self.shared.states.ask(|own: &ExpandFramesState| own.leaves(stand));
+        !self.concerns(stand, Some(lines)) && (needs == 0 || needs == FRAME && framed())
+    }
+
     /// Whether a pass would look at statements for something else than what the target lacks.
     fn concerns(&self, stmts: &[Stmt], lines: Option<Lines>) -> bool {
         let Shared { states, walk, .. } = &self.shared;

@@ -2,20 +2,9 @@
 //!
 //! Not here: how a line is taken (`feed`).
 
-use ncc_ir::program::Stmt;
 use ncc_ir::program::rows::Rows;
 
-use super::{Reading, Run};
-
-impl Reading {
-    /// All of it as statements.
-    pub fn statements(mut self) -> Vec<Stmt> {
-        let mut stmts = Vec::new();
-        Rows::of(&self.table).unpack(&mut stmts);
-        stmts.append(&mut self.stmts);
-        stmts
-    }
-}
+use super::Run;
 
 impl Run<'_> {
     /// Lines, which no level of block skip leaves out and which have nothing else of what is noted: the first of those that

@@ -20,19 +20,15 @@ use ncc_exec::verify::{Comparison, counts_from_there, same_plain};
 use ncc_exec::{Event, Exec};
 use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
-use ncc_ir::program::line_table::LineTable;
-use ncc_ir::program::rows::Rows;
 
 use super::plan::Plan;
 use crate::job::Job;
-use crate::review::stream::{Course, Reading, Unsaid, read};
+use crate::review::stream::{Course, Reading, Unsaid, Waiting, read};
 use crate::side::Side;
 use crate::side_by_side::{self, Pieces, Take};
 
 /// Pieces that the reader of a side may be ahead.
 const AHEAD: usize = 4;
-/// Lines of tables that become statements at once where both sides have lines that do not pass.
-const FEW: usize = 32;
 /// Statements after which controls that were in different states are looked at again, at the most.
 const MOST_PATIENCE: usize = 256;
 
@@ -85,53 +81,6 @@ impl Run {
     }
 }
 
-/// What of a side's piece is still to be executed: first statements, then rows of a table, then the other statements.
-#[derive(Default)]
-struct Waiting {
-    stmts: Vec<Stmt>,
-    at: usize,
-    table: LineTable,
-    /// Rows of it that are behind.
-    passed: usize,
-    behind: Vec<Stmt>,
-    /// Whether anything was executed of the side.
-    stood: bool,
-    /// Whether there are no more.
-    over: bool,
-}
-
-impl Waiting {
-    /// Whether nothing is left of the piece.
-    fn is_empty(&mut self) -> bool {
-        if self.rest().is_empty() && self.rows().is_empty() {
-            (self.stmts, self.at) = (std::mem::take(&mut self.behind), 0);
-        }
-        self.rest().is_empty() && self.rows().is_empty()
-    }
-
-    /// Statements that come next.
-    fn rest(&self) -> &[Stmt] {
-        self.stmts.get(self.at..).unwrap_or_default()
-    }
-
-    /// Rows of the table that come after those statements.
-    fn rows(&self) -> Rows<'_> {
-        Rows::of(&self.table).split(self.passed).1
-    }
-
-    /// Makes statements of so many of the lines, where these come next.
-    fn unpack(&mut self, many: usize) {
-        if !self.rest().is_empty() {
-            return;
-        }
-        let mut stmts = std::mem::take(&mut self.stmts);
-        stmts.clear();
-        self.rows().split(many).0.unpack(&mut stmts);
-        (self.stmts, self.at) = (stmts, 0);
-        self.passed += many;
-    }
-}
-
 struct InStep {
     runs: Vec<Run>,
     waiting: [Waiting; 2],
@@ -174,10 +123,9 @@ impl InStep {
         }
     }
 
-    fn take(&mut self, side: usize, job: &Job, Reading { table, stmts, assumed }: Reading) {
-        let waiting = &mut self.waiting[side];
-        let stood = std::mem::replace(&mut waiting.stood, true);
-        (waiting.table, waiting.passed, waiting.behind) = (table, 0, stmts);
+    fn take(&mut self, side: usize, job: &Job, reading: Reading) {
+        let assumed = reading.assumed;
+        let stood = self.waiting[side].take(reading);
         let facts: Option<Modes> = match &self.unsaid {
             Unsaid::Only(facts) if side == 1 => Some(*facts),
             Unsaid::Only(_) | Unsaid::Taken => None,
@@ -215,7 +163,7 @@ impl InStep {
         if self.pass_rows()? {
             return Some(true);
         }
-        self.unpack();
+        Waiting::unpack(&mut self.waiting);
         let [said, read] = self.waiting.each_ref().map(Waiting::rest);
         let same = said.iter().zip(read).take_while(|(a, b)| same_plain(a, b)).count();
         if same == 0 {
@@ -235,15 +183,12 @@ impl InStep {
             target.has_moved(lines);
             comparison.pass(events, source.machine());
         }
-        self.waiting.iter_mut().for_each(|side| side.at += same);
+        self.waiting.iter_mut().for_each(|side| side.pass(same));
         Some(true)
     }
 
     /// Lets lines of tables pass that both sides say next, in one state of their controls; whether there are any.
     fn pass_rows(&mut self) -> Option<bool> {
-        if self.waiting.iter().any(|side| !side.rest().is_empty()) {
-            return Some(false);
-        }
         let [said, read] = self.waiting.each_ref().map(Waiting::rows);
         let same = said.said_by(read);
         if same == 0 || !self.runs.iter().all(Run::agrees_on_rows) {
@@ -258,21 +203,13 @@ impl InStep {
             target.follow(source);
             comparison.pass(events, source.machine());
         }
-        self.waiting.iter_mut().for_each(|side| side.passed += same);
+        self.waiting.iter_mut().for_each(|side| side.pass_rows(same));
         Some(true)
-    }
-
-    /// Makes statements of lines that come next, as many as are held against statements of the other side.
-    fn unpack(&mut self) {
-        let many = self.waiting.each_ref().map(|side| side.rest().len());
-        for (side, there) in self.waiting.iter_mut().zip([many[1], many[0]]) {
-            side.unpack(if there == 0 { FEW } else { there });
-        }
     }
 
     /// Executes the next statement of the side that is behind, and compares.
     fn step(&mut self) -> Option<()> {
-        self.unpack();
+        Waiting::unpack(&mut self.waiting);
         let ahead = |run: &Run| run.events[0].len() > run.events[1].len();
         let side = match self.waiting.each_ref().map(|side| side.over) {
             [true, _] => 1,
@@ -280,13 +217,13 @@ impl InStep {
             [false, false] => usize::from(self.runs.iter().any(ahead)),
         };
         let waiting = &mut self.waiting[side];
-        let stmt = waiting.stmts.get(waiting.at)?;
+        let stmt = waiting.rest().first()?;
         let mut silent = true;
         for run in &mut self.runs {
             run.controls[side].step(stmt, &mut run.events[side]).ok()?;
             silent &= run.events[side].is_empty();
         }
-        waiting.at += 1;
+        waiting.pass(1);
         if silent { Some(()) } else { self.compare() }
     }
 

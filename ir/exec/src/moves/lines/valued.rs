@@ -199,15 +199,20 @@ impl Exec {
     ///
     /// Controls that stand at the same place of the program go the same course, whatever frames they have.
     pub fn pass_valued(&mut self, valued: &mut ValuedLines) -> Option<u64> {
-        if !self.takes_timed_lines() || self.chain.is_some() || self.modes.inch != valued.inch {
+        if !self.takes_timed_lines() || self.modes.inch != valued.inch {
             return None;
         }
         let start = self.start_of_course();
-        let course = match valued.courses.iter().find(|course| course.start == start && start.stands) {
+        // Two places may be one on the machine where a frame turns or scales them.
+        let apart = self.chain.as_ref().is_none_or(|chain| chain.turn().is_none());
+        let same = |course: &&Course| apart && start.stands && course.start == start;
+        let course = match valued.courses.iter().find(same) {
             Some(course) => *course,
             None => {
-                let course = self.course(&valued.lines, start)?;
-                valued.courses.push(course);
+                let course = self.course(&valued.lines, start, apart)?;
+                if apart {
+                    valued.courses.push(course);
+                }
                 course
             }
         };
@@ -248,12 +253,13 @@ impl Exec {
         }
     }
 
-    /// How lines go from here; `None` where one of them is a fault or no straight line.
-    fn course(&self, lines: &[Valued], start: Start) -> Option<Course> {
+    /// How lines go from here; `None` where one of them is a fault or no straight line. `apart`: whether two places of the
+    /// program are two on the machine.
+    fn course(&self, lines: &[Valued], start: Start, apart: bool) -> Option<Course> {
         let Start { by_time, mut motion, mut feed, mut stands, .. } = start;
         // Rotary axes stay where they are.
         let [mut x, mut y, mut z, a, b, c] = start.at;
-        let (mut from, mut feed_said, mut moved) = (None, false, false);
+        let (mut from, mut feed_said, mut moved, mut last) = (None, false, false, self.last);
         let (mut events, mut named_all, mut executed) = (0, 0, 0);
         for Valued { level, does, values } in lines {
             if start.skip & level != 0 {
@@ -284,7 +290,12 @@ impl Exec {
                 from = Some([x, y, z]);
                 [x, y, z] = next;
             }
-            let goes = if stands { other } else { self.place(&[x, y, z, a, b, c]) != self.last };
+            let mut goes = other || !stands;
+            if goes && !(apart && stands) {
+                let end = self.place(&[x, y, z, a, b, c]);
+                goes = end != last;
+                last = end;
+            }
             events += u64::from(goes);
             // Behind the first move the machine stands where the program does.
             (stands, moved) = (true, true);
@@ -325,10 +336,10 @@ impl Exec {
 mod tests {
     use super::*;
     use crate::world::World;
-    use ncc_ir::canon::{Fact, Modes, Units};
+    use ncc_ir::canon::{Fact, Modes, Plane, Units};
     use ncc_ir::expr::Expr;
     use ncc_ir::expr::num::{Num, Unit};
-    use ncc_ir::program::{Coord, Move, Point};
+    use ncc_ir::program::{Coord, Frame, FrameStep, Move, Point, Slot};
     use ncc_ir::source::Span;
 
     fn entry(mantissa: i64) -> Expr {
@@ -341,6 +352,21 @@ mod tests {
             *axis = value.map(|value| Coord { value: entry(value), distance: Fact::Entry });
         }
         Move { to: Point { axes }, said: true }
+    }
+
+    fn turned(degrees: i64) -> Op {
+        let angle = Coord { value: Expr::int(degrees), distance: Fact::Known(Distance::Absolute) };
+        let centre = Box::new([Some(Expr::int(1)), Some(Expr::int(2)), None]);
+        Op::SetSlot(Box::new(Slot::Rotation { plane: Fact::Known(Plane::Xy), centre, angle }))
+    }
+
+    /// By such factors that 0 and 1.5 mm are one place on the machine, and 3 mm is another.
+    fn scaled() -> [Op; 2] {
+        [(1, 9), (25, 2)].map(|(mantissa, scale)| {
+            let factor = Expr::Num(Num { mantissa, scale, point: true, unit: Unit::One });
+            let step = FrameStep::Scale(Box::new([0; 3].map(|_| Some(factor.clone()))));
+            Op::SetFrame(Box::new(Frame { added: true, step }))
+        })
     }
 
     fn stmt(skip: Option<u8>, op: Op) -> Stmt {
@@ -390,12 +416,15 @@ mod tests {
     /// with as many events.
     #[test]
     fn valued_lines_do_what_their_words_do() {
-        let starts: [&[Op]; 5] = [
+        let scaled = scaled();
+        let starts: [&[Op]; 7] = [
             &[],
             &[Op::UseLengthUnits(Units::Inch), Op::SetFeedRate(entry(9_000))],
             &[Op::StraightFeed(to([Some(1_500), None, Some(3_000)]))],
             &[Op::SetOriginOffsets(2)],
             &[Op::SetFeedMode(ncc_ir::canon::FeedMode::PerRevolution)],
+            &[turned(30), Op::StraightFeed(to([Some(1_500), None, Some(3_000)]))],
+            &scaled,
         ];
         let (mut executed, mut left) = (0, 0);
         for (start, seed) in starts.iter().flat_map(|start| (0..200).map(move |seed| (*start, seed))) {

@@ -3,12 +3,20 @@
 use ncc_exec::Chain;
 use ncc_ir::program::{Op, Stmt};
 
-use super::Frames;
+use super::{ExpandFramesState, Frames, Set};
+use crate::support::walk::Walk;
 
-impl Frames<'_> {
+impl ExpandFramesState {
+    /// Whether a frame is in force and leaves these statements as they are.
+    pub(crate) fn leaves(&self, stmts: &[Stmt]) -> bool {
+        self.framed.as_ref().is_some_and(|framed| framed.0.leaves(&framed.1, stmts))
+    }
+}
+
+impl Set {
     /// Whether statements are nothing but lines and feeds, and none of them needs to be changed: what is in force is said as
     /// it stands, no move is asked for both axes of a plane, and a word without a distance mode of its own has one.
-    pub(super) fn leaves(&self, stmts: &[Stmt]) -> bool {
+    fn leaves(&self, inner: &Walk, stmts: &[Stmt]) -> bool {
         let line = |op: &Op| {
             matches!(
                 op,
@@ -19,11 +27,18 @@ impl Frames<'_> {
                     | Op::Blank
             )
         };
-        self.set.chain == Chain::NONE
-            && self.set.unplaced.is_none()
-            && !self.inner.at.raw
-            && self.inner.at.modes.distance.is_some()
+        self.chain == Chain::NONE
+            && self.unplaced.is_none()
+            && !inner.at.raw
+            && inner.at.modes.distance.is_some()
             && stmts.iter().all(|stmt| stmt.skip.is_none() && line(&stmt.op))
+    }
+}
+
+impl Frames<'_> {
+    /// Whether none of these statements needs to be changed.
+    pub(super) fn leaves(&self, stmts: &[Stmt]) -> bool {
+        self.set.leaves(&self.inner, stmts)
     }
 
     /// Goes along them.
