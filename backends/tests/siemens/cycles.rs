@@ -224,9 +224,13 @@ fn a_feed_goes_with_its_move_and_not_before_the_end_of_a_cycle() {
 fn plain_holes_and_the_general_way_write_the_same() {
     let holes = ["X1. Y2.", "X3.5", "Y-4.25", "", "X1. Z5.", "X0.12345 Y2.", "X1.", "X2."].map(hole);
     let level = |level| Op::SetReturnLevel(level);
+    let return_level = Fact::Known(ReturnLevel::Initial);
+    let to_initial = Cycle { return_plane: None, return_level, ..cycle(CycleKind::Drill) };
     let tails = [
         vec![Op::EndCycle, rapid("Z50."), drill(), hole("X1.")],
         vec![level(ReturnLevel::Initial), hole("X7."), drill(), hole("X8.")],
+        // Another cycle begins where the holes have left the tool.
+        vec![Op::EndCycle, start(to_initial), hole("X1.")],
         vec![feed("X9.")],
         vec![rapid_on("X9."), hole("X1.")],
         vec![Op::SelectPlane(Plane::Zx), hole("X1."), drill(), hole("X2. Z3.")],
