@@ -340,7 +340,10 @@ impl Verifier {
     /// Reads a further piece of emitted text back, executes it and compares. `inherited` are the
     /// assumed facts that the text does not state itself.
     pub fn target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
-        self.reader.read(text, base, &mut self.batch);
+        match self.reads_strokes() {
+            true => self.reader.read_to_table(text, base, &mut self.batch),
+            false => self.reader.read(text, base, &mut self.batch),
+        }
         self.target_read(inherited)
     }
 

@@ -20,6 +20,7 @@ mod frame;
 mod motion;
 mod names;
 mod pattern;
+mod plain;
 mod polar;
 mod spindle;
 mod statement;
@@ -30,7 +31,7 @@ mod variable;
 
 use std::collections::BTreeSet;
 
-use ncc_dialects::{CallRow, Dialect, Meaning, Quantity, Settings};
+use ncc_dialects::{CallRow, Dialect, Meaning, NameRole, Quantity, Settings};
 use ncc_ir::canon::{Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -134,6 +135,8 @@ pub struct Writer {
     /// Whether the feed counts in the machine's basic system, and which that is.
     basic_feed: bool,
     basic_units: Units,
+    /// The name of an arc's radius, with the sign before its number, and the form of that.
+    radius: Option<(String, Format)>,
     names: Names,
     /// Subprograms that are called while a cycle is in force.
     under_cycle: BTreeSet<Box<str>>,
@@ -155,8 +158,14 @@ impl Writer {
     /// A writer at the start of a program.
     pub fn new(settings: Settings, layout: Layout) -> Writer {
         let basic_inch = settings.get("feed_unit") == "inch";
+        let radius = settings.dialect.name_with(NameRole::Radius).map(|row| {
+            let quantity = row.quantity.unwrap_or(Quantity::Length);
+            let counts = quantity == Quantity::Integer;
+            (format!("{}=", row.name), Format::new(settings.dialect.numbers(quantity), counts))
+        });
         Writer {
             dialect: settings.dialect,
+            radius,
             edge_with_tool: settings.get("edge_after_change") == "1",
             leave_edge: BTreeSet::new(),
             inch_machine: settings.get("feed_unit") == "inch",
@@ -233,7 +242,12 @@ impl Writer {
     /// Writes a block that is nothing but a straight move, or leaves it untouched.
     #[inline]
     fn plain_block(&mut self, block: &[Stmt], sink: &mut Sink) -> bool {
-        let plain = self.writes_plainly() && self.words.plain_block(block, sink.out);
+        match block {
+            [stmt @ Stmt { op: Op::Hole(to), .. }] => return self.plain_hole(stmt, &to.to, sink.out),
+            [stmt @ Stmt { op: Op::ArcFeed(arc), .. }] => return self.plain_arc(stmt, arc, sink.out),
+            _ => {}
+        }
+        let plain = self.writes_plainly() && self.words.plain_block(block, sink);
         if let (true, Op::SetFeedRate(Expr::Num(feed))) = (plain, &block[0].op) {
             self.standing.feed = Some(*feed);
         }

@@ -45,7 +45,7 @@ pub(super) struct Variables {
     /// Whether definitions have been written, and the safe start has not.
     heading: bool,
     /// Whether a block of the unit has been written that is no definition.
-    executed: bool,
+    pub(super) executed: bool,
     told_alarm: bool,
     /// What the cycle that was called last is computed from.
     cycle: Vec<Expr>,

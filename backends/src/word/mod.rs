@@ -216,7 +216,7 @@ impl Writer {
     /// Writes a block that is nothing but a straight move, or leaves it untouched.
     #[inline]
     fn plain_block(&mut self, block: &[Stmt], sink: &mut Sink) -> bool {
-        self.writes_plainly() && self.words.plain_block(block, sink.out)
+        self.writes_plainly() && self.words.plain_block(block, sink)
     }
 
     /// Forgets everything that is in force: after a call, at a procedure's start.

@@ -100,3 +100,25 @@ pub(crate) fn metric() -> Modes {
         ..Modes::default()
     }
 }
+
+/// The same with an empty remark at the end of each block, which sends it the general way.
+pub(crate) fn the_general_way(stmts: &[Stmt]) -> Vec<Stmt> {
+    let mut all = Vec::with_capacity(2 * stmts.len());
+    for (at, stmt) in stmts.iter().enumerate() {
+        all.push(stmt.clone());
+        if stmts.get(at + 1).is_none_or(|next| !next.joined) {
+            all.push(Stmt { joined: true, ..Stmt::new(stmt.span, Op::Comment("".into())) });
+        }
+    }
+    all
+}
+
+/// Its text without these remarks, each of them by such signs, and without the lines that are nothing else.
+pub(crate) fn without_empty_remarks(text: &str, signs: &str) -> String {
+    let bare = |line: &str| {
+        let (line, end) = line.strip_suffix('\r').map_or((line, ""), |line| (line, "\r"));
+        let line = line.strip_suffix(signs).unwrap_or(line).trim_end();
+        (!line.is_empty()).then(|| format!("{line}{end}\n"))
+    };
+    text.split_terminator('\n').filter_map(bare).collect()
+}

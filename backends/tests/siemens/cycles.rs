@@ -218,3 +218,32 @@ fn a_feed_goes_with_its_move_and_not_before_the_end_of_a_cycle() {
     let call = "MCALL CYCLE81(10,3,0,-6)\n";
     assert_eq!(text(&stmts).0, format!("G0 X0\n{call}X1\nMCALL\nG1 X2 F200\n{call}MCALL\nG1 X3 F90\n"));
 }
+
+/// Holes that are nothing but their places are written without the general way, and leave the same behind.
+#[test]
+fn plain_holes_and_the_general_way_write_the_same() {
+    let holes = ["X1. Y2.", "X3.5", "Y-4.25", "", "X1. Z5.", "X0.12345 Y2.", "X1.", "X2."].map(hole);
+    let level = |level| Op::SetReturnLevel(level);
+    let return_level = Fact::Known(ReturnLevel::Initial);
+    let to_initial = Cycle { return_plane: None, return_level, ..cycle(CycleKind::Drill) };
+    let tails = [
+        vec![Op::EndCycle, rapid("Z50."), drill(), hole("X1.")],
+        vec![level(ReturnLevel::Initial), hole("X7."), drill(), hole("X8.")],
+        // Another cycle begins where the holes have left the tool.
+        vec![Op::EndCycle, start(to_initial), hole("X1.")],
+        vec![feed("X9.")],
+        vec![rapid_on("X9."), hole("X1.")],
+        vec![Op::SelectPlane(Plane::Zx), hole("X1."), drill(), hole("X2. Z3.")],
+    ];
+    for tail in tails {
+        for cut in 0..holes.len() {
+            let head = vec![rapid("X0. Y0. Z50."), Op::SetFeedRate(mm("100")), level(ReturnLevel::Retract)];
+            let ops = head.into_iter().chain([drill()]).chain(holes[cut..].iter().cloned());
+            let mut stmts = lines(ops.chain(tail.iter().cloned()).collect());
+            stmts[5].comment = Some(Box::new("a remark".into()));
+            let (fast, told) = text(&stmts);
+            let (general, told_there) = text(&the_general_way(&stmts));
+            assert_eq!((fast, told), (without_empty_remarks(&general, ";"), told_there));
+        }
+    }
+}

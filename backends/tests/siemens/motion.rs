@@ -190,13 +190,43 @@ fn a_rotary_axis_keeps_its_word() {
 
 #[test]
 fn plain_moves_and_the_general_way_write_the_same() {
-    let ops = || vec![feed("X1.5 Y-2."), on("X3."), rapid("Z10."), rapid_on("X0.25 Y100.")];
-    let fast = clean(&lines(ops()));
-    let mut slow = lines(ops());
-    for stmt in &mut slow {
-        stmt.comment = Some(Box::new("c".into()));
+    let about = |x: &str, y: &str| centre(x, y, CentreFrom::Start);
+    let round = |to: &str, centre: Centre| arc(to, centre, 0);
+    let mut stmts = lines(vec![
+        feed("X1.5 Y-2."),
+        on("X3."),
+        rapid("Z10."),
+        rapid_on("X0.25 Y100."),
+        Op::SetFeedRate(mm("100")),
+        feed("X0. Y0."),
+        round("X10. Y10.", about("10.", "0")),
+        round("Y0.5 Z-3.", about("0.", "-4.75")),
+        round("X0. Y0.", Centre::Radius(mm("20."))),
+        round("X-0.5 Y-0.5", Centre::Radius(mm("-7.125"))),
+        // Rounded: the start, the end, the centre, the radius.
+        round("X5.00049 Y0.", about("2.5", "0.")),
+        round("X10. Y0.", about("2.50049", "0.")),
+        round("X12. Y0.", about("1.", "0.0001")),
+        round("X14. Y0.", Centre::Radius(mm("3.00001"))),
+        round("X14.0001 Y0.0001", Centre::Radius(mm("3."))),
+        // A circle, and an arc of several turns.
+        round("X14. Y0.", about("5.", "0")),
+        arc("X14. Y0.", about("5.", "0"), 2),
+        round("X14. Y0. Z-4.", centre("20.", "0", CentreFrom::Zero)),
+        on("X1."),
+    ]);
+    for numbers in [false, true] {
+        for remarks in ["", "c", "A remark (in brackets)", "; another"] {
+            for (at, stmt) in stmts.iter_mut().enumerate() {
+                stmt.comment = (at % 2 == 0 && !remarks.is_empty()).then(|| Box::new(remarks.into()));
+                stmt.number = numbers.then_some(10 * at as u32);
+            }
+            let (fast, told) = text(&stmts);
+            let (general, told_there) = text(&the_general_way(&stmts));
+            assert_eq!(fast, without_empty_remarks(&general, ";"));
+            assert_eq!(told, told_there);
+        }
     }
-    assert_eq!(fast, clean(&slow).replace(" ; c", ""));
 }
 
 #[test]

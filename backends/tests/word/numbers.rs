@@ -118,7 +118,6 @@ fn a_distance_mode_that_is_not_in_force_is_put_in() {
 
 #[test]
 fn the_plain_way_and_the_general_way_write_the_same() {
-    // A comment that is empty of letters sends a block the general way.
     let ops = || {
         vec![
             vec![rapid("X0. Y0. Z5.")],
@@ -139,23 +138,20 @@ fn the_plain_way_and_the_general_way_write_the_same() {
             for (at, stmt) in plain.iter_mut().enumerate().filter(|(_, s)| !s.joined) {
                 stmt.number = Some(at as u32 * 100);
             }
-            let mut general = plain.clone();
-            let last_of_block = |at: usize| general.get(at + 1).is_none_or(|s| !s.joined);
-            let ends: Vec<usize> = (0..general.len()).filter(|at| last_of_block(*at)).collect();
-            for at in ends {
-                general[at].comment = Some(Box::new("".into()));
+            for remark in [None, Some("A remark"), Some("(in brackets)")] {
+                let last = plain.len() - 1;
+                for at in [1, last] {
+                    plain[at].comment = remark.map(|remark| Box::new(remark.into()));
+                }
+                let general = the_general_way(&plain);
+                let (plain, diags) = text_with(writer(dialect, layout.clone()), &plain);
+                let (general, there) = text_with(writer(dialect, layout.clone()), &general);
+                assert_eq!(diags, there);
+                assert_eq!(
+                    plain,
+                    without_empty_remarks(&general, if dialect == "fanuc" { "()" } else { ";" })
+                );
             }
-            let (plain, diags) = text_with(writer(dialect, layout.clone()), &plain);
-            assert_eq!(diags, []);
-            let (general, _) = text_with(writer(dialect, layout), &general);
-            let general: String = general
-                .split_inclusive('\n')
-                .map(|l| match dialect {
-                    "fanuc" => l.replace(" ()", ""),
-                    _ => l.replace(';', ""),
-                })
-                .collect();
-            assert_eq!(plain, general);
         }
     }
 }

@@ -10,7 +10,8 @@
 //! and compared.
 //!
 //! Where the target has no such cycle, and says moves in the place of each hole, both sides execute what they are told, and
-//! their straight moves are compared without the events that these are (`moves::holes::strokes`).
+//! their straight moves are compared without the events that these are (`moves::holes::strokes`). Such a text is read as a
+//! table.
 //!
 //! A piece that ends in many holes is taken as two: the statements before them are executed and compared by themselves, so
 //! that the events of a piece with the beginning of a cycle are few too. The holes stand for both sides only if all
@@ -19,6 +20,7 @@
 //! Not here: plain moves ([`Verifier::piece`]), and programs that are kept whole.
 
 use ncc_exec::are_holes;
+use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{Op, Stmt};
 
 use super::facts::{come_to, stopped};
@@ -120,13 +122,30 @@ impl Verifier {
         (!first.joined && are_holes(&read[from..])).then(|| read.split_off(from))
     }
 
-    /// Lets holes pass that the text just read says as the source does; `false` where it does not.
+    /// Whether the text that comes next is likely to be the strokes of holes that the source has made: plain lines, which
+    /// are read as a table.
+    pub(super) fn reads_strokes(&self) -> bool {
+        let first = self.holes_ahead.as_ref().and_then(|ahead| ahead.runs.first());
+        matches!(first, Some(HolesMade { told: Told::Strokes(_), .. }))
+    }
+
+    /// Lets holes pass that the text just read says as the source does; `false` where it does not. All that was read is
+    /// statements then.
     pub(super) fn pass_holes(&mut self) -> Result<bool, Stop> {
+        let along = self.reads_strokes();
+        if !along || !self.batch.stmts.is_empty() {
+            self.batch.unpack_table();
+        }
         let Some(ahead) = &self.holes_ahead else { return Ok(false) };
         let (read, open) = (&self.batch.stmts, self.open[1]);
+        let rows = Rows::of(&self.batch.table);
         let level = self.others.is_empty() && self.runs.iter().all(|run| run.level);
-        let along = matches!(ahead.runs.first(), Some(HolesMade { told: Told::Strokes(_), .. }));
-        let mut lines = self.runs.first().filter(|_| along).and_then(|run| run.target.value_lines(read));
+        let first = self.runs.first().filter(|_| along);
+        // A table is lines by words from zero alone, which come to no open fact.
+        let mut lines = first.and_then(|run| match rows.is_empty() {
+            true => run.target.value_lines(read),
+            false => run.target.value_rows(rows),
+        });
         let holes = self.runs.first().filter(|_| !along).and_then(|run| run.target.value_holes(read));
         let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
             level
@@ -144,6 +163,7 @@ impl Verifier {
         if !same {
             let differ = if along { &mut self.strokes_differ } else { &mut self.holes_differ };
             *differ = level;
+            self.batch.unpack_table();
             return self.make_holes().map(|()| false);
         }
         let ahead = self.holes_ahead.take().into_iter().flat_map(|ahead| ahead.runs);
@@ -153,14 +173,18 @@ impl Verifier {
             match &mut lines {
                 None => run.target.follow(&run.source),
                 Some(lines) => {
-                    let passed = run.target.pass_valued(lines);
-                    let passed = passed.map_or_else(|| run.target.pass(&self.batch.stmts), Ok);
+                    let (stmts, rows) = (&self.batch.stmts, Rows::of(&self.batch.table));
+                    let passed = match rows.is_empty() {
+                        true => run.target.pass_valued(lines).map_or_else(|| run.target.pass(stmts), Ok),
+                        false => run.target.pass_rows(rows, lines),
+                    };
                     passed.map_err(|fault| stopped(&fault, None, last))?;
                 }
             }
             run.comparison.pass(made.events, run.source.machine());
         }
         self.batch.stmts.clear();
+        self.batch.table.clear();
         Ok(true)
     }
 
@@ -214,6 +238,62 @@ mod tests {
         }
         verifier.finish()?;
         Ok(verifier.covered().events)
+    }
+
+    /// Events of both sides, where the source makes holes for which the output goes along these lines; and whether these
+    /// were held against the strokes of the holes.
+    fn verified_along(lines: &str, by_itself: bool) -> Result<(u64, bool), Stop> {
+        let settings = |id| Settings::new(builtin(id).expect("a built-in dialect"));
+        let job = Job::new(settings("siemens"), settings("fanuc"), "holes.mpf");
+        let (mut reader, mut verifier) = (Reader::new(job.from.clone(), true), Verifier::new(&job));
+        if by_itself {
+            verifier.watch();
+        }
+        let (mut batch, mut along) = (Batch::default(), false);
+        let head = "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M06\nG00 X0. Y0. S500 M03\nG43 H1 Z50.\nF150.\n";
+        let first = "X0 Y0\n";
+        let pieces = [
+            (format!("{HEAD}{}\n{first}", CYCLES[0]), format!("{head}G00 Z2.\nG01 Z-20.\nG00 Z5.\n")),
+            (HOLES.to_owned(), lines.to_owned()),
+            ("MCALL\nG0 Z50\nM30\n".to_owned(), "G00 Z50.\nM30\n".to_owned()),
+        ];
+        for (at, (said, written)) in pieces.iter().enumerate() {
+            reader.read(said.as_bytes(), 0, &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            verifier.source(&stmts, &batch.assumed)?;
+            let held = verifier.reads_strokes();
+            verifier.target(written.as_bytes(), 0, &batch.assumed)?;
+            along |= held && at == 1 && !verifier.strokes_differ;
+        }
+        verifier.finish()?;
+        Ok((verifier.covered().events, along))
+    }
+
+    #[test]
+    fn lines_along_the_strokes_of_holes_count_as_all_events_that_both_make() {
+        let places = ["X1. Y1.", "X2.5", "Y7.", "X-3. Y4.", "X0. Y0."];
+        let hole = |place: &str| format!("G00 {place}\nG00 Z2.\nG01 Z-20.\nG00 Z5.\n");
+        let lines: String = places.map(hole).concat();
+        let remarks = lines.replacen("Z-20.\n", "Z-20. (A REMARK)\n", 3);
+        for lines in [&lines, &remarks] {
+            let events = |by_itself| verified_along(lines, by_itself).expect("the same program");
+            assert_eq!([events(false), events(true)], [(events(true).0, true), (events(false).0, false)]);
+        }
+        for (from, to) in [
+            ("X2.5", "X2.501"),
+            ("Y7.\n", "Y7.\nY7.001\n"),
+            ("G01 Z-20.\nG00 Z5.\nG00 Y7.", "G01 Z-20.01\nG00 Z5.\nG00 Y7."),
+            ("G01 Z-20.\nG00 Z5.\nG00 Y7.", "G00 Z-20.\nG00 Z5.\nG00 Y7."),
+            ("G01 Z-20.\nG00 Z5.\nG00 Y7.", "G01 Z-20.\nG01 Z5.\nG00 Y7."),
+            ("G01 Z-20.\nG00 Z5.\nG00 Y7.", "G01 Z-20. F151.\nG00 Z5.\nG00 Y7."),
+            ("G00 X0. Y0.\nG00 Z2.\nG01 Z-20.\nG00 Z5.\n", ""),
+        ] {
+            for lines in [&lines, &remarks] {
+                let written = lines.replacen(from, to, 1);
+                let verdict = verified_along(&written, false);
+                assert!(written == **lines || matches!(verdict, Err(Stop::Target(_))), "{from} → {to}");
+            }
+        }
     }
 
     const HOLES: &str = "X1 Y1\nX2.5\nY7\n; a remark\nX-3 Y4\nX0 Y0\n";

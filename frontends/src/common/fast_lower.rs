@@ -16,7 +16,7 @@ use super::fast_parse;
 use super::words::Digits;
 
 /// What a plain move needs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FastLower {
     pub(crate) unit: Unit,
     pub(crate) distance: Fact<Distance>,
@@ -28,12 +28,14 @@ pub(crate) struct FastLower {
     pub(crate) bare: bool,
     /// Number of the G code that says the motion in force once more, and changes nothing else.
     pub(crate) repeated_motion: Option<u8>,
+    /// Number of the G code that says the other straight motion, where it changes nothing but which of the two is in force.
+    pub(crate) other_motion: Option<u8>,
     /// What a feed word needs, if it would change no more than the feed.
     pub(crate) feed_word: Option<FeedWord>,
 }
 
 /// What a feed word needs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FeedWord {
     pub(crate) letter: u8,
     pub(crate) unit: Unit,
@@ -74,7 +76,7 @@ pub(crate) fn line(
 ) -> Option<usize> {
     // Words that have been met: a bit for each axis, the code, the feed, the block number.
     let (code_bit, feed_bit, number_bit) = (8u8, 16u8, 32u8);
-    let (mut seen, mut said) = (0u8, false);
+    let (mut seen, mut said, mut at_feed) = (0u8, false, fast.feed);
     let (mut first, mut last) = (from, from);
     let mut at = from;
     // Behind a word a blank is passed over without a branch: whether one follows or the line's end is hard to guess.
@@ -120,10 +122,12 @@ pub(crate) fn line(
                 seen |= number_bit;
                 first = at;
             } else if letter == b'G' {
-                let repeated = fast.repeated_motion.map(i64::from);
-                if seen & code_bit != 0 || digits.point || repeated != Some(digits.mantissa) {
+                let says = |code: Option<u8>| code.map(i64::from) == Some(digits.mantissa);
+                let other = says(fast.other_motion);
+                if seen & code_bit != 0 || digits.point || !(other || says(fast.repeated_motion)) {
                     return None;
                 }
+                at_feed = fast.feed != other;
                 if seen == 0 {
                     first = at;
                 }
@@ -145,7 +149,7 @@ pub(crate) fn line(
             at = last + usize::from(after == b' ');
         }
     };
-    row.set_motion(fast.feed);
+    row.set_motion(at_feed);
     row.set_said(said);
     let fits = row.set_span(Span::new(base + first as u32, base + last as u32)) && end - from <= longest;
     // Without an axis there is no move.

@@ -118,6 +118,8 @@ pub(in crate::word) struct UsualBlocks {
     pub(in crate::word) motions: [Option<Motion>; 4],
     /// The numbers of the codes of straight motions, the one at feed last.
     pub(in crate::word) straight: [Option<u8>; 2],
+    /// Whether one of these changes the motion and nothing else, where the other one is in force.
+    pub(in crate::word) switches: bool,
     /// Whether X, Y and Z are lengths.
     pub(in crate::word) linear: bool,
     /// Whether the feed's row is confirmed.
@@ -157,12 +159,20 @@ impl UsualBlocks {
         let first = |text: &str| text.bytes().next().unwrap_or(0);
         let (block, comment) = (&dialect.block, &dialect.comment);
         let signs = [&comment.open, &comment.close, &comment.line].map(|text| first(text));
+        let straight = [false, true].map(|feed| repeated_motion_code(dialect, feed));
+        let says = |code: Option<u8>, which: Motion| {
+            code.is_some_and(|code| motion(u32::from(code)).is_some_and(|motion| motion == which))
+        };
+        let switches = says(straight[0], Motion::Traverse)
+            && says(straight[1], Motion::Feed)
+            && !dialect.cycles.level_lost;
         let stated = ["on", "off"].contains(&settings.get(BLOCK_SKIP));
         UsualBlocks {
             letters: Letters::new(dialect, roles.centre, roles.radius).with_signs(first(&block.skip), signs),
             skip_levels: if stated { 0 } else { block.skip_levels },
             motions: [0, 1, 2, 3].map(motion),
-            straight: [false, true].map(|feed| repeated_motion_code(dialect, feed)),
+            straight,
+            switches,
             linear: linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z),
             feed: row(roles.feed).is_some(),
             lengths: understood(Quantity::Length),

@@ -20,7 +20,7 @@ impl Lower {
         self.usual.holes = self.plane_of_holes();
     }
 
-    fn settled(&self) -> Option<FastLower> {
+    pub(super) fn settled(&self) -> Option<FastLower> {
         let state = &self.state;
         let feed = match state.modes.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
@@ -37,6 +37,8 @@ impl Lower {
             return None;
         }
         let said = matches!(state.modes.motion, Know::Said(_));
+        let fed = state.modes.feed != Know::Unsaid && state.cycle_feed.is_none();
+        let switches = fed && self.usual.switches;
         Some(FastLower {
             unit: unit_of(state.modes.units.fact()),
             distance: state.modes.distance.fact(),
@@ -44,6 +46,7 @@ impl Lower {
             number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
             bare: false,
             repeated_motion: self.usual.straight[usize::from(feed)].filter(|_| said),
+            other_motion: self.usual.straight[usize::from(!feed)].filter(|_| switches),
             feed_word: self.settled_feed(),
         })
     }
@@ -128,17 +131,33 @@ impl Lower {
     ) -> Option<usize> {
         let fast = self.fast_lower.as_ref()?;
         let (computes, watch) = (&mut self.computes, self.watch && !out.pointed);
-        let mut pointed = false;
+        let (mut pointed, mut at_feed) = (false, fast.feed);
         let end = out.plain_line(&mut self.sub, fast, |row, feed| {
             let end = line(fast, text, at, base, longest, (row, feed))?;
             if computes.jumps && row.number().is_some_and(|number| !computes.passes(number)) {
                 return None;
             }
             pointed = watch && has_point(row);
+            at_feed = row.motion() == Motion::Feed;
             Some(end)
         })?;
         out.pointed |= pointed;
+        if at_feed != fast.feed {
+            self.switch_motion(at_feed);
+        }
         Some(end)
+    }
+
+    /// The other straight motion is in force from here on, and nothing else has changed.
+    fn switch_motion(&mut self, at_feed: bool) {
+        self.set_motion(if at_feed { Motion::Feed } else { Motion::Traverse });
+        let codes = self.usual.straight;
+        if let Some(fast) = &mut self.fast_lower {
+            fast.feed = at_feed;
+            (fast.repeated_motion, fast.other_motion) =
+                (codes[usize::from(at_feed)], codes[usize::from(!at_feed)]);
+        }
+        debug_assert_eq!(self.fast_lower, self.settled());
     }
 }
 

@@ -321,9 +321,12 @@ fn the_short_way_takes_what_it_is_for() {
         let before = out.stmts.clone();
         let end = reader.lower.fast_line(line.as_bytes(), 0, 0, 60, &mut out);
         assert_eq!(end.is_none(), out.stmts == before, "{line}");
+        assert_eq!(reader.lower.fast_lower, reader.lower.settled(), "{line}");
         end
     };
     for (line, end) in [
+        ("G0 X1.\n", 6),
+        ("N9 Z-2. G00\n", 11),
         ("X1. Y-2.5 Z.003\n", 15),
         ("n120X-2345.678\r\nX2.", 15),
         ("N9 G1 X1. Y2. F250.\n", 19),
@@ -333,7 +336,10 @@ fn the_short_way_takes_what_it_is_for() {
         assert_eq!(taken(line), Some(end), "{line}");
     }
     for line in [
-        "G0 X1.\n",
+        "G0\n",
+        "G2 X1.\n",
+        "G257 X1.\n",
+        "G0 G1 X1.\n",
         "G1\n",
         "F100.\n",
         "X1\n",

@@ -43,6 +43,9 @@ impl Exec {
     pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
         match stmts {
             [stmt] if self.comes_to_none(stmt) => 0,
+            // Each begins in the state of the first one, as far as that counts here. (Before others a jump may lead to a
+            // label.)
+            _ if stmts.iter().all(|stmt| self.comes_to_none(stmt) && !matches!(stmt.op, Op::Label(_))) => 0,
             _ => self.comes_to_at_length(stmts),
         }
     }
@@ -51,7 +54,7 @@ impl Exec {
     fn comes_to_none(&self, stmt: &Stmt) -> bool {
         match &stmt.op {
             Op::Label(_) | Op::Comment(_) | Op::Blank | Op::SetFeedRate(_) => true,
-            Op::StraightFeed(m) | Op::StraightTraverse(m) => {
+            Op::StraightFeed(m) | Op::StraightTraverse(m) | Op::Hole(m) => {
                 let absolute = |word: &Coord| word.distance.or(Distance::Absolute) == Distance::Absolute;
                 self.modes.distance == Distance::Absolute
                     && !Exec::turns(&m.to)
@@ -393,6 +396,7 @@ mod tests {
             {
                 ops.push(Op::StraightFeed(move_to(axis, distance)));
                 ops.push(Op::StraightTraverse(move_to(axis, distance)));
+                ops.push(Op::Hole(move_to(axis, distance)));
             }
         }
         let mut world = World::generate(1, &Modes::default());
@@ -412,11 +416,15 @@ mod tests {
                     none += 1;
                     assert_eq!(exec.comes_to_at_length(&stmt), 0, "{op:?}");
                 }
+                for other in &ops {
+                    let both = [op, other].map(|op| Stmt::new(Span::default(), op.clone()));
+                    assert_eq!(exec.comes_to(&both), exec.comes_to_at_length(&both), "{op:?}, {other:?}");
+                }
             }
             let comes = |op: &Op| exec.comes_to(&[Stmt::new(Span::default(), op.clone())]) != 0;
             assert!(ops.iter().any(comes), "{distance:?}");
         }
-        assert_eq!(none, 2 * 4 + 8);
+        assert_eq!(none, 2 * 4 + 12);
     }
 
     /// The meaning of F on an arc is open under inverse-time feed only, set before or with the arc.

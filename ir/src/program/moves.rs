@@ -13,10 +13,24 @@ pub struct Coord {
 }
 
 /// The axis words of a move; an axis without a word stays where it is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Point {
     /// One place per axis, in the order of [`Axis::ALL`].
     pub axes: [Option<Coord>; AXES],
+}
+
+/// Most points name one or two axes of the six: only those are copied.
+impl Clone for Point {
+    #[inline]
+    fn clone(&self) -> Point {
+        let mut copy = Point::default();
+        for (to, from) in copy.axes.iter_mut().zip(&self.axes) {
+            if let Some(word) = from {
+                *to = Some(word.clone());
+            }
+        }
+        copy
+    }
 }
 
 impl Point {

@@ -37,7 +37,8 @@ impl Tracker {
         self.out_of_hole();
     }
 
-    pub(super) fn out_of_hole(&mut self) {
+    /// What a hole leaves, besides where it is in the plane.
+    pub fn out_of_hole(&mut self) {
         let Some(in_force) = &mut self.cycle else {
             self.position[..3].fill(None);
             return;

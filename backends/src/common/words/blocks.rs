@@ -5,6 +5,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::lack::{FlowLack, LengthsLack, WordsLack};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::run_time::RunTimeWord;
+use ncc_ir::source::Span;
 
 use super::Words;
 use crate::common::Sink;
@@ -137,14 +138,18 @@ impl Words {
         let length = to.len() - start;
         to.extend_from_slice(self.eol);
         to.append(&mut self.block.after);
-        let most = self.dialect.block.longest;
-        if most > 0 && length > most as usize {
-            let fault = cannot_compute(RunTimeWord::BlockLength { most });
-            sink.report(fault, self.block.at);
-        }
+        self.check_length(length, self.block.at, sink);
         let most = self.dialect.block.longest_bare;
         if most > 0 && bare > most as usize {
             sink.report(cannot(WordsLack::BlockLength { most }), self.block.at);
+        }
+    }
+
+    /// Refuses a line of more characters than a block may have.
+    pub(crate) fn check_length(&self, length: usize, at: Span, sink: &mut Sink) {
+        let most = self.dialect.block.longest;
+        if most > 0 && length > most as usize {
+            sink.report(cannot_compute(RunTimeWord::BlockLength { most }), at);
         }
     }
 

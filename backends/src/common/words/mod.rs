@@ -48,6 +48,7 @@ use crate::origin::Trace;
 use crate::{Form, Layout, Numbering, ToolChange};
 
 pub(crate) use numbers::HIGHEST_NUMBER;
+pub(crate) use plain::Behind;
 pub(crate) use statement::rounded;
 
 /// Writes blocks of words.

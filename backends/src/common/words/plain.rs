@@ -3,16 +3,19 @@
 //! way, which writes the same text.
 
 use ncc_ir::canon::{AXES, Distance, Fact, Motion, Units};
+use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::line_table::{AXES_OF_ROW, Row, StatedFeed};
-use ncc_ir::program::{Coord, Op, Stmt};
+use ncc_ir::program::{Arc, Coord, Op, Point, Stmt};
+use ncc_ir::source::Span;
 
 use super::{HIGHEST_NUMBER, Words};
 use crate::Numbering;
+use crate::common::Sink;
 use crate::common::codes::Code;
 use crate::common::number;
-use crate::common::number::{LONGEST, ROOM};
+use crate::common::number::{LONGEST, ROOM, Shaped};
 
 /// Room for lines that have not been passed on.
 pub(crate) const PAGE: usize = 4096;
@@ -20,10 +23,62 @@ pub(crate) const PAGE: usize = 4096;
 /// Room for a line: number, motion code, six axes, feed, line end, and what the last word touches.
 const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
 
+/// A word behind those of the axes: its name, with all that stands before its number, and that. There are three at most,
+/// beside three axes.
+#[derive(Clone, Copy)]
+pub(crate) struct Behind<'n> {
+    pub(crate) name: &'n str,
+    pub(crate) value: Shaped,
+}
+
+impl Behind<'_> {
+    /// The place of a word that is not there.
+    pub(crate) const NONE: Behind<'static> =
+        Behind { name: "", value: Shaped { mantissa: 0, scale: 0, point: false, rounded: false } };
+}
+
 impl Words {
     /// Writes a plain block, or returns `false` without having written or changed anything.
     #[inline]
-    pub(crate) fn plain_block(&mut self, stmts: &[Stmt], out: &mut Vec<u8>) -> bool {
+    pub(crate) fn plain_block(&mut self, stmts: &[Stmt], sink: &mut Sink) -> bool {
+        match stmts {
+            [Stmt { comment: Some(comment), .. }] | [_, Stmt { comment: Some(comment), .. }] => {
+                self.commented(stmts, comment, sink)
+            }
+            _ => self.plain_words(stmts, sink.out),
+        }
+    }
+
+    /// The same of a block with a comment behind its words.
+    fn commented(&mut self, stmts: &[Stmt], comment: &str, sink: &mut Sink) -> bool {
+        self.pass_on(sink.out);
+        if !self.plain_words(stmts, sink.out) {
+            return false;
+        }
+        let (words, eol) = (self.filled - self.eol.len(), self.eol);
+        sink.out.extend_from_slice(&self.page[..words]);
+        self.filled = 0;
+        let start = sink.out.len() - words;
+        if self.dialect.block.blanks {
+            sink.out.push(b' ');
+        }
+        let mut after = std::mem::take(&mut self.block.after);
+        let changed = self.comments.write(comment, sink.out, &mut after, eol);
+        let length = sink.out.len() - start;
+        sink.out.extend_from_slice(eol);
+        sink.out.append(&mut after);
+        self.block.after = after;
+        let at = stmts.last().map_or(Span::default(), |stmt| stmt.span);
+        if changed {
+            sink.report(Fault::CommentReformatted, at);
+        }
+        self.check_length(length, at, sink);
+        true
+    }
+
+    /// The words of a block, whatever its comment.
+    #[inline]
+    fn plain_words(&mut self, stmts: &[Stmt], out: &mut Vec<u8>) -> bool {
         let (stmt, feed) = match stmts {
             [stmt] => (stmt, None),
             [Stmt { op: Op::SetFeedRate(feed), skip: None, comment: None, .. }, stmt] => (stmt, Some(feed)),
@@ -41,7 +96,7 @@ impl Words {
             Some(Expr::Num(num)) => Some(*num),
             Some(_) => return false,
         };
-        if stmt.skip.is_some() || stmt.comment.is_some() {
+        if stmt.skip.is_some() {
             return false;
         }
         let Some(distance) = self.active.distance else { return false };
@@ -54,9 +109,58 @@ impl Words {
             Some(_) => None,
         };
         let number = stmts[0].number;
-        let done = self.plain_move::<AXES>((number, to.said), (motion, code), word, feed, out);
+        let done = self.plain_move::<AXES>((number, to.said), (motion, code), word, (&[], feed), out);
         if done {
             self.numbers.seen(number, stmts[0].span);
+        }
+        done
+    }
+
+    /// Writes a block that is nothing but words of X, Y and Z at which the motion in force goes rapidly; or returns `false`
+    /// without having written or changed anything.
+    pub(crate) fn plain_point(&mut self, stmt: &Stmt, to: &Point, out: &mut Vec<u8>) -> bool {
+        let code = (Motion::Traverse, self.codes.traverse);
+        self.active.motion == Some(Motion::Traverse) && self.plain_to(stmt, (to, false), code, &[], out)
+    }
+
+    /// Writes a block that is nothing but an arc to a point of words from zero, with these words of its centre or radius;
+    /// or returns `false` without having written or changed anything.
+    ///
+    /// No end of it is rounded: it is no line, and no full circle (`arc`).
+    pub(crate) fn plain_arc(&mut self, stmt: &Stmt, arc: &Arc, centre: &[Behind], out: &mut Vec<u8>) -> bool {
+        let code = self.codes.arcs[arc.turn as usize].filter(|code| code.unsure.is_none());
+        let plain = self.active.distance == Some(Distance::Absolute)
+            && self.active.plane.is_some()
+            && arc.plane.known() == self.active.plane
+            && arc.turns.is_none()
+            && !self.tracker.cycle_in_doubt;
+        plain && self.plain_to(stmt, (&arc.to, arc.said), (Motion::Arc(arc.turn), code), centre, out)
+    }
+
+    /// A move to a point of X, Y and Z, in a block of its own.
+    fn plain_to(
+        &mut self,
+        stmt: &Stmt,
+        (to, said): (&Point, bool),
+        code: (Motion, Option<Code>),
+        behind: &[Behind],
+        out: &mut Vec<u8>,
+    ) -> bool {
+        let Some(distance) = self.active.distance else { return false };
+        let (axes, rotary) = to.axes.split_at(AXES_OF_ROW);
+        if stmt.skip.is_some() || stmt.comment.is_some() || rotary.iter().any(Option::is_some) {
+            return false;
+        }
+        let word = |axis: usize| match &axes[axis] {
+            None => Some(None),
+            Some(Coord { value: Expr::Num(num), distance: own }) if *own == Fact::Known(distance) => {
+                Some(Some(*num))
+            }
+            Some(_) => None,
+        };
+        let done = self.plain_move::<AXES_OF_ROW>((stmt.number, said), code, word, (behind, None), out);
+        if done {
+            self.numbers.seen(stmt.number, stmt.span);
         }
         done
     }
@@ -79,8 +183,8 @@ impl Words {
         let first = feed.map_or_else(|| row.span(), |(_, span)| *span);
         let (number, feed) = (row.number(), feed.map(|(feed, _)| *feed));
         let word = |axis: usize| Some(row.word(axis, unit));
-        let done =
-            self.plain_move::<AXES_OF_ROW>((number, row.says_motion()), (motion, code), word, feed, out);
+        let says = (number, row.says_motion());
+        let done = self.plain_move::<AXES_OF_ROW>(says, (motion, code), word, (&[], feed), out);
         if done {
             self.numbers.seen(number, first);
         }
@@ -94,7 +198,7 @@ impl Words {
         (number, said): (Option<u32>, bool),
         (motion, code): (Motion, Option<Code>),
         word: impl Fn(usize) -> Option<Option<Num>>,
-        feed: Option<Num>,
+        (behind, feed): (&[Behind], Option<Num>),
         out: &mut Vec<u8>,
     ) -> bool {
         let Some(code) = code else { return false };
@@ -114,33 +218,11 @@ impl Words {
             Units::Mm => Unit::Mm,
             Units::Inch => Unit::Inch,
         };
-        let mut next = self.numbers.next;
         if self.filled > PAGE - LINE {
             self.pass_on(out);
         }
+        let Some((mut at, next)) = self.number_of_line(number) else { return false };
         let line = &mut self.page;
-        let mut at = self.filled;
-        match (self.numbers.numbering, self.dialect.block.number, number) {
-            (Numbering::Off, _, _) => {}
-            (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
-                line[at] = letter as u8;
-                at = number::write_digits(line, at + 1, number);
-                line[at] = b' ';
-                at += blanks;
-            }
-            (Numbering::Keep, _, None) => {}
-            (Numbering::Every { first, step }, Some(letter), _) if next < 100_000_000 => {
-                line[at] = letter as u8;
-                at = number::write_digits(line, at + 1, next);
-                line[at] = b' ';
-                at += blanks;
-                next = next.saturating_add(step);
-                if next > HIGHEST_NUMBER {
-                    next = first;
-                }
-            }
-            _ => return false,
-        }
         let start = at;
         let mut named = 0u8;
         if said || self.active.motion != Some(motion) {
@@ -167,6 +249,12 @@ impl Words {
         }
         if at == start {
             return false;
+        }
+        for Behind { name, value } in behind {
+            line[at..at + name.len()].copy_from_slice(name.as_bytes());
+            at = number::write(line, at + name.len(), *value);
+            line[at] = b' ';
+            at += blanks;
         }
         if let Some(n) = feed {
             let Some(letter) = &self.codes.feed_word else { return false };
@@ -196,6 +284,36 @@ impl Words {
             self.tracker.cycle = None;
         }
         true
+    }
+
+    /// Writes the number of a block with which its line begins; gives where it ends, and the number that comes next.
+    #[inline]
+    fn number_of_line(&mut self, number: Option<u32>) -> Option<(usize, u32)> {
+        let (line, mut at) = (&mut self.page, self.filled);
+        let blanks = usize::from(self.dialect.block.blanks);
+        let mut next = self.numbers.next;
+        match (self.numbers.numbering, self.dialect.block.number, number) {
+            (Numbering::Off, _, _) => {}
+            (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
+                line[at] = letter as u8;
+                at = number::write_digits(line, at + 1, number);
+                line[at] = b' ';
+                at += blanks;
+            }
+            (Numbering::Keep, _, None) => {}
+            (Numbering::Every { first, step }, Some(letter), _) if next < 100_000_000 => {
+                line[at] = letter as u8;
+                at = number::write_digits(line, at + 1, next);
+                line[at] = b' ';
+                at += blanks;
+                next = next.saturating_add(step);
+                if next > HIGHEST_NUMBER {
+                    next = first;
+                }
+            }
+            _ => return None,
+        }
+        Some((at, next))
     }
 
     /// Passes plain lines on, before anything else is written.

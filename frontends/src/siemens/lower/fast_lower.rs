@@ -80,6 +80,7 @@ impl Lower {
             number: if self.has_numbered_targets() { 0 } else { b'N' },
             bare: true,
             repeated_motion: self.usual.straight[usize::from(feed)].filter(|_| said),
+            other_motion: None,
             feed_word: self.settled_feed(),
         })
     }

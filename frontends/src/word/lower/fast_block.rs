@@ -232,6 +232,7 @@ impl Lower {
         if (self.state.modes.motion, self.state.modes.feed) != before {
             self.refresh();
         }
-        self.usual.likely = !(repeated && self.usual.line.is_plain() && self.fast_lower.is_some());
+        let plain = self.fast_lower.is_some_and(|fast| repeated || fast.other_motion.is_some());
+        self.usual.likely = !(plain && self.usual.line.is_plain());
     }
 }

@@ -18,6 +18,7 @@
 //! absolute, for which they must be known.
 
 use super::sayable::{lasts, level, sayable};
+use super::series::{Series, over_hole};
 use crate::arcs::polar_places;
 use crate::holes::approach::is_one_way;
 use crate::holes::expand_patterns;
@@ -27,12 +28,13 @@ use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
 use crate::support::walk::Walk;
 use crate::support::walk::each_body;
-use crate::support::write::{Rebuild, at, cut, is_absolute, only, rebuild, traverse};
+use crate::support::write::{Rebuild, at, cut, only, rebuild, traverse};
 use crate::target::Target;
 use ncc_ir::canon::{Axis, Motion, ReturnLevel};
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
+use ncc_ir::expr::num::Nanos;
 use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{Approach, Clearance, CycleKind, Leg, Shift};
 use ncc_ir::program::kinds::{flow, moves};
@@ -105,8 +107,12 @@ pub(crate) fn expand_cycles(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
+    let mut series: Option<Series> = None;
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
+        if stmt.skip.is_some() || !matches!(stmt.op, Op::Hole(_) | Op::Comment(_) | Op::Blank) {
+            series = None;
+        }
         match &stmt.op {
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
@@ -130,6 +136,9 @@ pub(crate) fn expand_cycles(
                 }
             }
             Op::Hole(m) if state.expanding => {
+                if stmt.skip.is_none() && state.is_as_before(&mut series, walk, target) {
+                    return state.hole_again(series.as_ref(), stmt, walk, made);
+                }
                 let holes = Ok(vec![m.to.clone()]);
                 state.holes(stmt, holes, walk, target, made, diags);
             }
@@ -241,6 +250,30 @@ impl ExpandCyclesState {
         } else {
             made.leave_out(stmt);
         }
+    }
+
+    /// Whether the hole that comes next is made as those of a series; begins one where it can.
+    fn is_as_before(&self, series: &mut Option<Series>, walk: &Walk, target: &Target) -> bool {
+        let Some(in_force) = walk.at.cycle.as_ref().filter(|_| self.feed.is_some() || self.owed.is_none())
+        else {
+            return false;
+        };
+        let normal = walk.at.plane(in_force.cycle.plane).map(|plane| plane.axes().2);
+        let Some(from) = normal.and_then(|axis| walk.at.position[axis as usize]) else { return false };
+        if series.as_ref().is_none_or(|series| series.from != from) {
+            *series = series_from(from, walk, in_force, self.feed.as_ref(), target);
+        }
+        series.is_some()
+    }
+
+    /// Puts the moves of a hole of a series in the place of its statement.
+    fn hole_again(&mut self, series: Option<&Series>, stmt: Stmt, walk: &mut Walk, made: &mut Rebuild) {
+        let plane = walk.at.cycle.as_ref().and_then(|in_force| walk.at.plane(in_force.cycle.plane));
+        let (Some(series), Some(plane), Op::Hole(m)) = (series, plane, &stmt.op) else { return };
+        let (over, goes) = over_hole(walk, &m.to, plane.axes().2);
+        walk.step(&stmt);
+        self.owed = None;
+        series.write(stmt, Some(over).filter(|_| goes), made);
     }
 
     /// Puts the moves of holes in the place of their statement.
@@ -358,6 +391,28 @@ fn must_expand(
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
 
+/// What all holes are made of that begin at this level and behind one another; `None` where that hangs on where they are.
+fn series_from(
+    from: Nanos,
+    walk: &Walk,
+    in_force: &ActiveCycle,
+    feed: Option<&Expr>,
+    target: &Target,
+) -> Option<Series> {
+    let kind = &in_force.cycle.kind;
+    let plain = matches!(kind, CycleKind::Drill | CycleKind::DrillDwell { .. })
+        || matches!(kind, CycleKind::DrillPeck { .. } | CycleKind::DrillBreak { .. });
+    let way = in_force.cycle.approach;
+    if !plain || walk.waiting || way == Approach::ClearFirst {
+        return None;
+    }
+    let mut moves = Vec::new();
+    // Of a hole where the tool stands there is no move in the plane.
+    hole(walk, in_force, &Point::default(), feed, target, &mut moves).ok()?;
+    let raises = way != Approach::PlaneFirst && way.retracts(from, in_force.retract?);
+    Some(Series { from, moves, place: usize::from(raises) })
+}
+
 /// The moves of one hole; `true` marks those that stand in the block of the one before.
 pub(crate) fn hole(
     walk: &Walk,
@@ -382,22 +437,8 @@ pub(crate) fn hole(
     let out = way_out(walk, in_force, normal)?;
 
     // 1. To the retract plane above the hole.
-    let mut aside = to.clone();
-    aside.axes[normal as usize] = None;
     let now = here.position[normal as usize];
-    // A waiting length offset is taken up by a word of Z, even if the tool stands there already.
-    let goes_aside = aside.axes.iter().enumerate().any(|(axis, word)| {
-        word.as_ref().is_some_and(|w| {
-            here.position[axis].is_none() || here.resolve(w, here.position[axis]) != here.position[axis]
-        })
-    }) || walk.waiting && aside.get(Axis::Z).is_some();
-    for (axis, word) in Axis::ALL.into_iter().zip(&mut aside.axes) {
-        let Some(coord) = word else { continue };
-        let known = here.resolve(coord, here.position[axis as usize]);
-        if let (false, Some(nanos)) = (is_absolute(coord, here.modes.distance), known) {
-            *coord = at(nanos, axis, walk.unit());
-        }
-    }
+    let (mut aside, goes_aside) = over_hole(walk, to, normal);
     let mut slant = None;
     let raise = match (cycle.approach, now.zip(in_force.retract)) {
         (Approach::PlaneFirst, _) => false,

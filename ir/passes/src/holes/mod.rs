@@ -19,5 +19,6 @@ pub(crate) mod pattern_forms;
 mod pecks;
 pub mod return_plane;
 pub(crate) mod sayable;
+mod series;
 pub(crate) mod spindle_holes;
 pub mod state_clearance;

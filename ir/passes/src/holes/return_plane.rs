@@ -50,6 +50,10 @@ pub(crate) fn convert_return_plane(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
+    // Holes of a cycle that was called up before stay as they are.
+    if !body.iter().any(|stmt| matches!(stmt.op, Op::StartCycle(_))) {
+        return;
+    }
     match target.caps.holes.returns {
         ReturnsTo::Plane => by_planes(body, walk),
         ReturnsTo::Level => by_levels(body, walk, target, diags),

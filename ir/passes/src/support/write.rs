@@ -4,6 +4,7 @@ use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::expr::num::{Nanos, Num, POW10, Unit};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
+use ncc_ir::source::Span;
 
 /// Digits with which every length is exact that a program can write.
 pub(crate) const EXACT: u8 = 9;
@@ -127,6 +128,17 @@ impl Rebuild {
                 self.open = true;
             }
         }
+    }
+
+    /// Puts other statements in the place of one that is a block without number, comment and skip mark: `made` says of each
+    /// whether it stands in the block of the one before, and has at least one.
+    pub(crate) fn blocks(&mut self, span: Span, made: impl IntoIterator<Item = (bool, Op)>) {
+        let first = self.out.len();
+        for (with_last, op) in made {
+            let joined = with_last && self.out.len() > first;
+            self.out.push(Stmt { joined, ..Stmt::new(span, op) });
+        }
+        (self.open, self.number) = (true, None);
     }
 
     /// Puts other statements in a statement's place: `made` says of each whether it stands in the
