@@ -5,6 +5,7 @@ use std::io;
 
 use ncc_dialects::Dialect;
 use ncc_driver::job::Outcome;
+use ncc_driver::machines::words::takes_words;
 use ncc_driver::render::About;
 use ncc_driver::render::messages::words::Context;
 use ncc_driver::render::numbers::numbered;
@@ -101,7 +102,9 @@ fn takes(place: &Place, dialect: &Dialect) -> String {
     match place {
         Place::PowerOn(key) => {
             let key = PowerOn::KEYS.iter().find(|k| k.name == *key);
-            key.map_or(String::new(), |k| format!("{} possible: {}", k.doc.trim(), k.takes.replace('`', "")))
+            key.map_or(String::new(), |k| {
+                format!("{} possible: {}", k.about.trim(), takes_words(k.takes).replace('`', ""))
+            })
         }
         Place::Option(name) => dialect.option.iter().find(|o| o.name == *name).map_or(String::new(), |row| {
             let values = match row.values.is_empty() {
