@@ -73,7 +73,7 @@ impl Takes {
         ("a boolean", Takes::OneOf(&["true", "false"])),
         ("a string", Takes::Text),
         ("a sequence", Takes::Lines),
-        ("an array of length 2", Takes::LowAndHigh),
+        ("an array", Takes::LowAndHigh),
         ("texts", Takes::Texts),
         ("machine", Takes::Machine),
         ("fact", Takes::Fact),
@@ -90,6 +90,9 @@ impl Takes {
         let of_kind =
             message.strip_prefix("invalid type: ").or_else(|| message.strip_prefix("invalid value: "))?;
         let (_, expected) = of_kind.rsplit_once(", expected ")?;
-        Takes::EXPECTED.iter().find(|(name, _)| *name == expected).map(|(_, takes)| *takes)
+        let is_expected = |name: &str| {
+            expected.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+        };
+        Takes::EXPECTED.iter().find(|(name, _)| is_expected(name)).map(|(_, takes)| *takes)
     }
 }

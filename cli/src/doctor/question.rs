@@ -7,6 +7,7 @@ use ncc_dialects::Dialect;
 use ncc_driver::job::Outcome;
 use ncc_driver::machines::words::takes_words;
 use ncc_driver::render::About;
+use ncc_driver::render::dialects::option_about;
 use ncc_driver::render::messages::words::Context;
 use ncc_driver::render::numbers::numbered;
 use ncc_driver::render::summary::phrase;
@@ -111,7 +112,7 @@ fn takes(place: &Place, dialect: &Dialect) -> String {
                 true => "a number".to_owned(),
                 false => row.values.join(", "),
             };
-            format!("{} possible: {values}", row.doc)
+            format!("{} possible: {values}", option_about(dialect, row))
         }),
         Place::Confirmed(_) => "is it so on this machine? possible: true, false".to_owned(),
         Place::Code(_) => "a name for its function, in small letters; the same in the profile of the other \
