@@ -12,13 +12,13 @@ use crate::expr::num::Num;
 use crate::expr::value::Wrong;
 use crate::geometry::offset_path::Unreachable;
 use crate::lack::Lack;
-use crate::left_out::LeftOut;
 use crate::program::numbered::Numbered;
 use crate::run_time::RunTime;
 use crate::source::Span;
 use crate::syntax::{Expected, Found, Ranged};
 use crate::unexecuted::{NoCorner, Unexecuted};
 use crate::unsupported::Unsupported;
+use crate::unsupported::left_out::LeftOut;
 
 /// What was found, and where.
 #[derive(Clone, Debug, PartialEq)]

@@ -170,7 +170,6 @@ pub mod diag;
 pub mod expr;
 pub mod geometry;
 pub mod lack;
-pub mod left_out;
 pub mod operator_text;
 pub mod program;
 pub mod rank;

@@ -9,8 +9,8 @@ use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{
     CodeUnsupported, FrameUnsupported, MoveUnsupported, SpindleUnsupported, TableUnsupported, Unsupported,
 };
@@ -138,10 +138,7 @@ impl Lower {
                 Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
                 Meaning::LeftOut => {
                     if self.first_time(code.name) {
-                        out.report(
-                            Fault::CodeLeftOut { what: LeftOut::Code { code: code.name.into() } },
-                            code.span,
-                        );
+                        out.report(Fault::CodeLeftOut { what: LeftOut::code(code.name) }, code.span);
                     }
                     continue;
                 }

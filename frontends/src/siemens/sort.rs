@@ -9,8 +9,8 @@ use ncc_ir::canon::{Distance, FeedMode, RotaryWay};
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::block_words::{Code, Given, Words};

@@ -8,9 +8,9 @@ use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CodeUnsupported, FrameUnsupported, MoveUnsupported};
 
 use super::block_words::{Code, Words, motion_of};
@@ -242,10 +242,7 @@ impl Lower {
         let op = match code.meaning {
             Meaning::LeftOut => {
                 if self.first_time(code.row) {
-                    out.report(
-                        Fault::CodeLeftOut { what: LeftOut::Code { code: code.row.code.as_str().into() } },
-                        code.span,
-                    );
+                    out.report(Fault::CodeLeftOut { what: LeftOut::code(&code.row.code) }, code.span);
                 }
                 return;
             }

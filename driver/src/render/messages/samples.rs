@@ -1,8 +1,8 @@
 //! Each message once, with values: every entry of `messages/` is found, has its values, and keeps its length.
 
 use ncc_ir::alarms::{AlarmMapped, AlarmName};
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::syntax::{Expected, Found, Ranged};
+use ncc_ir::unsupported::left_out::LeftOut;
 use std::collections::BTreeSet;
 
 use ncc_dialects::Dialect;
@@ -45,6 +45,7 @@ fn dialect(id: &str) -> &'static Dialect {
 /// Faults of each code, and of each form of a code.
 fn samples() -> Vec<Fault> {
     let mut all = text_and_meaning();
+    all.extend(forms_and_ranges());
     all.extend(assumed());
     all.extend(became());
     all.extend(target_and_verification());
@@ -64,39 +65,6 @@ fn text_and_meaning() -> Vec<Fault> {
         WordWithoutNumber { letter: 'X' },
         LetterOForZero,
         EmptyProgram,
-        Syntax { found: "(".into(), expected: Expected::Word },
-        Syntax { found: Found::EndOfLine, expected: Expected::Word },
-        Syntax { found: Found::EndOfBlock, expected: Expected::Word },
-        Syntax { found: Found::EndOfText, expected: Expected::Word },
-        Syntax { found: Found::Line, expected: Expected::Word },
-        Syntax { found: Found::ManyWords, expected: Expected::Word },
-        Syntax { found: "5".into(), expected: Expected::Text("]".into()) },
-        Syntax { found: "5".into(), expected: Expected::Word },
-        Syntax { found: "5".into(), expected: Expected::WordOrNumber },
-        Syntax { found: "5".into(), expected: Expected::Number },
-        Syntax { found: "5".into(), expected: Expected::NumberOrNothing },
-        Syntax { found: "5".into(), expected: Expected::WholeNumber },
-        Syntax { found: "5".into(), expected: Expected::QuotedText },
-        Syntax { found: "5".into(), expected: Expected::PlainEscapes },
-        Syntax { found: "5".into(), expected: Expected::Name },
-        Syntax { found: "5".into(), expected: Expected::OneOf("on, off".into()) },
-        Syntax { found: "5".into(), expected: Expected::Path },
-        Syntax { found: "5".into(), expected: Expected::Type },
-        Syntax { found: "5".into(), expected: Expected::Jump },
-        Syntax { found: "5".into(), expected: Expected::Expression },
-        Syntax { found: "5".into(), expected: Expected::Statement },
-        Syntax { found: "5".into(), expected: Expected::Block },
-        Syntax { found: "5".into(), expected: Expected::OperatorOrEnd },
-        Syntax { found: "5".into(), expected: Expected::EndOfBlock },
-        Syntax { found: "5".into(), expected: Expected::EndOfLine },
-        Syntax { found: "5".into(), expected: Expected::BodyAtEnd },
-        Syntax { found: "5".into(), expected: Expected::EndOfBody },
-        Syntax { found: "5".into(), expected: Expected::EndOfBodyAlone },
-        Syntax { found: "5".into(), expected: Expected::Words { most: 9 } },
-        Syntax { found: "5".into(), expected: Expected::Bodies { most: 9 } },
-        Syntax { found: "5".into(), expected: Expected::PointOfPlane },
-        Syntax { found: "5".into(), expected: Expected::RotaryAxis },
-        Syntax { found: "5".into(), expected: Expected::StraightMove },
         NoProgramEnd,
         TextAfterEnd,
         TextBeforeStart { mark: "%".into() },
@@ -118,16 +86,6 @@ fn text_and_meaning() -> Vec<Fault> {
         WordTwice { letter: 'X' },
         TooManyCodes { letter: 'M', limit: 1 },
         PointNotAllowed { word: "S5000.".into() },
-        OutOfRange { word: t().into() },
-        OutOfRange { word: Ranged::Turns },
-        OutOfRange { word: Ranged::Holes },
-        OutOfRange { word: Ranged::PeckDepth },
-        OutOfRange { word: Ranged::LengthSum },
-        OutOfRange { word: Ranged::TurnAngle },
-        OutOfRange { word: Ranged::HighestSpeed },
-        OutOfRange { word: Ranged::PointNumber },
-        OutOfRange { word: Ranged::StoredPosition },
-        OutOfRange { word: Ranged::SkipLevel },
         NoMotionMode,
         ArcWithoutCentre,
         ArcCentreAndRadius,
@@ -168,6 +126,55 @@ fn text_and_meaning() -> Vec<Fault> {
         RadiusUnknown { entry: None },
         ContourUnreachable { why: Unreachable::ShortLine },
         NoCorner { why: ncc_ir::unexecuted::NoCorner::NoSize },
+    ]
+}
+
+fn forms_and_ranges() -> Vec<Fault> {
+    use Fault::*;
+    vec![
+        Syntax { found: "(".into(), expected: Expected::Word },
+        Syntax { found: Found::EndOfLine, expected: Expected::Word },
+        Syntax { found: Found::EndOfBlock, expected: Expected::Word },
+        Syntax { found: Found::EndOfText, expected: Expected::Word },
+        Syntax { found: Found::Line, expected: Expected::Word },
+        Syntax { found: Found::ManyWords, expected: Expected::Word },
+        Syntax { found: "5".into(), expected: Expected::Text("]".into()) },
+        Syntax { found: "5".into(), expected: Expected::Word },
+        Syntax { found: "5".into(), expected: Expected::WordOrNumber },
+        Syntax { found: "5".into(), expected: Expected::Number },
+        Syntax { found: "5".into(), expected: Expected::NumberOrNothing },
+        Syntax { found: "5".into(), expected: Expected::WholeNumber },
+        Syntax { found: "5".into(), expected: Expected::QuotedText },
+        Syntax { found: "5".into(), expected: Expected::PlainEscapes },
+        Syntax { found: "5".into(), expected: Expected::Name },
+        Syntax { found: "5".into(), expected: Expected::OneOf("on, off".into()) },
+        Syntax { found: "5".into(), expected: Expected::Path },
+        Syntax { found: "5".into(), expected: Expected::Type },
+        Syntax { found: "5".into(), expected: Expected::Jump },
+        Syntax { found: "5".into(), expected: Expected::Expression },
+        Syntax { found: "5".into(), expected: Expected::Statement },
+        Syntax { found: "5".into(), expected: Expected::Block },
+        Syntax { found: "5".into(), expected: Expected::OperatorOrEnd },
+        Syntax { found: "5".into(), expected: Expected::EndOfBlock },
+        Syntax { found: "5".into(), expected: Expected::EndOfLine },
+        Syntax { found: "5".into(), expected: Expected::BodyAtEnd },
+        Syntax { found: "5".into(), expected: Expected::EndOfBody },
+        Syntax { found: "5".into(), expected: Expected::EndOfBodyAlone },
+        Syntax { found: "5".into(), expected: Expected::Words { most: 9 } },
+        Syntax { found: "5".into(), expected: Expected::Bodies { most: 9 } },
+        Syntax { found: "5".into(), expected: Expected::PointOfPlane },
+        Syntax { found: "5".into(), expected: Expected::RotaryAxis },
+        Syntax { found: "5".into(), expected: Expected::StraightMove },
+        OutOfRange { word: t().into() },
+        OutOfRange { word: Ranged::Turns },
+        OutOfRange { word: Ranged::Holes },
+        OutOfRange { word: Ranged::PeckDepth },
+        OutOfRange { word: Ranged::LengthSum },
+        OutOfRange { word: Ranged::TurnAngle },
+        OutOfRange { word: Ranged::HighestSpeed },
+        OutOfRange { word: Ranged::PointNumber },
+        OutOfRange { word: Ranged::StoredPosition },
+        OutOfRange { word: Ranged::SkipLevel },
     ]
 }
 

@@ -14,9 +14,9 @@
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr as Value, Many, Node, Var};
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CallUnsupported, Unsupported};
 
 use super::repeated_blocks::{NotRepeatable, Under};

@@ -16,10 +16,10 @@ use ncc_ir::canon::Fact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Element, Expr, Many, Node, Numbers, Scope, Target, Var};
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Op, Type as Stored};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};

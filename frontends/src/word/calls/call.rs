@@ -5,10 +5,10 @@
 use ncc_dialects::Statement;
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::CallUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::Source;

@@ -4,9 +4,9 @@
 use ncc_dialects::{CycleRow, LEFT_OUT, TAP_DWELL};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::CycleUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::known::Know;

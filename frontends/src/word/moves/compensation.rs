@@ -11,9 +11,9 @@ use ncc_ir::canon::Side;
 use ncc_ir::compensated::kind::CompensationRefusal;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::{CutterRadius, Op};
 use ncc_ir::unsupported::MoveUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::Source;

@@ -7,10 +7,10 @@ use ncc_dialects::{AT_ZERO, FURTHER_POINT, MACHINE_WITHOUT_AXIS, Meaning, NOTHIN
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
-use ncc_ir::left_out::LeftOut;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::MoveUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::Source;

@@ -23,3 +23,10 @@ reasons! {
         Assignment { name: Box<str>, },
     }
 }
+
+impl LeftOut {
+    /// A code without an effect on the cut.
+    pub fn code(code: &str) -> LeftOut {
+        LeftOut::Code { code: code.into() }
+    }
+}
