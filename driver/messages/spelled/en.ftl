@@ -58,14 +58,18 @@ spelled-motion-feed = line at feed
 
 # How corners are taken at the start.
 spelled-path-exact-stop = exact stop
+    .short = exact stop
 spelled-path-rounded = rounded by the lag of the axes
+    .short = rounded
 spelled-path-within = rounded within a setting
+    .short = within a setting
 spelled-path-blended = blended without a tolerance
+    .short = blended
 
 # Alarms, and the alarms of the target in their place.
 spelled-alarm = { $from } is { $to }
 spelled-alarm-cut = { $from } is { $to } with the text { $text }
-spelled-alarm-text = the one with the text { $text }
+spelled-alarm-text = { $text }
 
 # The state of the machine beside a block.
 spelled-feed-move = straight at feed

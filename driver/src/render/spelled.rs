@@ -180,14 +180,24 @@ pub fn cycle_levels(kind: &str, [retract, depth]: [String; 2], back: Option<Retu
 }
 
 /// How a control takes corners at the start, by its name in a dictionary.
-pub fn path_start(name: &str) -> String {
+fn path_entry(name: &str) -> Option<Message> {
     match name {
-        "exact-stop" => spelled("path-exact-stop").headline(),
-        "rounded" => spelled("path-rounded").headline(),
-        "within" => spelled("path-within").headline(),
-        "blended" => spelled("path-blended").headline(),
-        _ => name.to_owned(),
+        "exact-stop" => Some(spelled("path-exact-stop")),
+        "rounded" => Some(spelled("path-rounded")),
+        "within" => Some(spelled("path-within")),
+        "blended" => Some(spelled("path-blended")),
+        _ => None,
     }
+}
+
+/// How a control takes corners at the start.
+pub fn path_start(name: &str) -> String {
+    path_entry(name).map_or_else(|| name.to_owned(), |entry| entry.headline())
+}
+
+/// The same in at most three words.
+pub fn path_start_short(name: &str) -> String {
+    path_entry(name).map_or_else(|| name.to_owned(), |entry| entry.attribute("short"))
 }
 
 /// An alarm under its number, or by its text.

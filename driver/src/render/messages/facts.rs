@@ -19,8 +19,8 @@ use super::file_needs;
 use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
 use crate::render::spelled::{
-    alarms_mapped, assumed_fact, character, expected_words, found_words, kept, mode, mode_value, path_start,
-    row_meaning, work_offset,
+    alarms_mapped, assumed_fact, character, expected_words, found_words, kept, mode, mode_value,
+    path_start_short, row_meaning, work_offset,
 };
 use crate::render::text::{plain, plain_upto, shown};
 
@@ -198,7 +198,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("before", millimetres(*before)).text("now", millimetres(*now))
         }
         Fault::PathAtStart { source, target } => {
-            m.text("before", path_start(source)).text("after", path_start(target))
+            m.text("before", path_start_short(source)).text("after", path_start_short(target))
         }
         Fault::FeedOnArcs { contour_in_source: true, .. } => m.form("contour"),
         Fault::FeedOnArcs { .. } => m,
