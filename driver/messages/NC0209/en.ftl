@@ -1,9 +1,9 @@
 NC0209 = `{ $word }` is out of range
     .label = this word cannot have this value
 NC0209-turns = the number of turns is out of range
-    .label = an arc makes no such number of turns
+    .label = it must be whole, from 0, and not too large
 NC0209-holes = the number of holes is out of range
-    .label = a pattern has no such number of holes
+    .label = it must be whole, from 1, and not too large
 NC0209-peck-depth = the peck depth is out of range
     .label = the hole cannot be drilled in such pecks
 NC0209-length-sum = the end point is out of range

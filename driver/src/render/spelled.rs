@@ -106,6 +106,15 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
         of_code.or_else(of_name)
     });
     let row = kind.map_or_else(|| meaning.replace(' ', "-"), |kind| format!("{meaning}-{kind}"));
+    entry_or_text(row, meaning)
+}
+
+/// What an unconfirmed row means, where its dictionary is not at hand.
+pub(crate) fn meaning_words(meaning: &str) -> String {
+    entry_or_text(meaning.replace(' ', "-"), meaning)
+}
+
+fn entry_or_text(row: String, meaning: &str) -> String {
     let words = Message::meaning(row).headline();
     if words.is_empty() { plain(meaning) } else { words }
 }
