@@ -1,5 +1,6 @@
 //! What keeps a command from being done, and the exit codes.
 
+use std::fmt;
 use std::io::{self, Write};
 
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
@@ -99,6 +100,23 @@ impl From<RequestFault> for Problem {
     }
 }
 
+/// Work that ncc broke off by itself, as the error of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrokenOff {
+    /// The execution of one of two programs ended before its end.
+    Side,
+    /// The output is longer than the places of its map.
+    LongMap,
+}
+
+impl fmt::Display for BrokenOff {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self, out)
+    }
+}
+
+impl std::error::Error for BrokenOff {}
+
 /// An entry about a command that cannot be done.
 pub(crate) fn problem(form: &'static str) -> Message {
     Message::part(Part::Problem, form)
@@ -136,7 +154,10 @@ impl Problem {
             };
             return Problem::of(Exit::Interrupted, &message.text("name", name), None);
         }
+        let broken_off = error.get_ref().and_then(|inner| inner.downcast_ref::<BrokenOff>());
         let reason = match error.kind() {
+            _ if broken_off == Some(&BrokenOff::Side) => problem("side-broken-off").headline(),
+            _ if broken_off == Some(&BrokenOff::LongMap) => problem("long-map").headline(),
             io::ErrorKind::NotFound => problem("not-found").headline(),
             io::ErrorKind::PermissionDenied => problem("denied").headline(),
             io::ErrorKind::IsADirectory => problem("folder").headline(),

@@ -42,6 +42,7 @@ use self::facts::looked_at;
 use self::verifier::{ALL_SETTINGS, Run, unreadable};
 use self::with_facts::MOST_WITH_FACT;
 use crate::job::{self, Job, Verified};
+use crate::render::messages::message::{Message, Part};
 
 pub use self::facts::stops_differ;
 pub use self::levels::levels;
@@ -212,8 +213,8 @@ impl Verifier {
         self.batch.name = ProgramName::default();
         let silent = |s: &Stmt| matches!(s.op, Op::Comment(_) | Op::Blank);
         if !self.batch.stmts.iter().all(silent) {
-            let fault =
-                Fault::NotTheSame { difference: "the head of the output is more than a comment".into() };
+            let difference = Message::part(Part::Difference, "head").headline().into();
+            let fault = Fault::NotTheSame { difference };
             return Err(Stop::Target(Diagnostic::new(fault, self.last)));
         }
         self.batch.stmts.clear();

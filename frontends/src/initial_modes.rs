@@ -144,7 +144,7 @@ pub(crate) fn length_offset(know: &mut Know<bool>, dialect: &Dialect, at: Span, 
 pub(crate) fn motion_name(motion: Motion) -> &'static str {
     match motion {
         Motion::Traverse => "rapid",
-        Motion::Feed => "line at feed",
+        Motion::Feed => "feed",
         Motion::Arc(_) => "arc",
         Motion::Cycle => "cycle",
     }

@@ -21,6 +21,26 @@ pub struct Alarms {
     pub longest: Option<usize>,
 }
 
+/// An alarm as a message names it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AlarmName {
+    /// By its number.
+    Number(i64),
+    /// By its text, without a number.
+    Text(Box<str>),
+}
+
+/// An alarm, and the alarm of the target in its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AlarmMapped {
+    /// The alarm of the source.
+    pub from: AlarmName,
+    /// The alarm of the target.
+    pub to: AlarmName,
+    /// The text that the target shows, if that is shorter.
+    pub text: Option<Box<str>>,
+}
+
 impl Alarms {
     /// A text for the operator in the characters of this control.
     pub fn shown(&self, text: &str) -> Text {

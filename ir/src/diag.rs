@@ -3,6 +3,7 @@
 //! A [`Fault`] carries data, no prose: the words, labels and advice are rendered by the command
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
+use crate::alarms::AlarmMapped;
 use crate::behaviour::{Behaviour, Kept};
 use crate::canon::{Axis, Turn};
 use crate::compensated::kind::{CompensationRefusal, Kind};
@@ -14,8 +15,10 @@ use crate::lack::Lack;
 use crate::program::numbered::Numbered;
 use crate::run_time::RunTime;
 use crate::source::Span;
+use crate::syntax::{Expected, Found, Ranged};
 use crate::unexecuted::{NoCorner, Unexecuted};
 use crate::unsupported::Unsupported;
+use crate::unsupported::left_out::LeftOut;
 
 /// What was found, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -249,7 +252,7 @@ faults! {
     /// Nothing to translate.
     EmptyProgram = 108, Error;
     /// Words that do not make a block.
-    Syntax { found: Box<str>, expected: Box<str> } = 109, Error;
+    Syntax { found: Found, expected: Expected } = 109, Error;
     /// The text ends before the program says that it ends.
     NoProgramEnd = 110, Warning;
     /// Text after the end of the program.
@@ -283,7 +286,7 @@ faults! {
     /// A decimal point where only a whole number is allowed.
     PointNotAllowed { word: Box<str> } = 208, Error;
     /// A value outside the range of the word.
-    OutOfRange { word: Box<str> } = 209, Error;
+    OutOfRange { word: Ranged } = 209, Error;
     /// Axis words, and no motion code has been said.
     NoMotionMode = 210, Error;
     /// An arc without centre or radius.
@@ -467,7 +470,7 @@ faults! {
     /// it got.
     EdgeNumbered { tool: u32, edge: u32, entry: u32 } = 346, verdict(Verdict::Assumed);
     /// A code of the machine that has no effect on the cut, as its user has stated.
-    CodeLeftOut { code: Box<str> } = 444, verdict(Verdict::Reformatted);
+    CodeLeftOut { what: LeftOut } = 444, verdict(Verdict::Reformatted);
     /// A message that is shown while the program goes on, which the target cannot do: it is a comment there.
     MessageAsComment = 443, verdict(Verdict::Reformatted);
     /// A repetition written out.
@@ -495,7 +498,7 @@ faults! {
     /// Variables have other names in the target; which is which.
     VariablesRenamed { map: Box<str> } = 421, verdict(Verdict::Reformatted);
     /// Alarms have other numbers in the target, or their number in the text; which is which.
-    AlarmsRenumbered { map: Box<str> } = 422, verdict(Verdict::Reformatted);
+    AlarmsRenumbered { map: Box<[AlarmMapped]> } = 422, verdict(Verdict::Reformatted);
     /// Values in messages have other digits in the target: so many behind the point.
     ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
     /// Text for a device that the target does not write to.

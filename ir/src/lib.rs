@@ -176,6 +176,7 @@ pub mod rank;
 pub mod reason;
 pub mod run_time;
 pub mod source;
+pub mod syntax;
 pub mod track;
 pub mod transliterate;
 pub mod unexecuted;

@@ -21,9 +21,6 @@ pub enum Piece {
     },
 }
 
-/// The text of the alarm that a control gives by itself where a jump names no block.
-pub const NO_SUCH_BLOCK: &str = "no such block";
-
 /// An alarm that a program gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alarm {

@@ -10,7 +10,7 @@ use crate::fact::Fact;
 use crate::reading::is_reading;
 use crate::schema::{BlockNumbers, Emit, FileName, Schema};
 use crate::table::{Key, Table};
-use crate::wrong::{ProfileError, Wrong};
+use crate::wrong::{Lacks, Needs, ProfileError, Twice, Wrong};
 
 /// Faults as they are found.
 struct Found(Vec<ProfileError>);
@@ -47,8 +47,9 @@ impl Found {
     }
 
     fn takes<T: Table>(&mut self, key: &'static str, span: Range<usize>) {
-        let takes = T::KEYS.iter().find(|k: &&Key| k.name == key).map_or("", |k| k.takes);
-        self.add(Wrong::Takes { key, takes }, span);
+        if let Some(takes) = T::KEYS.iter().find(|k: &&Key| k.name == key).map(|k| k.takes) {
+            self.add(Wrong::Takes { key, takes }, span);
+        }
     }
 
     /// Something that may stand once.
@@ -56,7 +57,7 @@ impl Found {
         &mut self,
         seen: &mut BTreeMap<String, Range<usize>>,
         name: String,
-        what: String,
+        what: Twice,
         span: Range<usize>,
     ) {
         match seen.get(&name) {
@@ -159,12 +160,17 @@ fn axes(schema: &Schema, found: &mut Found) {
     for row in &schema.axis {
         let axis = row.get_ref();
         let Some(letter) = &axis.letter.value else {
-            found.add(Wrong::Missing { key: "letter", why: "which axis is it?" }, row.span());
+            found.add(Wrong::Missing { key: "letter", needs: Needs::Axis }, row.span());
             continue;
         };
         match letter.as_bytes() {
             [one] if Axis::from_letter(*one).is_some() => {
-                found.once(&mut seen, letter.clone(), format!("axis {letter}"), axis.letter.span.clone());
+                found.once(
+                    &mut seen,
+                    letter.clone(),
+                    Twice::Axis { letter: letter.clone() },
+                    axis.letter.span.clone(),
+                );
             }
             _ => found.takes::<AxisRow>("letter", axis.letter.span.clone()),
         }
@@ -192,14 +198,16 @@ fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
         match tool.number.value {
             // `ncc doctor` writes rows to be filled in: they say nothing yet.
             None if asked(&tool.number) => {}
-            None => found.add(Wrong::Missing { key: "number", why: "which tool is it?" }, row.span()),
-            Some(n) => found.once(&mut tools, n.to_string(), format!("tool {n}"), tool.number.span.clone()),
+            None => found.add(Wrong::Missing { key: "number", needs: Needs::Tool }, row.span()),
+            Some(n) => {
+                found.once(&mut tools, n.to_string(), Twice::Tool { number: n }, tool.number.span.clone())
+            }
         }
         let entry = &tool.length_entry;
         if entry.value == Some(0) {
             found.takes::<ToolRow>("length_entry", entry.span.clone());
         } else if entry.value.is_some() && dialect.letter_for(Role::ToolEdge).is_some() {
-            let lacks = "length table: its tools have edges";
+            let lacks = Lacks::LengthTable;
             found.add(Wrong::NoForm { key: "length_entry", lacks }, entry.span.clone());
         } else if let Some(n) = entry.value.or(tool.number.value).filter(|n| *n > 0) {
             match entry.value {
@@ -209,16 +217,21 @@ fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             }
         }
         if let Some(name) = &tool.name.value {
-            found.once(&mut names, name.clone(), format!("a tool named {name}"), tool.name.span.clone());
+            found.once(
+                &mut names,
+                name.clone(),
+                Twice::ToolName { name: name.clone() },
+                tool.name.span.clone(),
+            );
         }
         if let Some(n) = tool.pocket.value {
-            found.once(&mut pockets, n.to_string(), format!("pocket {n}"), tool.pocket.span.clone());
+            found.once(&mut pockets, n.to_string(), Twice::Pocket { number: n }, tool.pocket.span.clone());
         }
     }
     for (n, span) in stated {
         match entries.get(&n) {
             Some(first) => {
-                let error = ProfileError::new(Wrong::Twice { what: format!("length entry {n}") }, span);
+                let error = ProfileError::new(Wrong::Twice { what: Twice::LengthEntry { number: n } }, span);
                 found.0.push(ProfileError { related: Some(first.clone()), ..error });
             }
             None => drop(entries.insert(n, span)),
@@ -228,16 +241,16 @@ fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
     for row in &schema.work_offset {
         let offset = row.get_ref();
         if let Some(name) = &offset.name.value {
-            let what = format!("a work offset named {name}");
+            let what = Twice::WorkOffsetName { name: name.clone() };
             found.once(&mut names, name.clone(), what, offset.name.span.clone());
         }
         let span = offset.number.span.clone();
         match offset.number.value {
             // `ncc doctor` writes rows to be filled in: they say nothing yet.
             None if asked(&offset.number) => {}
-            None => found.add(Wrong::Missing { key: "number", why: "which work offset is it?" }, row.span()),
+            None => found.add(Wrong::Missing { key: "number", needs: Needs::WorkOffset }, row.span()),
             Some(0) => found.takes::<WorkOffsetRow>("number", span),
-            Some(n) => found.once(&mut offsets, n.to_string(), format!("work offset {n}"), span),
+            Some(n) => found.once(&mut offsets, n.to_string(), Twice::WorkOffset { number: n }, span),
         }
     }
 }
@@ -251,7 +264,7 @@ fn edges(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
     for row in &schema.edge {
         let edge = row.get_ref();
         if dialect.letter_for(Role::ToolEdge).is_some() {
-            let lacks = "length table: its tools have edges";
+            let lacks = Lacks::LengthTable;
             found.add(Wrong::NoForm { key: "length_entry", lacks }, row.span());
             continue;
         }
@@ -259,8 +272,8 @@ fn edges(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             (edge.tool.value, edge.edge.value, edge.length_entry.value)
         else {
             if ![&edge.tool, &edge.edge, &edge.length_entry].into_iter().any(asked) {
-                let why = "an edge has `tool`, `edge` and `length_entry`";
-                found.add(Wrong::Missing { key: "length_entry", why }, row.span());
+                let needs = Needs::Edge;
+                found.add(Wrong::Missing { key: "length_entry", needs }, row.span());
             }
             continue;
         };
@@ -273,9 +286,9 @@ fn edges(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
         if entry == 0 {
             found.takes::<EdgeRow>("length_entry", edge.length_entry.span.clone());
         }
-        let what = format!("edge {number} of tool {tool}");
+        let what = Twice::Edge { tool, edge: number };
         found.once(&mut seen, format!("{tool}.{number}"), what, edge.edge.span.clone());
-        let what = format!("length entry {entry}");
+        let what = Twice::LengthEntry { number: entry };
         match entries.contains(&entry) {
             true => found.add(Wrong::Twice { what }, edge.length_entry.span.clone()),
             false => found.once(&mut seen, entry.to_string(), what, edge.length_entry.span.clone()),
@@ -294,12 +307,12 @@ fn programs(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
         match program.number.value {
             // `ncc doctor` writes rows to be filled in: they say nothing yet.
             None if asked(&program.number) => {}
-            None => found.add(Wrong::Missing { key: "number", why: "which program is it?" }, row.span()),
+            None => found.add(Wrong::Missing { key: "number", needs: Needs::Program }, row.span()),
             Some(0) => found.takes::<ProgramRow>("number", span),
             Some(n) if digits > 0 && n >= 10u32.saturating_pow(digits) => {
                 found.takes::<ProgramRow>("number", span);
             }
-            Some(n) => found.once(&mut numbers, n.to_string(), format!("program {n}"), span),
+            Some(n) => found.once(&mut numbers, n.to_string(), Twice::Program { number: n }, span),
         }
         let Some(name) = &program.name.value else { continue };
         let plain = |b: u8| b.is_ascii_alphanumeric() || b == b'_';
@@ -307,7 +320,7 @@ fn programs(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             found.takes::<ProgramRow>("name", program.name.span.clone());
             continue;
         }
-        let what = format!("a program named {name}");
+        let what = Twice::ProgramName { name: name.clone() };
         found.once(&mut names, name.to_ascii_uppercase(), what, program.name.span.clone());
     }
 }
@@ -328,7 +341,7 @@ fn codes(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             let means = means.to_string();
             found.add(Wrong::CodeKnown { code: code.clone(), means }, m.code.span.clone());
         }
-        found.once(&mut codes, number.to_string(), format!("code {code}"), m.code.span.clone());
+        found.once(&mut codes, number.to_string(), Twice::Code { code: code.clone() }, m.code.span.clone());
         let Some(function) = &m.function.value else { continue };
         let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
         if !function.bytes().all(plain) || !function.starts_with(|c: char| c.is_ascii_lowercase()) {
@@ -356,14 +369,14 @@ fn emit(emit: &Emit, dialect: &'static Dialect, found: &mut Found) {
     let numbers = &emit.block_numbers;
     if matches!(numbers.value, Some(BlockNumbers::New | BlockNumbers::Keep)) && dialect.block.number.is_none()
     {
-        let lacks = "block numbers";
+        let lacks = Lacks::BlockNumbers;
         found.add(Wrong::NoForm { key: "block_numbers", lacks }, numbers.span.clone());
     }
     if numbers.value == Some(BlockNumbers::New) {
         for (fact, key) in [(&emit.first_number, "first_number"), (&emit.number_step, "number_step")] {
             if fact.value.is_none() {
-                let why = "`block_numbers = \"new\"` needs the first number and the step";
-                found.add(Wrong::Missing { key, why }, numbers.span.clone());
+                let needs = Needs::NewNumbers;
+                found.add(Wrong::Missing { key, needs }, numbers.span.clone());
             }
         }
     }
@@ -377,7 +390,7 @@ fn emit(emit: &Emit, dialect: &'static Dialect, found: &mut Found) {
     for (fact, key) in [(&emit.header, "header"), (&emit.footer, "footer")] {
         let lines = fact.value.as_deref().unwrap_or_default();
         if !lines.is_empty() && dialect.comment.open.is_empty() {
-            found.add(Wrong::NoForm { key, lacks: "comments" }, fact.span.clone());
+            found.add(Wrong::NoForm { key, lacks: Lacks::Comments }, fact.span.clone());
         }
         if lines.iter().any(|line| line.chars().any(char::is_control)) {
             found.takes::<Emit>(key, fact.span.clone());
@@ -385,7 +398,7 @@ fn emit(emit: &Emit, dialect: &'static Dialect, found: &mut Found) {
     }
     let by_number = emit.file_name.value == Some(FileName::ProgramNumber);
     if by_number && dialect.program.number.is_none() {
-        let lacks = "program numbers";
+        let lacks = Lacks::ProgramNumbers;
         found.add(Wrong::NoForm { key: "file_name", lacks }, emit.file_name.span.clone());
     }
     if let Some(extension) = &emit.extension.value

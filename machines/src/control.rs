@@ -105,7 +105,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         (None, None) => return,
     };
     // The profile has been checked: it is a code that the dialect does not have, or refuses.
-    dialect.put_m_code(number, means, "the machine's profile");
+    dialect.put_m_code(number, means, "machine profile");
 }
 
 /// Puts a stated fact in, as one that always holds.
@@ -115,7 +115,7 @@ fn put<T: Copy, U>(row: &mut Option<PowerOnFact<U>>, said: &Fact<T>, as_row: imp
             value,
             always: true,
             of_the_machine: false,
-            source: "the machine's profile".to_owned(),
+            source: "machine profile".to_owned(),
         });
     }
 }

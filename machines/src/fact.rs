@@ -12,6 +12,8 @@ use serde::de::value::{BoolDeserializer, F64Deserializer, I64Deserializer, StrDe
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 
+use crate::takes::Takes;
+
 /// A fact that may be stated, with its place in the file.
 #[derive(Clone, Debug)]
 pub struct Fact<T> {
@@ -93,7 +95,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for PlainVisitor<T> {
     type Value = Plain<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a value, or \"\" where it is not known")
+        f.write_str(Takes::Fact.expected())
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<Plain<T>, E> {
@@ -128,7 +130,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for SaidVisitor<T> {
     type Value = Said<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a value, or { value = …, source = \"…\", assumed = true }")
+        f.write_str(Takes::Fact.expected())
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<Said<T>, E> {

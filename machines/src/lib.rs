@@ -16,7 +16,6 @@
 
 mod check;
 mod control;
-mod document;
 mod fact;
 mod maps;
 mod profile;
@@ -25,12 +24,13 @@ pub mod reading;
 pub mod schema;
 mod shipped;
 pub mod table;
+mod takes;
 mod wrong;
 
 pub use control::Layout;
-pub use document::tables;
 pub use fact::Fact;
 pub use maps::{counterpart, maps, nameless, renaming};
 pub use profile::{Profile, Row};
 pub use shipped::{find, shipped, shipped_text};
-pub use wrong::{ProfileError, Wrong};
+pub use takes::Takes;
+pub use wrong::{Lacks, Needs, PatternFault, ProfileError, Twice, Wrong};

@@ -12,6 +12,7 @@ use crate::check::check;
 use crate::fact::Fact;
 use crate::schema::{ChangeOn, MCodeRow, Schema};
 use crate::table::{Stated, Table};
+use crate::takes::Takes;
 use crate::wrong::{ProfileError, Wrong};
 
 /// A profile without faults, and the dictionary of its dialect.
@@ -231,7 +232,12 @@ struct Named {
 /// A text that has not the form of its file.
 pub(crate) fn form(error: &toml::de::Error, text: &str) -> ProfileError {
     let span = error.span().unwrap_or(0..0);
-    ProfileError::new(Wrong::Form { message: error.message().to_owned() }, inside(span, text))
+    let span = inside(span, text);
+    let wrong = match Takes::of_message(error.message()) {
+        Some(takes) => Wrong::Kind { found: text[span.clone()].to_owned(), takes },
+        None => Wrong::Form { message: error.message().to_owned() },
+    };
+    ProfileError::new(wrong, span)
 }
 
 /// A place that is one: not behind the end, and between characters.

@@ -22,29 +22,30 @@ use toml::Spanned;
 use crate::profile::{Profile, form};
 use crate::schema::Schema;
 use crate::table::Key;
-use crate::wrong::{ProfileError, Wrong};
+use crate::takes::Takes;
+use crate::wrong::{PatternFault, ProfileError, Wrong};
 
 /// Name of the file.
 pub const NAME: &str = "ncc.toml";
 
 /// Keys of a row.
 pub const KEYS: &[Key] = &[
-    Key { name: "files", takes: "a pattern, or a list of them", doc: "The programs that the row is about." },
+    Key { name: "files", takes: Takes::Patterns, about: "The programs that the row is about." },
     Key {
         name: "machine",
-        takes: "a profile's file, the name of a shipped profile, or a table with the keys of a profile",
-        doc: "The machine that they were written for, or that reads them.",
+        takes: Takes::Machine,
+        about: "The machine that they were written for, or that reads them.",
     },
-    Key { name: "to", takes: "the same", doc: "The machine that they are translated for." },
+    Key { name: "to", takes: Takes::Machine, about: "The machine that they are translated for." },
     Key {
         name: "include",
-        takes: "a folder, or a list of them",
-        doc: "Where called programs are looked for, after the folders of `-I`.",
+        takes: Takes::Folders,
+        about: "Where called programs are looked for, after the folders of `-I`.",
     },
     Key {
         name: "output",
-        takes: "a folder",
-        doc: "Where translations go without `-o`. It is made where there is none.",
+        takes: Takes::Folder,
+        about: "Where translations go without `-o`. It is made where there is none.",
     },
 ];
 
@@ -147,24 +148,24 @@ impl Pattern {
     }
 
     fn of(text: Spanned<String>) -> Result<Pattern, ProfileError> {
-        let wrong =
-            |message: &str| ProfileError::new(Wrong::Pattern { message: message.to_owned() }, text.span());
+        let wrong = |why: PatternFault| ProfileError::new(Wrong::Pattern { why }, text.span());
         let own = text.get_ref().strip_prefix("./").unwrap_or(text.get_ref());
         if own.is_empty() {
-            return Err(wrong("it is empty"));
+            return Err(wrong(PatternFault::Empty));
         }
         if own.contains('\\') {
-            return Err(wrong("folders are separated by `/`"));
+            return Err(wrong(PatternFault::Backslash));
         }
         if own.starts_with('/')
             || own.as_bytes().get(1) == Some(&b':')
             || own.split('/').any(|part| part == "..")
         {
-            return Err(wrong("only files below the folder of this file can match"));
+            return Err(wrong(PatternFault::Outside));
         }
         let glob = |pattern: &str| {
             let glob = GlobBuilder::new(pattern).literal_separator(true).case_insensitive(true).build();
-            glob.map(|glob| glob.compile_matcher()).map_err(|error| wrong(&error.kind().to_string()))
+            glob.map(|glob| glob.compile_matcher())
+                .map_err(|error| wrong(PatternFault::Unread { reader: error.kind().to_string() }))
         };
         let path = glob(own)?;
         // Where the last part alone is no pattern, as of `{a/b,c}`, no name alone matches.
@@ -229,8 +230,8 @@ impl Row {
             }
         }
         if files.is_empty() && wrong.is_empty() {
-            let message = "there is none in the list".to_owned();
-            wrong.push(ProfileError::new(Wrong::Pattern { message }, self.files.span));
+            let why = PatternFault::NoneInList;
+            wrong.push(ProfileError::new(Wrong::Pattern { why }, self.files.span));
         }
         Programs { files, machine: from, to, include: self.include.texts, output: self.output }
     }
@@ -267,7 +268,7 @@ impl<'de> Deserialize<'de> for OneOrMany {
             type Value = OneOrMany;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a text, or a list of texts")
+                f.write_str(Takes::Texts.expected())
             }
 
             fn visit_str<E: de::Error>(self, text: &str) -> Result<OneOrMany, E> {
@@ -295,7 +296,7 @@ impl<'de> Deserialize<'de> for Machine {
             type Value = Machine;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("the name of a profile, or a table with the keys of one")
+                f.write_str(Takes::Machine.expected())
             }
 
             fn visit_str<E: de::Error>(self, text: &str) -> Result<Machine, E> {
@@ -311,15 +312,6 @@ impl<'de> Deserialize<'de> for Machine {
     }
 }
 
-/// The keys of a row, as `docs/book/src/reference/project-file.md` has them.
-pub fn keys() -> String {
-    let mut text = "| key | takes | what it is |\n|---|---|---|\n".to_owned();
-    for key in KEYS {
-        text.push_str(&format!("| `{}` | {} | {} |\n", key.name, key.takes, key.doc));
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -330,13 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn the_document_has_the_keys_of_the_types() {
-        let document = include_str!("../../docs/book/src/reference/project-file.md");
-        assert!(
-            document.contains(&keys()),
-            "docs/book/src/reference/project-file.md differs from:\n{}",
-            keys()
-        );
+    fn the_keys_are_those_of_a_row() {
         let Err(wrong) = read("[[programs]]\nfiles = \"*\"\nnothing = 1\n") else { panic!("a key too many") };
         let names: Vec<String> = KEYS.iter().map(|key| format!("`{}`", key.name)).collect();
         let message = format!("unknown field `nothing`, expected one of {}", names.join(", "));

@@ -8,10 +8,12 @@ use std::collections::BTreeMap;
 
 use ncc_dialects::{DistanceName, FeedModeName, MotionName, PlaneName, ReturnLevelName, UnitsName};
 use serde::Deserialize;
+use serde::de::Unexpected;
 use toml::Spanned;
 
 use crate::fact::Fact;
 use crate::table::{Words, kebab, table};
+use crate::takes::Takes;
 
 /// A profile as its file has it.
 #[derive(Clone, Debug, Deserialize)]
@@ -97,7 +99,10 @@ impl<'de> Deserialize<'de> for Choice {
             Text(String),
         }
         let any = Any::deserialize(deserializer);
-        let any = any.map_err(|_| serde::de::Error::custom("expected a number or a word in quotes"))?;
+        let any = any.map_err(|_| {
+            let expected = Takes::NumberOrWord.expected();
+            serde::de::Error::invalid_type(Unexpected::Other("value"), &expected)
+        })?;
         Ok(Choice(match any {
             Any::Whole(number) => number.to_string(),
             Any::Number(number) => number.to_string(),
@@ -202,23 +207,23 @@ table! {
     /// no assumption any more.
     PowerOn "[power_on]" {
         /// Unit of length.
-        units: UnitsName = "`mm`, `inch`";
+        units: UnitsName = Takes::OneOf(&["mm", "inch"]);
         /// From where words are measured.
-        distance: DistanceName = "`absolute`, `incremental`";
+        distance: DistanceName = Takes::OneOf(&["absolute", "incremental"]);
         /// Plane of arcs.
-        plane: PlaneName = "`xy`, `zx`, `yz`";
+        plane: PlaneName = Takes::OneOf(&["xy", "zx", "yz"]);
         /// What F counts.
-        feed_mode: FeedModeName = "`per-minute`, `per-revolution`, `inverse-time`";
+        feed_mode: FeedModeName = Takes::OneOf(&["per-minute", "per-revolution", "inverse-time"]);
         /// Where canned cycles leave the tool (G98 or G99).
-        return_level: ReturnLevelName = "`initial`, `retract`";
+        return_level: ReturnLevelName = Takes::OneOf(&["initial", "retract"]);
         /// What a block with axis words alone does.
-        motion: MotionName = "`traverse`, `feed`";
+        motion: MotionName = Takes::OneOf(&["traverse", "feed"]);
         /// Work offset; on a control without words for it, the one of other controls that its only zero stands for (1 is G54).
-        work_offset: u32 = "a whole number";
+        work_offset: u32 = Takes::Whole;
         /// Entry of the length table; 0 is none.
-        length_offset: u32 = "a whole number";
+        length_offset: u32 = Takes::Whole;
         /// Whether no shift of the origin is left over from an earlier program.
-        no_origin_shift: bool = "`true`, `false`";
+        no_origin_shift: bool = Takes::OneOf(&["true", "false"]);
     }
 }
 
@@ -226,15 +231,15 @@ table! {
     /// Rates along the path.
     Rates "[rates]" {
         /// Rate of a rapid along its straight line, mm/min; where not stated, the axes' rates decide.
-        rapid: f64 = "a number above 0";
+        rapid: f64 = Takes::AboveZero;
         /// Highest feed, mm/min.
-        max_feed: f64 = "a number above 0";
+        max_feed: f64 = Takes::AboveZero;
         /// How far the path may leave a corner, mm; 0 is an exact stop in every corner. A length that the program states wins over it.
-        path_tolerance: f64 = "a number from 0";
+        path_tolerance: f64 = Takes::FromZero;
         /// Whether every move ends in a stop, in a straight line too. A path mode that the program states wins over it.
-        exact_stop: bool = "`true`, `false`";
+        exact_stop: bool = Takes::OneOf(&["true", "false"]);
         /// Blocks with a move that the control knows beyond the one that it carries out; where not stated, the whole path.
-        look_ahead: u32 = "a whole number above 0";
+        look_ahead: u32 = Takes::WholeAboveZero;
     }
 }
 
@@ -242,17 +247,17 @@ table! {
     /// Times, in seconds.
     Times "[times]" {
         /// A tool change.
-        tool_change: f64 = "a number from 0";
+        tool_change: f64 = Takes::FromZero;
         /// The function that takes it.
-        tool_change_on: ChangeOn = "`change`, `select`";
+        tool_change_on: ChangeOn = Takes::OneOf(&["change", "select"]);
         /// Until the spindle turns at its speed.
-        spindle_start: f64 = "a number from 0";
+        spindle_start: f64 = Takes::FromZero;
         /// Until it stands.
-        spindle_stop: f64 = "a number from 0";
+        spindle_stop: f64 = Takes::FromZero;
         /// An M function, besides what it does.
-        m_function: f64 = "a number from 0";
+        m_function: f64 = Takes::FromZero;
         /// Least time of a block with a move: what the control needs to prepare the next one.
-        block: f64 = "a number from 0";
+        block: f64 = Takes::FromZero;
     }
 }
 
@@ -260,9 +265,9 @@ table! {
     /// The spindle.
     Spindle "[spindle]" {
         /// Highest speed, rev/min.
-        max_speed: f64 = "a number above 0";
+        max_speed: f64 = Takes::AboveZero;
         /// Change of its speed, rev/min per second.
-        acceleration: f64 = "a number above 0";
+        acceleration: f64 = Takes::AboveZero;
     }
 }
 
@@ -270,17 +275,17 @@ table! {
     /// An axis.
     AxisRow "[[axis]]" {
         /// Its letter.
-        letter: String = "`X`, `Y`, `Z`, `A`, `B`, `C`";
+        letter: String = Takes::OneOf(&["X", "Y", "Z", "A", "B", "C"]);
         /// Least and greatest machine coordinate, mm or degrees.
-        travel: [f64; 2] = "two numbers, the lower one first";
+        travel: [f64; 2] = Takes::LowAndHigh;
         /// Rate in rapids, mm/min or degrees/min.
-        rapid: f64 = "a number above 0";
+        rapid: f64 = Takes::AboveZero;
         /// Highest feed, mm/min or degrees/min.
-        max_feed: f64 = "a number above 0";
+        max_feed: f64 = Takes::AboveZero;
         /// Acceleration, mm/s² or degrees/s².
-        acceleration: f64 = "a number above 0";
+        acceleration: f64 = Takes::AboveZero;
         /// Jerk, mm/s³ or degrees/s³.
-        jerk: f64 = "a number above 0";
+        jerk: f64 = Takes::AboveZero;
     }
 }
 
@@ -288,19 +293,19 @@ table! {
     /// A tool.
     ToolRow "[[tool]]" {
         /// Its number.
-        number: u32 = "a whole number";
+        number: u32 = Takes::Whole;
         /// Its name, the same word on every machine: tools of two machines that have one name are one tool.
-        name: String = "text";
+        name: String = Takes::Text;
         /// The entry of the length table that has its length; where not stated, the one with the tool's number. Not on a control whose tools have edges.
-        length_entry: u32 = "a whole number above 0";
+        length_entry: u32 = Takes::WholeAboveZero;
         /// Its length, mm: what that entry has, and edge 1 on a control whose tools have edges.
-        length: f64 = "a number from 0 to 1000000";
+        length: f64 = Takes::Between { least: 0, most: 1_000_000 };
         /// The entry of the table of radii that has half of its diameter; where not stated, the one that has its length.
-        radius_entry: u32 = "a whole number above 0";
+        radius_entry: u32 = Takes::WholeAboveZero;
         /// Its diameter, mm.
-        diameter: f64 = "a number from 0";
+        diameter: f64 = Takes::FromZero;
         /// Its place in the magazine.
-        pocket: u32 = "a whole number";
+        pocket: u32 = Takes::Whole;
     }
 }
 
@@ -309,11 +314,11 @@ table! {
     /// machine's length table has its length and its radius. Without a row it gets a free one, which is told.
     EdgeRow "[[edge]]" {
         /// The tool's number on this machine.
-        tool: u32 = "a whole number above 0";
+        tool: u32 = Takes::WholeAboveZero;
         /// Its edge on the other machine.
-        edge: u32 = "a whole number from 2 to 9";
+        edge: u32 = Takes::WholeBetween { least: 2, most: 9 };
         /// The entry.
-        length_entry: u32 = "a whole number above 0";
+        length_entry: u32 = Takes::WholeAboveZero;
     }
 }
 
@@ -321,21 +326,21 @@ table! {
     /// A work offset: program zero in machine coordinates.
     WorkOffsetRow "[[work_offset]]" {
         /// Its number; 1 is G54.
-        number: u32 = "a whole number above 0";
+        number: u32 = Takes::WholeAboveZero;
         /// Its name, the same word on every machine: `vice-left`.
-        name: String = "text";
+        name: String = Takes::Text;
         /// Along X, mm.
-        x: f64 = "a number from -1000000 to 1000000";
+        x: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
         /// Along Y, mm.
-        y: f64 = "a number from -1000000 to 1000000";
+        y: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
         /// Along Z, mm.
-        z: f64 = "a number from -1000000 to 1000000";
+        z: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
         /// About X, degrees.
-        a: f64 = "a number from -1000000 to 1000000";
+        a: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
         /// About Y, degrees.
-        b: f64 = "a number from -1000000 to 1000000";
+        b: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
         /// About Z, degrees.
-        c: f64 = "a number from -1000000 to 1000000";
+        c: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
     }
 }
 
@@ -344,9 +349,9 @@ table! {
     /// called so.
     ProgramRow "[[program]]" {
         /// Its number; on a control that calls by number, of at most as many digits as it has.
-        number: u32 = "a whole number above 0";
+        number: u32 = Takes::WholeAboveZero;
         /// Its name: what a control calls it that calls by name. Small letters count as capitals.
-        name: String = "letters, digits and underlines, a letter first";
+        name: String = Takes::ProgramName;
     }
 }
 
@@ -355,13 +360,13 @@ table! {
     /// another where both name the same function, and left out where it has no effect on the cut.
     MCodeRow "[[m_code]]" {
         /// The code as it is written; a row without it says nothing.
-        code: String = "`M` and a number";
+        code: String = Takes::MCode;
         /// Its function, the same word on every machine: `chip-conveyor-on`.
-        function: String = "small letters, digits and hyphens";
+        function: String = Takes::FunctionName;
         /// In place of a function: that it has no effect on the cut. It is left out of a translation, and told.
-        effect: Effect = "`none`";
+        effect: Effect = Takes::OneOf(&["none"]);
         /// Seconds that it takes.
-        seconds: f64 = "a number from 0";
+        seconds: f64 = Takes::FromZero;
     }
 }
 
@@ -370,9 +375,9 @@ table! {
     /// itself, and it is told.
     ValueRow "[[value]]" {
         /// The variable, as programs have it: `500`, `_tool_diameter`, `R5`.
-        name: String = "text";
+        name: String = Takes::Text;
         /// What it holds.
-        holds: f64 = "a number from -1000000 to 1000000";
+        holds: f64 = Takes::Between { least: -1_000_000, most: 1_000_000 };
     }
 }
 
@@ -380,32 +385,32 @@ table! {
     /// How programs for this machine are written.
     Emit "[emit]" {
         /// Whether blanks stand between words.
-        blanks: bool = "`true`, `false`";
+        blanks: bool = Takes::OneOf(&["true", "false"]);
         /// Block numbers.
-        block_numbers: BlockNumbers = "`off`, `keep`, `new`";
+        block_numbers: BlockNumbers = Takes::OneOf(&["off", "keep", "new"]);
         /// The first of new block numbers.
-        first_number: u32 = "a whole number up to 99999";
+        first_number: u32 = Takes::WholeBetween { least: 0, most: 99_999 };
         /// The step of new block numbers.
-        number_step: u32 = "a whole number from 1 to 99999";
+        number_step: u32 = Takes::WholeBetween { least: 1, most: 99_999 };
         /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and told.
-        decimals: u32 = "a whole number";
+        decimals: u32 = Takes::Whole;
         /// The same, of lengths in inches.
-        decimals_inch: u32 = "a whole number";
+        decimals_inch: u32 = Takes::Whole;
         /// Line ends.
-        line_ends: LineEnds = "`keep`, `lf`, `crlf`";
+        line_ends: LineEnds = Takes::OneOf(&["keep", "lf", "crlf"]);
         /// Characters.
-        characters: Characters = "`capitals`, `ascii`, `latin1`, `utf8`";
+        characters: Characters = Takes::OneOf(&["capitals", "ascii", "latin1", "utf8"]);
         /// Lines of comment at the beginning, after the one that ncc writes.
-        header: Vec<String> = "a list of texts of one line each";
+        header: Vec<String> = Takes::Lines;
         /// Lines of comment before the end of the program.
-        footer: Vec<String> = "a list of texts of one line each";
+        footer: Vec<String> = Takes::Lines;
         /// Whether a tool is selected and changed in one block or in two.
-        tool_change: ToolChangeForm = "`one-block`, `two-blocks`";
+        tool_change: ToolChangeForm = Takes::OneOf(&["one-block", "two-blocks"]);
         /// What a file is named by, where `-o` names a folder.
-        file_name: FileName = "`source`, `program-number`";
+        file_name: FileName = Takes::OneOf(&["source", "program-number"]);
         /// Extension of files, without the dot.
-        extension: String = "letters and digits";
+        extension: String = Takes::Extension;
         /// Whether names of files are in capitals.
-        upper_case: bool = "`true`, `false`";
+        upper_case: bool = Takes::OneOf(&["true", "false"]);
     }
 }

@@ -4,16 +4,17 @@
 use std::ops::Range;
 
 use crate::fact::Fact;
+use crate::takes::Takes;
 
 /// A key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
     /// Its name.
     pub name: &'static str,
-    /// What it takes, in words.
-    pub takes: &'static str,
-    /// What it means.
-    pub doc: &'static str,
+    /// The values that it takes.
+    pub takes: Takes,
+    /// The thing that it states.
+    pub about: &'static str,
 }
 
 /// A fact of a profile, for people.
@@ -118,7 +119,7 @@ pub(crate) fn kebab(name: &str) -> String {
 
 macro_rules! table {
     ($(#[doc = $about:literal])+ $name:ident $head:literal {
-        $( $(#[doc = $doc:literal])+ $field:ident: $ty:ty = $takes:literal; )*
+        $( $(#[doc = $doc:literal])+ $field:ident: $ty:ty = $takes:expr; )*
     }) => {
         $(#[doc = $about])+
         #[derive(Clone, Debug, Default, serde::Deserialize)]
@@ -131,7 +132,7 @@ macro_rules! table {
             const KEYS: &'static [$crate::table::Key] = &[ $( $crate::table::Key {
                 name: stringify!($field),
                 takes: $takes,
-                doc: concat!($($doc),+),
+                about: concat!($($doc),+),
             } ),* ];
             fn stated(&self) -> Vec<$crate::table::Stated> {
                 vec![ $( $crate::table::Tell::tell(&self.$field, stringify!($field)) ),* ]

@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use crate::takes::Takes;
+
 /// A fault of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProfileError {
@@ -21,13 +23,85 @@ impl ProfileError {
     }
 }
 
+/// A thing that a profile has once.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the fields are its number or its name, as the file has them")]
+pub enum Twice {
+    Axis { letter: String },
+    Tool { number: u32 },
+    ToolName { name: String },
+    Pocket { number: u32 },
+    LengthEntry { number: u32 },
+    Edge { tool: u32, edge: u32 },
+    WorkOffset { number: u32 },
+    WorkOffsetName { name: String },
+    Program { number: u32 },
+    ProgramName { name: String },
+    Code { code: String },
+}
+
+/// A thing that needs a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// An axis needs its letter.
+    Axis,
+    /// A tool needs its number.
+    Tool,
+    /// An edge needs its tool, its number and its entry.
+    Edge,
+    /// A work offset needs its number.
+    WorkOffset,
+    /// A program needs its number.
+    Program,
+    /// New block numbers need the first number and the step.
+    NewNumbers,
+}
+
+/// A thing that a dialect lacks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lacks {
+    /// A length table: the tools have edges.
+    LengthTable,
+    /// Block numbers.
+    BlockNumbers,
+    /// Comments.
+    Comments,
+    /// Program numbers.
+    ProgramNumbers,
+}
+
+/// Why no file can match a pattern.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PatternFault {
+    /// It is empty.
+    Empty,
+    /// It separates folders by a backslash.
+    Backslash,
+    /// It leaves the folder of the project file.
+    Outside,
+    /// The list has no pattern.
+    NoneInList,
+    /// It is not of the form of a pattern.
+    Unread {
+        /// The words of the pattern's reader.
+        reader: String,
+    },
+}
+
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wrong {
-    /// Not the form of a profile: not TOML, a key that there is not, a value of another kind.
+    /// Not the form of a profile: not TOML, a key that there is not.
     Form {
         /// What the reader of the form says.
         message: String,
+    },
+    /// A value of a kind that its key does not take: a text for a number.
+    Kind {
+        /// The value, as the file has it.
+        found: String,
+        /// The values that the key takes.
+        takes: Takes,
     },
     /// No dialect of that name.
     UnknownDialect {
@@ -58,7 +132,7 @@ pub enum Wrong {
     /// An axis, a tool, a work offset, a program or a code twice, or the name of one.
     Twice {
         /// What stands twice.
-        what: String,
+        what: Twice,
     },
     /// The lower end of a travel is not below the upper one.
     UpsideDown,
@@ -67,14 +141,14 @@ pub enum Wrong {
         /// The key.
         key: &'static str,
         /// What it takes.
-        takes: &'static str,
+        takes: Takes,
     },
     /// A key without which the table says nothing.
     Missing {
         /// The key.
         key: &'static str,
-        /// Why.
-        why: &'static str,
+        /// What needs the key.
+        needs: Needs,
     },
     /// An M code that the dialect has.
     CodeKnown {
@@ -100,7 +174,7 @@ pub enum Wrong {
         /// The key.
         key: &'static str,
         /// What the dialect does not have.
-        lacks: &'static str,
+        lacks: Lacks,
     },
     /// A project file names a machine that is neither shipped nor a file.
     NoMachine {
@@ -114,7 +188,7 @@ pub enum Wrong {
     /// A pattern of a project file that no file can match.
     Pattern {
         /// Why not.
-        message: String,
+        why: PatternFault,
     },
     /// Two rows of a project file match one program.
     TwoRows {
@@ -139,7 +213,7 @@ impl Wrong {
     /// The number of its stable code: 701 is `NC0701`.
     pub const fn code(&self) -> u16 {
         match self {
-            Wrong::Form { .. } => 701,
+            Wrong::Form { .. } | Wrong::Kind { .. } => 701,
             Wrong::UnknownDialect { .. } => 702,
             Wrong::UnknownOption { .. } => 703,
             Wrong::OptionValue { .. } => 704,

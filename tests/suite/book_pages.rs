@@ -145,7 +145,7 @@ fn page(dialect: &Dialect) -> String {
                 option.name.clone(),
                 values,
                 option.default.clone(),
-                option.doc.clone(),
+                ncc_driver::render::dialects::option_about(dialect, option),
                 option.source.clone(),
             ]
         })

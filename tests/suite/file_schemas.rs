@@ -10,8 +10,10 @@
 //! keys that the readers themselves name.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::fs;
 
+use ncc_driver::machines::words::takes_words;
 use ncc_machines::project;
 use ncc_machines::schema::{
     AxisRow, EdgeRow, Emit, MCodeRow, PowerOn, ProgramRow, Rates, Spindle, Times, ToolRow, ValueRow,
@@ -226,7 +228,7 @@ fn dialect_schema() -> Value {
 /// The schema of a table with a fixed set of keys. A fact is a value, or a table with its source.
 fn of_keys(keys: &[Key]) -> Value {
     let fact = |key: &Key| {
-        let about = format!("{} Takes {}.", key.doc, key.takes);
+        let about = format!("{} Takes {}.", key.about, takes_words(key.takes));
         json!({
             "type": ["string", "number", "boolean", "array", "object"],
             "description": about,
@@ -303,7 +305,7 @@ fn profile_schema() -> Value {
 fn project_schema() -> Value {
     let mut row = Map::new();
     for key in project::KEYS {
-        let about = format!("{} Takes {}.", key.doc, key.takes);
+        let about = format!("{} Takes {}.", key.about, takes_words(key.takes));
         let value = match key.name {
             "machine" | "to" => json!({
                 "type": ["string", "object"],
@@ -431,4 +433,45 @@ fn keys_are_those_that_the_reader_names() {
         named.sort();
         assert_eq!(own(table), named, "{table}: {told}");
     }
+}
+
+/// The table of keys of a page of the book.
+fn book_table(keys: &[Key]) -> String {
+    let mut text = "| key | takes | what it is |\n|---|---|---|\n".to_owned();
+    for key in keys {
+        let _ = writeln!(text, "| `{}` | {} | {} |", key.name, takes_words(key.takes), key.about.trim());
+    }
+    text
+}
+
+#[test]
+fn the_pages_of_profiles_and_project_files_have_every_key() {
+    fn table<T: Table>() -> String {
+        format!("### `{}`\n\n{}\n\n{}", T::HEAD, T::ABOUT.trim(), book_table(T::KEYS))
+    }
+    let parts = [
+        table::<PowerOn>(),
+        table::<Rates>(),
+        table::<Times>(),
+        table::<Spindle>(),
+        table::<AxisRow>(),
+        table::<ToolRow>(),
+        table::<EdgeRow>(),
+        table::<WorkOffsetRow>(),
+        table::<ProgramRow>(),
+        table::<MCodeRow>(),
+        table::<ValueRow>(),
+        table::<Emit>(),
+    ];
+    let page = include_str!("../../docs/book/src/reference/machine-profile.md");
+    let tables = parts.join("\n");
+    assert!(page.contains(&tables), "docs/book/src/reference/machine-profile.md differs from:\n{tables}");
+    use ncc_machines::reading::{BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, OFFSET_WITH_Z};
+    let further = ["id", "title", "dialect", "typical", "notes"];
+    for key in [BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, OFFSET_WITH_Z].into_iter().chain(further) {
+        assert!(page.contains(&format!("| `{key}` |")), "{key}");
+    }
+    let page = include_str!("../../docs/book/src/reference/project-file.md");
+    let keys = book_table(project::KEYS);
+    assert!(page.contains(&keys), "docs/book/src/reference/project-file.md differs from:\n{keys}");
 }

@@ -16,6 +16,12 @@ use crate::ticks::{clock, duration, in_seconds, number};
 use crate::way::Stroke;
 
 const STYLE: &str = include_str!("report.css");
+/// The second program takes less time than the first.
+const SHORTER: &str = include_str!("shorter.html");
+/// The second program takes more time than the first.
+const LONGER: &str = include_str!("longer.html");
+/// The programs do not make the same moves, so that no curve compares them.
+const OTHER_MOVES: &str = include_str!("other_moves.html");
 const SCRIPT: [&str; 2] = [include_str!("reading.js"), include_str!("page.js")];
 
 /// A program in a report.
@@ -52,15 +58,14 @@ pub fn report(pages: &[Page], version: &str) -> String {
     if let [a, b] = pages {
         let (a, b) = (&a.record, &b.record);
         let off = (b.end - b.begin) - (a.end - a.begin);
-        let how = if off < 0.0 { "less" } else { "more" };
-        let _ = writeln!(
-            html,
-            "<p>{} takes {} {how} than {}.{}</p>",
-            escape(&b.name),
-            duration(off.abs()),
-            escape(&a.name),
-            if later(a, b).is_some() { "" } else { " They do not make the same number of moves." }
-        );
+        let compared = if off < 0.0 { SHORTER } else { LONGER };
+        let words =
+            [("{first}", escape(&a.name)), ("{second}", escape(&b.name)), ("{time}", duration(off.abs()))];
+        let fill = |text: &str, (place, word): &(&str, String)| text.replace(place, word);
+        html.push_str(&words.iter().fold(compared.to_owned(), |text, word| fill(&text, word)));
+        if later(a, b).is_none() {
+            html.push_str(OTHER_MOVES);
+        }
     }
     html.push_str(BODY);
     let data = json!({
@@ -83,16 +88,8 @@ pub fn report(pages: &[Page], version: &str) -> String {
     html
 }
 
-const BODY: &str = "<noscript><p>The pictures of this page are drawn by its own script, which is switched off.</p>\
-</noscript>\n</header>\n<main>\n<section id=\"pictures\">\n\
-<div class=\"bar\"><span class=\"hint\">Wheel: zoom. Drag: move. Double click: all of it. Click: the block.</span></div>\n\
-<div class=\"chart\"><canvas id=\"charts\" tabindex=\"0\" aria-label=\"Charts over time\"></canvas></div>\n\
-<div class=\"views\">\n\
-<figure><figcaption>Plan</figcaption><canvas id=\"plan\" aria-label=\"Tool path from above\"></canvas></figure>\n\
-<figure><figcaption>Isometric</figcaption><canvas id=\"isometric\" aria-label=\"Tool path, isometric\"></canvas></figure>\n\
-</div>\n<div id=\"legend\"></div>\n</section>\n\
-<aside><div id=\"tabs\"></div><div id=\"source\" tabindex=\"0\" aria-label=\"Source\"></div></aside>\n\
-</main>\n<div id=\"tip\" hidden></div>\n";
+/// The page below its head.
+const BODY: &str = include_str!("body.html");
 
 fn summary(page: &Page, named: bool, html: &mut String) {
     let (record, sums) = (&page.record, &page.record.sums);
@@ -111,11 +108,9 @@ fn summary(page: &Page, named: bool, html: &mut String) {
     rows.push(("Cutting".to_owned(), format!("{}, {}", part(sums.cutting), way(sums.cutting_way))));
     rows.push(("Rapid".to_owned(), format!("{}, {}", part(sums.rapid), way(sums.rapid_way))));
     rows.push(("Other".to_owned(), part(sums.idle)));
-    let (moves, holes) = (number(sums.moves as f64, 1.0), number(sums.holes as f64, 1.0));
-    rows.push((
-        "Moves".to_owned(),
-        format!("{moves}, holes of cycles: {holes}, tool changes: {}", sums.changes),
-    ));
+    rows.push(("Moves".to_owned(), number(sums.moves as f64, 1.0)));
+    rows.push(("Holes of cycles".to_owned(), number(sums.holes as f64, 1.0)));
+    rows.push(("Tool changes".to_owned(), sums.changes.to_string()));
     let extent = &record.way.extent;
     if !extent.is_empty() {
         let of = |i: usize| {

@@ -42,19 +42,19 @@ pub enum Fact {
 }
 
 impl Fact {
-    /// Its name in plain words.
+    /// Its name, by which its words are found.
     pub const fn name(self) -> &'static str {
         match self {
-            Fact::RapidRate => "rapid rate",
+            Fact::RapidRate => "rapid-rate",
             Fact::Acceleration => "acceleration",
             Fact::Jerk => "jerk",
-            Fact::PathTolerance => "path tolerance",
-            Fact::ExactStop => "exact stop after every move",
-            Fact::ToolChange => "time of a tool change",
-            Fact::SpindleStart => "time of a spindle start",
-            Fact::SpindleStop => "time of a spindle stop",
-            Fact::MFunction => "time of an M function",
-            Fact::Block => "block processing time",
+            Fact::PathTolerance => "path-tolerance",
+            Fact::ExactStop => "exact-stop",
+            Fact::ToolChange => "tool-change",
+            Fact::SpindleStart => "spindle-start",
+            Fact::SpindleStop => "spindle-stop",
+            Fact::MFunction => "m-function",
+            Fact::Block => "block",
             Fact::LookAhead => "look-ahead",
         }
     }

@@ -36,7 +36,7 @@ pub struct UnknownModel(pub String);
 impl std::fmt::Display for UnknownModel {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let names = Model::ALL.map(Model::name).join(", ");
-        write!(f, "no model is called {:?}; there are {names}", self.0)
+        write!(f, "{:?}: {names}", self.0)
     }
 }
 

@@ -16,6 +16,7 @@ mod arcs;
 mod feeds;
 mod holes;
 mod moves;
+mod notes;
 mod offsets;
 mod order;
 mod switches;
@@ -283,23 +284,17 @@ impl Printer<'_> {
                 Plane::Yz => "SELECT_PLANE(CANON_PLANE_YZ)",
             }),
             Op::SetDistanceMode(distance) if self.at.modes.distance != Some(*distance) => {
-                self.note(match distance {
-                    Distance::Absolute => "distance mode changed to absolute",
-                    Distance::Incremental => "distance mode changed to incremental",
-                });
+                self.note(notes::distance(*distance));
             }
             Op::SetDistanceMode(_) => {}
-            Op::SetReturnLevel(level) => self.note(match level {
-                ReturnLevel::Initial => "retract mode set to old_z",
-                ReturnLevel::Retract => "retract mode set to r_plane",
-            }),
+            Op::SetReturnLevel(level) => self.note(notes::return_level(*level)),
             Op::StartCutterRadiusCompensation { side, .. } => {
                 self.beside = true;
-                self.note(&format!("cutter radius compensation on {}", side.name()));
+                self.note(notes::compensation(*side));
             }
             Op::StopCutterRadiusCompensation => {
                 self.beside = false;
-                self.note("cutter radius compensation off");
+                self.note(notes::COMPENSATION_OFF);
             }
             Op::SetFeedMode(mode) => self.feed_mode(*mode)?,
             // By time, each move gets its own.
@@ -340,7 +335,7 @@ impl Printer<'_> {
                 let _ = writeln!(self.out, "DWELL({:.4})", literal(seconds)?);
             }
             Op::SetOriginOffsets(number) if *number == self.offset => {
-                self.note("continuing to use same coordinate system");
+                self.note(notes::SAME_OFFSET);
             }
             Op::SetOriginOffsets(number) => {
                 self.offset = *number;
@@ -357,7 +352,7 @@ impl Printer<'_> {
                     self.work_offset(offset);
                     self.work_turn(offset);
                 }
-                Data::Offset { .. } => self.note("setting coordinate system origin"),
+                Data::Offset { .. } => self.note(notes::OFFSET_SET),
                 // The block's entry is printed behind all that it sets; radii have no place in that call.
                 Data::Tool { .. } | Data::Measured { .. } => {}
                 // It is kept without a call.

@@ -35,7 +35,7 @@ impl Writer {
         self.words.corner = Some(format!("{comma}{}{}", word.letter, String::from_utf8_lossy(&text)));
         let unsure = self.dialect.address_row(word.letter as u8).is_some_and(|row| !row.sure && !word.comma);
         if unsure && !std::mem::replace(&mut self.told_corner, true) {
-            let (code, meaning) = (word.letter.to_string().into(), "corner rounding or chamfer".into());
+            let (code, meaning) = (word.letter.to_string().into(), "CORNER".into());
             sink.report(Fault::AssumedRow { code, meaning }, span);
         }
         Ok(())

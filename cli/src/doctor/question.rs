@@ -5,7 +5,9 @@ use std::io;
 
 use ncc_dialects::Dialect;
 use ncc_driver::job::Outcome;
+use ncc_driver::machines::words::takes_words;
 use ncc_driver::render::About;
+use ncc_driver::render::dialects::option_about;
 use ncc_driver::render::messages::words::Context;
 use ncc_driver::render::numbers::numbered;
 use ncc_driver::render::summary::phrase;
@@ -101,14 +103,16 @@ fn takes(place: &Place, dialect: &Dialect) -> String {
     match place {
         Place::PowerOn(key) => {
             let key = PowerOn::KEYS.iter().find(|k| k.name == *key);
-            key.map_or(String::new(), |k| format!("{} possible: {}", k.doc.trim(), k.takes.replace('`', "")))
+            key.map_or(String::new(), |k| {
+                format!("{} possible: {}", k.about.trim(), takes_words(k.takes).replace('`', ""))
+            })
         }
         Place::Option(name) => dialect.option.iter().find(|o| o.name == *name).map_or(String::new(), |row| {
             let values = match row.values.is_empty() {
                 true => "a number".to_owned(),
                 false => row.values.join(", "),
             };
-            format!("{} possible: {values}", row.doc)
+            format!("{} possible: {values}", option_about(dialect, row))
         }),
         Place::Confirmed(_) => "is it so on this machine? possible: true, false".to_owned(),
         Place::Code(_) => "a name for its function, in small letters; the same in the profile of the other \

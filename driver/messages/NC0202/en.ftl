@@ -731,6 +731,8 @@ NC0202-Table-TableInInches = `{ $code }`: a table value in inches
     .help = write it where `{ $mm }` is active
 
 ## Calls, returns and what they give
+NC0202-Call-Arguments = `{ $code }`: a call with arguments
+    .label = this call cannot be expanded
 NC0202-Call-BesideWords = `{ $code }`: a call beside other words
     .label = which of them comes first?
     .help = write the call in a block of its own

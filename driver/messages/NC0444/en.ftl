@@ -1,3 +1,16 @@
-NC0444 = `{ $code }` left out
+NC0444 =
     .label = stated to have no effect on the cut
+NC0444-Code = `{ $code }` left out
     .account = { $code } left out, as stated
+NC0444-ReadAs = `{ $code }` ({ $other } in its place) left out
+    .account = { $code } ({ $other } in its place) left out, as stated
+NC0444-WithoutAxis = `{ $code }` without an axis left out
+    .account = { $code } without an axis left out, as stated
+NC0444-WithoutLetter = `{ $code }` without { $letter } left out
+    .account = { $code } without { $letter } left out, as stated
+NC0444-Call = call of `{ $name }` left out
+    .account = call of { $name } left out, as stated
+NC0444-Dwell = dwell of `{ $code }` left out
+    .account = dwell of { $code } left out, as stated
+NC0444-Assignment = assignment to `{ $name }` left out
+    .account = assignment to { $name } left out, as stated

@@ -1,2 +1,12 @@
-NC0709 = { $key } is missing
-    .label = { $why }
+NC0709-axis = { $key } is missing
+    .label = which axis is it?
+NC0709-tool = { $key } is missing
+    .label = which tool is it?
+NC0709-edge = { $key } is missing
+    .label = an edge has `tool`, `edge` and `length_entry`
+NC0709-work-offset = { $key } is missing
+    .label = which work offset is it?
+NC0709-program = { $key } is missing
+    .label = which program is it?
+NC0709-new-numbers = { $key } is missing
+    .label = new block numbers need `first_number` and `number_step`

@@ -1,3 +1,15 @@
 NC0715 = no file can match this pattern
-    .label = { $message }
+    .label = { $reader }
+    .help = write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`
+NC0715-empty = no file can match this pattern
+    .label = it is empty
+    .help = write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`
+NC0715-backslash = no file can match this pattern
+    .label = folders are separated by `/`
+    .help = write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`
+NC0715-outside = no file can match this pattern
+    .label = only files below the folder of this file can match
+    .help = write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`
+NC0715-none = no file can match this pattern
+    .label = there is none in the list
     .help = write a path from the folder of this file, such as `*.nc` or `old/**/*.nc`

@@ -61,3 +61,7 @@ dialect-work-offset = work offset
 dialect-length-offset = length offset
 dialect-no-shift = no origin shift
 dialect-corners = corners
+
+# What the option of an open behaviour states.
+dialect-behaviour-option = What becomes of the { $about }. `unknown`: ncc runs the program with each value, the usual one (`{ $usual }`) first, and reports where they differ.
+dialect-behaviour-option-variant = What becomes of the { $about }. `unknown`: ncc runs the program with each value, the usual one (`{ $usual }`) first, and reports where they differ. It counts with { $when }.

@@ -40,6 +40,8 @@ dictionary-name = row { $row }: never read: this control has no words of several
     .help = only dialects on siemens read [[name]] and [[call]]; a code is a row of [[code]]
 dictionary-form = { $fault }
     .help = `ncc dialects schema` lists the tables and their fields
+dictionary-base-no-text = `base` is not a text
+    .help = write the name of a dialect: `base = "fanuc"`
 dictionary-missing = a dictionary states its own `{ $field }`
     .help = give it a name of its own: `id = "shop"`; a command's name cannot be one
 dictionary-no-id = `{ $name }` is not a name for a dialect: letters, digits, `_` and `-`, a letter first
@@ -124,3 +126,9 @@ dictionary-tested = { $rows ->
        *[other] { $rows } rows tested ({ $tables }), { $failed } failed
     }
 dictionary-unsure = { $count } not confirmed by any source (`sure = false`, marked ?): { $rows }
+
+# Rows of the test that are no rows of a table.
+dictionary-row-any-letters = comment in any letters
+dictionary-row-number-by = program number by { $letter }
+dictionary-row-repeat = repetition of blocks
+dictionary-row-polar = points by radius and angle

@@ -124,3 +124,11 @@ difference-mute-control = messages are not compared: { $dialect } has none
 difference-units = one program is in inches, the other in millimetres
 difference-sampled = too many block-skip switches: not all of their settings were tried
 difference-lost = the programs are too long to be matched again after a part where they have nothing in common
+
+# Why an output of ncc itself is not released.
+difference-head = the head of the output is more than a comment
+difference-no-call = the listing has a line that is no call of it: { $line }
+
+# The page of `ncc diff --format html`.
+difference-page-compared = Compared: { $same } events that agree, { $first } and { $second } that do not; in { $set-ups } test set-ups, under { $settings } setting(s) of the block-skip switches, within { $within } mm.
+difference-page-left-out = … and { $more } more, too many to be listed.

@@ -83,3 +83,7 @@ event-compensation-diameter = { $side } in { $plane } by diameter { $diameter }
 event-compensation-edge = { $side } in { $plane } by an edge of the tool
 event-compensation-again = { $compensation }, switched on again
 event-compensation-contour-feed = { $compensation }, F along the contour
+
+# Events in one line, beside the block that makes them.
+event-line-orient = spindle stopped at { $angle }°
+event-line-text-end = end of the text

@@ -27,3 +27,27 @@ machine-tools-and-offsets = the names of its { $tools ->
         [one] 1 work offset
        *[other] { $offsets } work offsets
     }, from other numbers
+
+# The values that a key takes: in `it takes …`, in the tables of the book and in the JSON Schemas.
+machine-takes-text = text
+machine-takes-texts = a text, or a list of texts
+machine-takes-number = a number
+machine-takes-number-or-word = a number, or a word in quotes
+machine-takes-fact = a value, `""` for none, or a table with `value` and `source`
+machine-takes-whole = a whole number
+machine-takes-whole-above-zero = a whole number above 0
+machine-takes-whole-between = a whole number from { $least } to { $most }
+machine-takes-whole-up-to = a whole number up to { $most }
+machine-takes-from-zero = a number from 0
+machine-takes-above-zero = a number above 0
+machine-takes-between = a number from { $least } to { $most }
+machine-takes-low-and-high = two numbers, the lower one first
+machine-takes-program-name = letters, digits and underlines, a letter first
+machine-takes-function-name = small letters, digits and hyphens
+machine-takes-m-code = `M` and a number
+machine-takes-lines = a list of texts of one line each
+machine-takes-extension = letters and digits
+machine-takes-patterns = a pattern, or a list of them
+machine-takes-machine = a profile's file, the name of a shipped profile, or a table with the keys of a profile
+machine-takes-folder = a folder
+machine-takes-folders = a folder, or a list of them

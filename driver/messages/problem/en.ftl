@@ -3,6 +3,8 @@ problem-file = cannot { $action } { $name }: { $reason }
 problem-not-found = there is no such file or folder
 problem-denied = permission denied
 problem-folder = it is a folder
+problem-side-broken-off = its execution broke off; please report it with this program
+problem-long-map = its map cannot have places above 4 GiB
 problem-no-store = cannot use the folder of temporary files, { $folder }: { $reason }
     .help = name a folder with free space: { $variable }=/var/tmp ncc …
 problem-interrupted-at = interrupted at line { $line } of { $name }; nothing was written

@@ -41,3 +41,6 @@ summary-lines-more = lines { $lines } and { $more } more
 summary-places = { $more } places
 summary-file-line = { $file } line { $lines }
 summary-file-line-more = { $file } line { $lines } and { $more } elsewhere
+
+# What `ncc.toml` answers, where options state all of it.
+summary-no-answers = nothing that is not stated by options

@@ -31,3 +31,16 @@ time-whole-path = the whole path
 time-model-ideal = rates and fixed times, no acceleration
 time-model-trapezoidal = rates and accelerations of the axes, look-ahead, no jerk
 time-model-jerk-limited = rates, accelerations and jerk of the axes, look-ahead
+
+# Facts that a model of time needs.
+time-fact-rapid-rate = rapid rate
+time-fact-acceleration = acceleration
+time-fact-jerk = jerk
+time-fact-path-tolerance = path tolerance
+time-fact-exact-stop = exact stop after every move
+time-fact-tool-change = time of a tool change
+time-fact-spindle-start = time of a spindle start
+time-fact-spindle-stop = time of a spindle stop
+time-fact-m-function = time of an M function
+time-fact-block = block processing time
+time-fact-look-ahead = look-ahead

@@ -21,10 +21,11 @@ fn comments(bench: &Bench, rows: &mut Vec<Row>) {
     if rules.open.is_empty() {
         return;
     }
+    let any_letters = dictionary("row-any-letters").headline();
     let mut texts = vec![("comment", "TEXT OF 1234567890".to_owned())];
     match rules.upper_ascii {
         true => texts.extend(rules.signs.chars().map(|c| ("comment sign", format!("A {c} B")))),
-        false => texts.push(("comment in any letters", "Bohrung Ø8 + Fase, 45°".to_owned())),
+        false => texts.push((any_letters.as_str(), "Bohrung Ø8 + Fase, 45°".to_owned())),
     }
     // A comment needs its marks, and room in the longest block.
     let block = bench.dialect.block.longest;
@@ -82,7 +83,8 @@ fn program_numbers(bench: &Bench, rows: &mut Vec<Row>) {
         tries.push(("program title".to_owned(), ProgramName { number: Some(12), title }, letter));
     }
     if let Some(also) = rules.number_also {
-        tries.push((format!("program number by {also}"), ProgramName { number: Some(7), title: None }, also));
+        let row = dictionary("row-number-by").text("letter", also.to_string()).headline();
+        tries.push((row, ProgramName { number: Some(7), title: None }, also));
     }
     for (row, name, sign) in tries {
         let (written, read) = bench.name(&name, |text| match sign == letter {

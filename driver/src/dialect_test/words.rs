@@ -147,10 +147,10 @@ fn users(d: &Dialect, letter: char) -> Vec<String> {
         }
     }
     if d.repeat.letters().is_some_and(|letters| letters.contains(&(letter as u8))) {
-        users.push("repetition of blocks".to_owned());
+        users.push(dictionary("row-repeat").headline());
     }
     if d.polar.letters().is_some_and(|letters| letters.contains(&(letter as u8))) {
-        users.push("points by radius and angle".to_owned());
+        users.push(dictionary("row-polar").headline());
     }
     if d.cycles.repeat == Some(letter) {
         users.push("cycles (repetition)".to_owned());

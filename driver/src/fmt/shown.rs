@@ -5,6 +5,9 @@ use std::io::{self, BufRead, BufReader, SeekFrom, Write};
 
 use crate::source::Readable;
 
+/// The line by which `patch` knows that the line before it has no end.
+const NO_NEWLINE: &[u8] = include_bytes!("no_newline.txt");
+
 /// Lines shown before and after a change.
 const AROUND: usize = 2;
 
@@ -77,7 +80,8 @@ fn line(mark: &[u8], text: &[u8], to: &mut dyn Write) -> io::Result<()> {
     to.write_all(mark)?;
     to.write_all(text)?;
     if !text.ends_with(b"\n") {
-        to.write_all(b"\n\\ No newline at end of file\n")?;
+        to.write_all(b"\n")?;
+        to.write_all(NO_NEWLINE)?;
     }
     Ok(())
 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::render::messages::message::{Message, Part};
+
 /// What is in force of a project file, for head, report and certificate.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,6 +50,9 @@ impl Used {
     pub fn facts(&self) -> String {
         let facts: Vec<String> =
             self.answers.iter().map(|answer| format!("{} = {}", answer.key, answer.value)).collect();
-        if facts.is_empty() { "nothing that is not stated by options".to_owned() } else { facts.join("; ") }
+        if facts.is_empty() {
+            return Message::part(Part::Summary, "no-answers").headline();
+        }
+        facts.join("; ")
     }
 }

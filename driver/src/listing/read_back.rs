@@ -25,6 +25,8 @@ use super::by_time;
 use crate::job::Job;
 use crate::job::parameters::parameter;
 use crate::render::events;
+use crate::render::messages::message::{Message, Part};
+use crate::render::text::plain;
 
 /// The table of tools of the source's machine: lengths and radii that its profile states, and no offsets beside them.
 pub fn tables(job: &Job) -> Tables {
@@ -55,7 +57,8 @@ pub fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -> Resul
     let read = match Listed::default().events(listing) {
         Ok(events) => events,
         Err(line) => {
-            return Err(differs(format!("the listing has a line that is no call of it: {line}"), last));
+            let difference = Message::part(Part::Difference, "no-call").text("line", plain(&line));
+            return Err(differs(difference.headline(), last));
         }
     };
     let resolution = Resolution {

@@ -117,7 +117,7 @@ impl Met {
         }
         if let Some(row) = d.pattern_row(code) {
             let (what, source) = match row {
-                PatternRow::Circle { source, .. } => ("pattern bolt circle", source),
+                PatternRow::Circle { source, .. } => ("pattern bolt-circle", source),
                 PatternRow::Grid { source, .. } => ("pattern grid", source),
             };
             self.add(Table::Pattern, row.code(), found, || RowOf {

@@ -9,7 +9,7 @@ use ncc_dialects::Settings;
 use ncc_exec::world::World;
 use ncc_exec::{Exec, Runner};
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units};
+use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -267,7 +267,7 @@ impl Walk<'_> {
             }),
             modes.motion.map(|motion| match motion {
                 Motion::Traverse => "rapid".to_owned(),
-                Motion::Feed => "straight at feed".to_owned(),
+                Motion::Feed => spelled::feed_move(),
                 Motion::Arc(Turn::Clockwise) => "arc clockwise".to_owned(),
                 Motion::Arc(Turn::Counterclockwise) => "arc counter-clockwise".to_owned(),
                 Motion::Cycle => "cycle".to_owned(),
@@ -291,7 +291,7 @@ impl Walk<'_> {
                     format!("{} {} {counts}", spindle(turning), number(state.speed))
                 }
             }),
-            Some(coolant(state.coolant()).to_owned()),
+            Some(coolant(state.coolant())),
             Some(self.cycle()),
         ]
     }
@@ -299,11 +299,6 @@ impl Walk<'_> {
     fn cycle(&self) -> String {
         let Some((_, retract, depth)) = self.exec.cycle_levels() else { return "none".to_owned() };
         let kind = self.tracker.cycle.as_ref().map_or("cycle", |own| own.cycle.kind.name());
-        let back = match self.tracker.modes.return_level {
-            Some(ReturnLevel::Initial) => ", back to the initial level",
-            Some(ReturnLevel::Retract) => ", back to the retract plane",
-            None => "",
-        };
-        format!("{kind} from {} to {}{back}", number(retract), number(depth))
+        spelled::cycle_levels(kind, [number(retract), number(depth)], self.tracker.modes.return_level)
     }
 }

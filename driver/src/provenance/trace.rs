@@ -14,6 +14,7 @@ use ncc_exec::verify::Pair;
 use ncc_ir::source::Span;
 
 use super::spool::{Row, Stretch, Written};
+use crate::problem::BrokenOff;
 
 /// What is asked of a translation besides its text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -151,7 +152,7 @@ impl Trace {
         self.bytes += text.len() as u64;
         match u32::try_from(self.bytes) {
             Ok(_) => Ok(()),
-            Err(_) => Err(io::Error::new(io::ErrorKind::FileTooLarge, "no map of an output of over 4 GiB")),
+            Err(_) => Err(io::Error::new(io::ErrorKind::FileTooLarge, BrokenOff::LongMap)),
         }
     }
 

@@ -2,7 +2,8 @@
 
 use std::fmt::{self, Write};
 
-use ncc_dialects::{Dialect, PatternRow, PowerOn, PowerOnFact};
+use ncc_dialects::{BehaviourRow, Dialect, OptionRow, PatternRow, PowerOn, PowerOnFact, VariantRow};
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::ReturnLevel;
 use ncc_ir::caps::ReturnsTo;
 
@@ -91,10 +92,31 @@ fn options(out: &mut String, d: &Dialect) -> fmt::Result {
             }
         };
         writeln!(out, "  {}: {values}", row.name)?;
-        writeln!(out, "      {}", row.doc)?;
+        writeln!(out, "      {}", option_about(d, row))?;
         writeln!(out, "      {}", shown("source").text("source", &row.source).headline())?;
     }
     Ok(())
+}
+
+/// What an option states: its own words, or those of the behaviour that it settles.
+pub fn option_about<'d>(d: &'d Dialect, option: &OptionRow) -> String {
+    let settles = |row: &&BehaviourRow| {
+        row.open && Behaviour::named(&row.name).is_some_and(|behaviour| behaviour.option() == option.name)
+    };
+    let of_variant = || {
+        let found = |variant: &'d VariantRow| Some((variant.behaviour.iter().find(settles)?, Some(variant)));
+        d.variant.iter().find_map(found)
+    };
+    let found = d.behaviour.iter().find(settles).map(|row| (row, None)).or_else(of_variant);
+    let Some((row, variant)) = found.filter(|_| option.doc.is_empty()) else { return option.doc.clone() };
+    let form = if variant.is_some() { "behaviour-option-variant" } else { "behaviour-option" };
+    let when = variant.map_or(String::new(), |variant| {
+        let when: Vec<String> =
+            variant.when.iter().map(|(name, value)| format!("`{name}={value}`")).collect();
+        when.join(", ")
+    });
+    let about = Behaviour::named(&row.name).map_or("", Behaviour::about);
+    shown(form).text("about", about).text("usual", &row.value).text("when", when).headline()
 }
 
 fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {

@@ -76,6 +76,10 @@ pub fn words(fault: &DialectFault, base_row: Option<BaseRow<'_>>) -> Words {
         }
         DialectFault::Form(text) => dictionary("form").text("fault", text),
         DialectFault::NoCycleKind { row, kind } => dictionary("form").text("fault", format!("{row}: {kind}")),
+        DialectFault::BaseNoText => dictionary("base-no-text"),
+        DialectFault::NoDefaultValue { name, among } => {
+            dictionary("value").text("name", &**name).text("among", among.join(", "))
+        }
         DialectFault::Missing { field } => dictionary("missing").text("field", *field),
         DialectFault::BadId { id } => dictionary("no-id").text("name", id),
         DialectFault::BuiltInId { id } => dictionary("built-in").text("name", id),

@@ -95,7 +95,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
     };
     let message = match fault {
         Fault::AssumedMode { fact, value } => match fact {
-            ModeName::Motion => head("motion").text("value", &**value),
+            ModeName::Motion => head("motion").text("value", spelled::mode_value(*fact, value)),
             ModeName::Distance => head("distance").text("value", &**value),
             ModeName::Units => head("units").text("value", &**value),
             ModeName::Plane => head("plane").text("value", &**value),
@@ -156,9 +156,9 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
                 .text("control", if *source { from } else { to })
         }
         Fault::OptionalStopDiffers => head("optional-stop"),
-        Fault::PathAtStart { source, target } => {
-            controls("path-at-start").text("source-path", *source).text("target-path", *target)
-        }
+        Fault::PathAtStart { source, target } => controls("path-at-start")
+            .text("source-path", spelled::path_start(source))
+            .text("target-path", spelled::path_start(target)),
         Fault::NextRunShifted { axis, .. } => {
             head("next-run-shifted").text("axis", char::from(axis.letter()).to_string())
         }

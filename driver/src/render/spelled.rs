@@ -1,9 +1,12 @@
 //! Pieces of messages that are spelled from values: characters, what was found, radii, modes, the path of a return.
 
 use ncc_dialects::{CycleRow, Dialect, Meaning};
+use ncc_ir::alarms::{AlarmMapped, AlarmName};
 use ncc_ir::behaviour::{Behaviour, Kept};
+use ncc_ir::canon::ReturnLevel;
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::ModeName;
+use ncc_ir::syntax::{Expected, Found};
 
 use super::messages::message::{Message, Part};
 use super::numbers::millimetres;
@@ -14,16 +17,51 @@ fn spelled(form: &'static str) -> Message {
     Message::part(Part::Spelled, form)
 }
 
-/// What was found, in quotes if it is text of the source.
-pub fn found_words(found: &str) -> String {
+/// The text that was found, in quotes if it is text of the source.
+pub fn found_words(found: &Found) -> String {
     match found {
-        "end of line" => spelled("end-of-line").headline(),
-        "end of text" => spelled("end-of-text").headline(),
-        "a line" => spelled("line").headline(),
-        "too many words" => spelled("many-words").headline(),
-        _ if found.starts_with('`') => plain(found),
-        _ => quoted(found),
+        Found::Text(text) if text.starts_with('`') => plain(text),
+        Found::Text(text) => quoted(text),
+        Found::EndOfLine => spelled("end-of-line").headline(),
+        Found::EndOfBlock => spelled("end-of-block").headline(),
+        Found::EndOfText => spelled("end-of-text").headline(),
+        Found::Line => spelled("line").headline(),
+        Found::ManyWords => spelled("many-words").headline(),
     }
+}
+
+/// The text that was expected.
+pub fn expected_words(expected: &Expected) -> String {
+    let form = match expected {
+        Expected::Text(text) => return plain(text),
+        Expected::OneOf(names) => return spelled("one-of").text("names", plain(names)).headline(),
+        Expected::Words { most } => return spelled("most-words").text("most", most.to_string()).headline(),
+        Expected::Bodies { most } => return spelled("most-bodies").text("most", most.to_string()).headline(),
+        Expected::Word => "word",
+        Expected::WordOrNumber => "word-or-number",
+        Expected::Number => "number",
+        Expected::NumberOrNothing => "number-or-nothing",
+        Expected::WholeNumber => "whole-number",
+        Expected::QuotedText => "text",
+        Expected::PlainEscapes => "plain-escapes",
+        Expected::Name => "name",
+        Expected::Path => "path",
+        Expected::Type => "type",
+        Expected::Jump => "jump",
+        Expected::Expression => "expression",
+        Expected::Statement => "statement",
+        Expected::Block => "block",
+        Expected::OperatorOrEnd => "operator-or-end",
+        Expected::EndOfBlock => "end-of-block",
+        Expected::EndOfLine => "end-of-line",
+        Expected::BodyAtEnd => "body-at-end",
+        Expected::EndOfBody => "end-of-body",
+        Expected::EndOfBodyAlone => "end-of-body-alone",
+        Expected::PointOfPlane => "point-of-plane",
+        Expected::RotaryAxis => "rotary-axis",
+        Expected::StraightMove => "straight-move",
+    };
+    spelled(form).headline()
 }
 
 pub(crate) fn character(c: char) -> String {
@@ -68,6 +106,15 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
         of_code.or_else(of_name)
     });
     let row = kind.map_or_else(|| meaning.replace(' ', "-"), |kind| format!("{meaning}-{kind}"));
+    entry_or_text(row, meaning)
+}
+
+/// What an unconfirmed row means, where its dictionary is not at hand.
+pub(crate) fn meaning_words(meaning: &str) -> String {
+    entry_or_text(meaning.replace(' ', "-"), meaning)
+}
+
+fn entry_or_text(row: String, meaning: &str) -> String {
     let words = Message::meaning(row).headline();
     if words.is_empty() { plain(meaning) } else { words }
 }
@@ -124,6 +171,69 @@ pub fn mode(fact: ModeName) -> String {
         ModeName::OriginShift => "origin-shift",
     };
     spelled(form).headline()
+}
+
+/// A straight move at feed.
+pub fn feed_move() -> String {
+    spelled("feed-move").headline()
+}
+
+/// A cycle from its R plane to its depth, and the level that it returns to.
+pub fn cycle_levels(kind: &str, [retract, depth]: [String; 2], back: Option<ReturnLevel>) -> String {
+    let form = match back {
+        Some(ReturnLevel::Initial) => "cycle-initial",
+        Some(ReturnLevel::Retract) => "cycle-retract",
+        None => "cycle",
+    };
+    spelled(form).text("kind", kind).text("retract", retract).text("depth", depth).headline()
+}
+
+/// How a control takes corners at the start, by its name in a dictionary.
+fn path_entry(name: &str) -> Option<Message> {
+    match name {
+        "exact-stop" => Some(spelled("path-exact-stop")),
+        "rounded" => Some(spelled("path-rounded")),
+        "within" => Some(spelled("path-within")),
+        "blended" => Some(spelled("path-blended")),
+        _ => None,
+    }
+}
+
+/// How a control takes corners at the start.
+pub fn path_start(name: &str) -> String {
+    path_entry(name).map_or_else(|| name.to_owned(), |entry| entry.headline())
+}
+
+/// The same in at most three words.
+pub fn path_start_short(name: &str) -> String {
+    path_entry(name).map_or_else(|| name.to_owned(), |entry| entry.attribute("short"))
+}
+
+/// An alarm under its number, or by its text.
+fn alarm(name: &AlarmName) -> String {
+    match name {
+        AlarmName::Number(number) => number.to_string(),
+        AlarmName::Text(text) => spelled("alarm-text").text("text", plain(&format!("{text:?}"))).headline(),
+    }
+}
+
+/// Alarms, and the alarms of the target in their place.
+pub fn alarms_mapped(map: &[AlarmMapped]) -> String {
+    let one = |AlarmMapped { from, to, text }: &AlarmMapped| {
+        let form = if text.is_some() { "alarm-cut" } else { "alarm" };
+        let message = spelled(form).text("from", alarm(from)).text("to", alarm(to));
+        let text = text.as_ref().map_or(String::new(), |text| plain(&format!("{text:?}")));
+        message.text("text", text).headline()
+    };
+    map.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// The value of a modal fact.
+pub fn mode_value(fact: ModeName, value: &str) -> String {
+    match (fact, value) {
+        (ModeName::Motion, "feed") => spelled("motion-feed").headline(),
+        _ => plain(value),
+    }
 }
 
 /// A work offset by the word that one of the dialects has for it, the first one if it has.

@@ -6,6 +6,7 @@ use ncc_ir::canon::{AXES, Axis, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, Num, ONE, Unit};
 
 use crate::render::events;
+use crate::render::messages::message::{Message, Part};
 
 /// Digits after the point of what is shown.
 const DIGITS: u8 = 4;
@@ -47,12 +48,16 @@ pub fn spindle(spindle: Spindle) -> &'static str {
 }
 
 /// Coolant, by what is on.
-pub fn coolant(on: Coolant) -> &'static str {
-    match on {
+pub fn coolant(on: Coolant) -> String {
+    let form = match on {
         Coolant { flood: false, mist: false } => "off",
         Coolant { flood: true, mist: false } => "flood",
         Coolant { flood: false, mist: true } => "mist",
-        Coolant { flood: true, mist: true } => "flood and mist",
+        Coolant { flood: true, mist: true } => "flood-and-mist",
+    };
+    match form {
+        "off" => form.to_owned(),
+        _ => Message::part(Part::Event, form).headline(),
     }
 }
 
@@ -98,7 +103,9 @@ pub fn event(record: &Record, style: &Style, kept: &[Kind]) -> String {
             )
         }
         What::Thread => format!("thread {at} F{}", number(style.rate)),
-        What::Orient => format!("spindle stopped at {}°", number(record.more[0])),
+        What::Orient => {
+            Message::part(Part::Event, "line-orient").text("angle", number(record.more[0])).headline()
+        }
         What::Dwell => format!("dwell {} s", number(record.more[0])),
         What::ToolChange => format!("tool T{}", style.state.tool),
         What::Function => text(),
@@ -106,7 +113,7 @@ pub fn event(record: &Record, style: &Style, kept: &[Kind]) -> String {
         What::OptionalStop => "optional stop".to_owned(),
         What::End => "end".to_owned(),
         What::BeginAgain => "beginning again".to_owned(),
-        What::TextEnd => "end of the text".to_owned(),
+        What::TextEnd => Message::part(Part::Event, "line-text-end").headline(),
         What::Message => format!("message {:?}", text()),
         What::Alarm => format!("alarm {:?}", text()),
     }

@@ -1,4 +1,4 @@
-//! The error of work that was asked to stop.
+//! The error of work that was asked to stop. Its words are those of a [`Problem`](crate::problem::Problem).
 
 use std::fmt;
 
@@ -11,10 +11,7 @@ pub struct Interrupted {
 
 impl fmt::Display for Interrupted {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(out, "interrupted at line {line}"),
-            None => write!(out, "interrupted"),
-        }
+        fmt::Debug::fmt(self, out)
     }
 }
 

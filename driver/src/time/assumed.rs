@@ -243,13 +243,31 @@ pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<St
     lines
 }
 
+/// The words for a fact that a model needs.
+fn fact_words(fact: Fact) -> String {
+    let form = match fact {
+        Fact::RapidRate => "fact-rapid-rate",
+        Fact::Acceleration => "fact-acceleration",
+        Fact::Jerk => "fact-jerk",
+        Fact::PathTolerance => "fact-path-tolerance",
+        Fact::ExactStop => "fact-exact-stop",
+        Fact::ToolChange => "fact-tool-change",
+        Fact::SpindleStart => "fact-spindle-start",
+        Fact::SpindleStop => "fact-spindle-stop",
+        Fact::MFunction => "fact-m-function",
+        Fact::Block => "fact-block",
+        Fact::LookAhead => "fact-look-ahead",
+    };
+    Message::part(Part::Time, form).headline()
+}
+
 fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
     let mut lines: Vec<(String, Vec<String>, String)> = Vec::new();
     for fact in facts {
         if fact.axis.is_some_and(|axis| !moved[axis as usize]) {
             continue;
         }
-        let name = fact.fact.name().to_owned();
+        let name = fact_words(fact.fact);
         let value = match fact.fact.unit(fact.axis) {
             "" if fact.value == 0.0 => "no".to_owned(),
             "" => "yes".to_owned(),

@@ -210,7 +210,7 @@ pub fn path_at_start(job: &Job) -> Option<Diagnostic> {
     let [from, to] =
         [&job.from, &job.to].map(|side| side.dialect.power_on.path.as_ref().map(|fact| fact.value));
     let (from, to) = (from?, to?);
-    let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
+    let fault = Fault::PathAtStart { source: from.name(), target: to.name() };
     let stated = job.from.length(PATH_TOLERANCE).is_some_and(|within| within.mantissa > 0);
     (job.between_controls() && from != to && !stated).then(|| Diagnostic::new(fault, Span::default()))
 }

@@ -6,6 +6,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Move, Op, PathControl, Point, Text};
+use ncc_ir::syntax::Expected;
 
 use super::call::{Call, Placed};
 use super::canon_state::{CanonState, Selected};
@@ -28,7 +29,7 @@ impl Arguments<'_> {
         self.rest.next().ok_or_else(|| (missing(), self.close, self.close + 1))
     }
 
-    fn wrong(&self, found: &Placed<Argument>, expected: &str) -> Refused {
+    fn wrong(&self, found: &Placed<Argument>, expected: impl Into<Expected>) -> Refused {
         let fault = Fault::Syntax { found: self.text[found.l..found.r].into(), expected: expected.into() };
         (fault, found.l, found.r)
     }
@@ -38,7 +39,9 @@ impl Arguments<'_> {
         let found = self.next(word)?;
         match found.is {
             Argument::Number(n) => Ok(Expr::Num(Num { unit, ..n })),
-            Argument::Text(_) | Argument::Name | Argument::Nothing => Err(self.wrong(&found, "a number")),
+            Argument::Text(_) | Argument::Name | Argument::Nothing => {
+                Err(self.wrong(&found, Expected::Number))
+            }
         }
     }
 
@@ -53,7 +56,7 @@ impl Arguments<'_> {
                 Ok(())
             }
             Argument::Nothing => Ok(()),
-            Argument::Text(_) | Argument::Name => Err(self.wrong(&found, "a number, `_`")),
+            Argument::Text(_) | Argument::Name => Err(self.wrong(&found, Expected::NumberOrNothing)),
         }
     }
 
@@ -76,7 +79,7 @@ impl Arguments<'_> {
             }
             Argument::Number(_) => Err((Fault::OutOfRange { word: word.into() }, found.l, found.r)),
             Argument::Text(_) | Argument::Name | Argument::Nothing => {
-                Err(self.wrong(&found, "a whole number"))
+                Err(self.wrong(&found, Expected::WholeNumber))
             }
         }
     }
@@ -85,7 +88,9 @@ impl Arguments<'_> {
         let found = self.next("text")?;
         match found.is {
             Argument::Text(text) => Ok(text),
-            Argument::Number(_) | Argument::Name | Argument::Nothing => Err(self.wrong(&found, "a text")),
+            Argument::Number(_) | Argument::Name | Argument::Nothing => {
+                Err(self.wrong(&found, Expected::QuotedText))
+            }
         }
     }
 
@@ -99,7 +104,7 @@ impl Arguments<'_> {
             }
         }
         let expected: Vec<String> = names.iter().map(|(n, _)| format!("`{n}`")).collect();
-        Err(self.wrong(&found, &expected.join(", ")))
+        Err(self.wrong(&found, expected.join(", ").as_str()))
     }
 
     fn end(&mut self) -> Result<(), Refused> {
@@ -251,7 +256,7 @@ fn arc(args: &mut Arguments<'_>, length: Unit, state: &CanonState) -> Result<Arc
             return Err((Fault::OutOfRange { word: "rotation".into() }, rotation.l, rotation.r));
         }
         Argument::Text(_) | Argument::Name | Argument::Nothing => {
-            return Err(args.wrong(&rotation, "a whole number"));
+            return Err(args.wrong(&rotation, Expected::WholeNumber));
         }
     };
     args.coordinate(normal, length, &mut to)?;

@@ -46,6 +46,7 @@ use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Move, Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::{Expected, Found, Ranged};
 
 use self::call::Placed;
 use self::canon_state::{CanonState, Selected};
@@ -189,7 +190,7 @@ impl Reader {
                 Some(*level as u8)
             }
             Some(Placed { l, r, .. }) => {
-                return Err((Fault::OutOfRange { word: "skip level".into() }, *l, *r));
+                return Err((Fault::OutOfRange { word: Ranged::SkipLevel }, *l, *r));
             }
         };
         let op = lower::lower(call, text, &mut self.state, skip.is_some())?;
@@ -286,24 +287,27 @@ fn said(mut so_far: Modes, op: &Op) -> Modes {
 
 /// The fault of a line that could not be parsed, with its place in the line.
 fn explain(error: ParseError<usize, Token, (usize, usize, LexFault)>, text: &str) -> (Fault, usize, usize) {
-    let syntax = |l: usize, r: usize, found: &str, expected: &[String]| {
+    let syntax =
+        |l: usize, r: usize, found: Found, expected: Expected| (Fault::Syntax { found, expected }, l, r);
+    let list = |expected: &[String]| {
         let names: Vec<_> = expected.iter().map(|e| e.trim_matches('"')).collect();
         let quoted = |n: &&str| if n.len() > 1 { (*n).to_owned() } else { format!("`{n}`") };
-        let expected = names.iter().map(quoted).collect::<Vec<_>>().join(", ");
-        (Fault::Syntax { found: found.into(), expected: expected.into() }, l, r)
+        Expected::from(names.iter().map(quoted).collect::<Vec<_>>().join(", ").as_str())
     };
     match error {
-        ParseError::UnrecognizedToken { token: (l, _, r), expected } => syntax(l, r, &text[l..r], &expected),
-        ParseError::ExtraToken { token: (l, _, r) } => syntax(l, r, &text[l..r], &["end of line".to_owned()]),
+        ParseError::UnrecognizedToken { token: (l, _, r), expected } => {
+            syntax(l, r, text[l..r].into(), list(&expected))
+        }
+        ParseError::ExtraToken { token: (l, _, r) } => syntax(l, r, text[l..r].into(), Expected::EndOfLine),
         ParseError::UnrecognizedEof { expected, .. } => {
             let end = text.trim_end().len();
-            syntax(end, end, "end of line", &expected)
+            syntax(end, end, Found::EndOfLine, list(&expected))
         }
         ParseError::InvalidToken { location } => (Fault::NotText, location, location),
         ParseError::User { error: (l, r, fault) } => match fault {
             LexFault::Number => (Fault::BadNumber { text: text[l..r].into() }, l, r),
-            LexFault::Escape => syntax(l, r, &text[l..r], &["a text without other escapes".to_owned()]),
-            LexFault::Long => syntax(l, r, "too many words", &[format!("at most {WORDS}")]),
+            LexFault::Escape => syntax(l, r, text[l..r].into(), Expected::PlainEscapes),
+            LexFault::Long => syntax(l, r, Found::ManyWords, Expected::Words { most: WORDS }),
             LexFault::Character => match text[l..].chars().next() {
                 Some('"') => (Fault::UnclosedComment, l, text.trim_end().len()),
                 Some(found) => (Fault::UnexpectedCharacter { found }, l, l + found.len_utf8()),

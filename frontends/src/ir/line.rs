@@ -11,6 +11,7 @@ use ncc_ir::program::{
     ToolValue, Type,
 };
 use ncc_ir::source::Span;
+use ncc_ir::syntax::{Expected, Ranged};
 
 use super::word::{LexFault, Literal};
 
@@ -74,7 +75,7 @@ pub(crate) fn span(l: usize, r: usize) -> Span {
 pub(crate) fn skip(level: Option<Literal>, l: usize, r: usize) -> Parsed<u8> {
     match level.map_or(Some(1), Literal::plain) {
         Some(level @ 0..=10) => Ok(level as u8),
-        _ => refuse(l, r, Fault::OutOfRange { word: "skip level".into() }),
+        _ => refuse(l, r, Fault::OutOfRange { word: Ranged::SkipLevel }),
     }
 }
 
@@ -124,7 +125,7 @@ pub(crate) fn path(
 pub(crate) fn stored(place: Literal, l: usize, r: usize) -> Parsed<u8> {
     match place.plain() {
         Some(place @ 1..=2) => Ok(place as u8),
-        _ => refuse(l, r, Fault::OutOfRange { word: "stored position".into() }),
+        _ => refuse(l, r, Fault::OutOfRange { word: Ranged::StoredPosition }),
     }
 }
 
@@ -151,7 +152,7 @@ pub(crate) fn advice(kind: &str, value: &str, amount: Option<Expr>, l: usize, r:
 }
 
 fn no_name<T>(found: &str, names: &[&str], l: usize, r: usize) -> Parsed<T> {
-    let expected = format!("one of {}", names.join(", ")).into();
+    let expected = Expected::OneOf(names.join(", ").into());
     refuse(l, r, Fault::Syntax { found: found.into(), expected })
 }
 
@@ -272,11 +273,7 @@ pub(crate) fn axes(named: &[Axis], l: usize, r: usize) -> Parsed<[bool; AXES]> {
 pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
     match ncc_ir::geometry::polar::end_of(&op) {
         Some(_) => Ok(op),
-        None => refuse(
-            l,
-            r,
-            Fault::Syntax { found: op.name().into(), expected: "a move to a point of the plane".into() },
-        ),
+        None => refuse(l, r, Fault::Syntax { found: op.name().into(), expected: Expected::PointOfPlane }),
     }
 }
 
@@ -294,8 +291,8 @@ pub(crate) fn rotary_ways(
             Axis::B => 1,
             Axis::C => 2,
             Axis::X | Axis::Y | Axis::Z => {
-                let found = char::from(axis.letter()).to_string().into();
-                return refuse(l, r, Fault::Syntax { found, expected: "a rotary axis".into() });
+                let found = char::from(axis.letter()).to_string().as_str().into();
+                return refuse(l, r, Fault::Syntax { found, expected: Expected::RotaryAxis });
             }
         };
         if directions[place].replace(way).is_some() {
@@ -309,7 +306,7 @@ pub(crate) fn rotary_ways(
 pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
     match op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) => Ok(op),
-        _ => refuse(l, r, Fault::Syntax { found: op.name().into(), expected: "a straight move".into() }),
+        _ => refuse(l, r, Fault::Syntax { found: op.name().into(), expected: Expected::StraightMove }),
     }
 }
 
@@ -317,7 +314,7 @@ pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
 pub(crate) fn point_number(n: u32, least: u8, most: u8, l: usize, r: usize) -> Parsed<u8> {
     match u8::try_from(n) {
         Ok(n) if (least..=most).contains(&n) => Ok(n),
-        Ok(_) | Err(_) => refuse(l, r, Fault::OutOfRange { word: "number of a point".into() }),
+        Ok(_) | Err(_) => refuse(l, r, Fault::OutOfRange { word: Ranged::PointNumber }),
     }
 }
 

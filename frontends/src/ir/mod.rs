@@ -40,6 +40,7 @@ use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::{Expected, Found};
 use ncc_ir::unsupported::TextUnsupported;
 
 use self::lexer::Token;
@@ -119,7 +120,7 @@ impl Reader {
     pub fn finish(&mut self, out: &mut Batch) {
         for frame in std::mem::take(&mut self.open) {
             if !matches!(frame.owner, Owner::Refused) {
-                let fault = Fault::Syntax { found: "end of text".into(), expected: "`}`".into() };
+                let fault = Fault::Syntax { found: Found::EndOfText, expected: "`}`".into() };
                 let mut diagnostic = Diagnostic::new(fault, frame.opened);
                 diagnostic.related.push(Span::new(self.end, self.end));
                 out.diagnostics.push(diagnostic);
@@ -165,15 +166,14 @@ impl Reader {
 
     /// Puts a line in its place.
     fn take(&mut self, line: Line, at: u32, span: Span, out: &mut Batch) -> Result<(), (Fault, Span)> {
-        let syntax = |found: &str, expected: &str| {
-            (Fault::Syntax { found: found.into(), expected: expected.into() }, span)
-        };
+        let syntax =
+            |found: &str, expected: Expected| (Fault::Syntax { found: found.into(), expected }, span);
         if matches!(line, Line::Empty) {
             return Ok(());
         }
         if !std::mem::replace(&mut self.begun, true) && !matches!(line, Line::Version(_)) {
             out.diagnostics.push(Diagnostic::new(
-                Fault::Syntax { found: "a line".into(), expected: format!("`ncc-ir {VERSION}`").into() },
+                Fault::Syntax { found: Found::Line, expected: format!("`ncc-ir {VERSION}`").as_str().into() },
                 span,
             ));
             self.found = true;
@@ -188,7 +188,7 @@ impl Reader {
             Line::Program(name) => out.name = name,
             Line::Assumed(facts) => out.assumed = line::with(out.assumed, facts),
             Line::Procedure(_) if !self.open.is_empty() => {
-                return Err(syntax("procedure", "`}` first"));
+                return Err(syntax("procedure", Expected::EndOfBody));
             }
             Line::Procedure(procedure) => {
                 out.whole = true;
@@ -198,11 +198,11 @@ impl Reader {
             }
             Line::Stmts { joined, items, begins } => return self.stmts(joined, items, begins, at, span, out),
             Line::End => {
-                let frame = self.open.pop().ok_or_else(|| syntax("`}`", "a statement"))?;
+                let frame = self.open.pop().ok_or_else(|| syntax("`}`", Expected::Statement))?;
                 self.close(frame, out);
             }
             Line::Else => {
-                let frame = self.open.pop().ok_or_else(|| syntax("`}`", "a statement"))?;
+                let frame = self.open.pop().ok_or_else(|| syntax("`}`", Expected::Statement))?;
                 let is_if = |s: &Stmt| matches!(&s.op, Op::Control(c) if matches!(**c, Control::If { .. }));
                 let owner = match frame.owner {
                     Owner::Control(stmt) if is_if(&stmt) => Owner::Otherwise(stmt, frame.body),
@@ -210,7 +210,7 @@ impl Reader {
                     owner => {
                         self.close(Frame { opened: frame.opened, owner, body: frame.body }, out);
                         self.open.push(Frame { opened: span, owner: Owner::Refused, body: Vec::new() });
-                        return Err(syntax("else", "`}` alone"));
+                        return Err(syntax("else", Expected::EndOfBodyAlone));
                     }
                 };
                 self.open.push(Frame { opened: span, owner, body: Vec::new() });
@@ -242,10 +242,10 @@ impl Reader {
             let control = matches!(stmt.op, Op::Control(_));
             if control != (begins && place == last) {
                 let (found, expected) = match control {
-                    true => (stmt.op.name(), "`{` at the end of the line"),
-                    false => ("`{`", "the end of the line"),
+                    true => (stmt.op.name(), Expected::BodyAtEnd),
+                    false => ("`{`", Expected::EndOfLine),
                 };
-                let fault = Fault::Syntax { found: found.into(), expected: expected.into() };
+                let fault = Fault::Syntax { found: found.into(), expected };
                 return Err((fault, stmt.span));
             }
             let flow = matches!(
@@ -264,8 +264,8 @@ impl Reader {
             if !control {
                 self.body(out).push(stmt);
             } else if self.open.len() >= DEPTH {
-                let expected = format!("at most {DEPTH} bodies inside each other");
-                return Err((Fault::Syntax { found: "`{`".into(), expected: expected.into() }, span));
+                let expected = Expected::Bodies { most: DEPTH };
+                return Err((Fault::Syntax { found: "`{`".into(), expected }, span));
             } else {
                 self.open.push(Frame { opened: span, owner: Owner::Control(stmt), body: Vec::new() });
             }
@@ -323,18 +323,18 @@ fn explain(error: ParseError<usize, Token, Refusal>, text: &str) -> (Fault, usiz
             (Fault::Syntax { found: text[l..r].into(), expected: list(&expected) }, l, r)
         }
         ParseError::ExtraToken { token: (l, _, r) } => {
-            (Fault::Syntax { found: text[l..r].into(), expected: "end of line".into() }, l, r)
+            (Fault::Syntax { found: text[l..r].into(), expected: Expected::EndOfLine }, l, r)
         }
         ParseError::UnrecognizedEof { expected, .. } => {
             let end = text.trim_end().len();
-            (Fault::Syntax { found: "end of line".into(), expected: list(&expected) }, end, end)
+            (Fault::Syntax { found: Found::EndOfLine, expected: list(&expected) }, end, end)
         }
         ParseError::InvalidToken { location } => word(text, location, location, LexFault::Character),
         ParseError::User { error: Refusal::Word(l, r, fault) } => word(text, l, r, fault),
         ParseError::User { error: Refusal::Meaning(l, r, fault) } => (fault, l, r),
         ParseError::User { error: Refusal::TooLong } => {
-            let expected = format!("at most {WORDS}");
-            (Fault::Syntax { found: "too many words".into(), expected: expected.into() }, 0, text.len())
+            let expected = Expected::Words { most: WORDS };
+            (Fault::Syntax { found: Found::ManyWords, expected }, 0, text.len())
         }
     }
 }
@@ -343,11 +343,9 @@ fn explain(error: ParseError<usize, Token, Refusal>, text: &str) -> (Fault, usiz
 fn word(text: &str, l: usize, r: usize, fault: LexFault) -> (Fault, usize, usize) {
     match fault {
         LexFault::Number => (Fault::BadNumber { text: text[l..r].into() }, l, r),
-        LexFault::Escape => (
-            Fault::Syntax { found: text[l..r].into(), expected: "a text without other escapes".into() },
-            l,
-            r,
-        ),
+        LexFault::Escape => {
+            (Fault::Syntax { found: text[l..r].into(), expected: Expected::PlainEscapes }, l, r)
+        }
         LexFault::Character => match text[l..].chars().next() {
             Some('"') => (Fault::UnclosedComment, l, text.len()),
             Some(found) => (Fault::UnexpectedCharacter { found }, l, l + found.len_utf8()),
@@ -357,7 +355,7 @@ fn word(text: &str, l: usize, r: usize, fault: LexFault) -> (Fault, usize, usize
 }
 
 /// What was expected, for reading; a long list is cut.
-fn list(expected: &[String]) -> Box<str> {
+fn list(expected: &[String]) -> Expected {
     const SHOWN: usize = 6;
     let mut text = String::new();
     for (place, name) in expected.iter().take(SHOWN).enumerate() {
@@ -369,5 +367,5 @@ fn list(expected: &[String]) -> Box<str> {
     if expected.len() > SHOWN {
         text.push_str(", …");
     }
-    text.into()
+    Expected::Text(text.into())
 }

@@ -10,6 +10,7 @@
 mod blocks;
 mod course;
 pub mod signs;
+mod sources;
 
 use std::collections::HashMap;
 use std::ops::Range;

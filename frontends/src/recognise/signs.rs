@@ -2,6 +2,9 @@
 //!
 //! The weights: 3 is alone enough, 2 is strong, 1 a hint. What a mill does too has a low weight, or a condition.
 
+use super::sources::{
+    EDM, FANUC_T, HAAS_T, HEIDENHAIN, LINUXCNC_T, MARLIN, MAZATROL, OKUMA, SIEMENS_T, WRITTEN,
+};
 use std::ops::Range;
 use std::sync::LazyLock;
 
@@ -145,17 +148,6 @@ pub struct Sign {
     /// Where this is known from.
     pub source: &'static str,
 }
-
-const FANUC_T: &str = "FANUC operator's manual for lathes, B-64604EN-1, G code lists A, B, C";
-const HAAS_T: &str = "Haas lathe operator's manual 96-8910, G codes";
-const SIEMENS_T: &str = "SINUMERIK 828D/840D sl turning, programming manual, cycles";
-const LINUXCNC_T: &str = "LinuxCNC user manual, lathe; G codes G7, G8, G76";
-const HEIDENHAIN: &str = "HEIDENHAIN TNC 640, user's manual for conversational and DIN/ISO programming";
-const OKUMA: &str = "OKUMA OSP-P200/P300, programming manuals; user tasks";
-const MAZATROL: &str = "MAZAK, Mazatrol programming manuals";
-const EDM: &str = "Mitsubishi, Sodick, FANUC and Charmilles wire EDM programming manuals";
-const MARLIN: &str = "Marlin firmware, G code index; comments of slicers";
-const WRITTEN: &str = "how milling programs are written";
 
 const AH: &[System] = &[System::FanucA, System::Haas];
 const ABH: &[System] = &[System::FanucA, System::FanucB, System::Haas];

@@ -103,7 +103,7 @@ impl Lower {
             };
             let factor = self.amount(given, Quantity::Factor, src, out)?;
             if factor.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
-                return self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                return self.refuse(Fault::OutOfRange { word: src.text(given.span).into() }, given.span, out);
             }
             *by = Some(factor);
         }

@@ -10,6 +10,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{
     CodeUnsupported, FrameUnsupported, MoveUnsupported, SpindleUnsupported, TableUnsupported, Unsupported,
 };
@@ -137,7 +138,7 @@ impl Lower {
                 Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
                 Meaning::LeftOut => {
                     if self.first_time(code.name) {
-                        out.report(Fault::CodeLeftOut { code: code.name.into() }, code.span);
+                        out.report(Fault::CodeLeftOut { what: LeftOut::code(code.name) }, code.span);
                     }
                     continue;
                 }
@@ -392,7 +393,11 @@ impl Lower {
                     return;
                 };
                 if edge > 9 {
-                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                    return self.fault(
+                        Fault::OutOfRange { word: src.text(given.span).into() },
+                        given.span,
+                        out,
+                    );
                 }
                 self.state.implied_edge = None;
                 (edge, true, given.span)

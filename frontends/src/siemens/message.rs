@@ -108,7 +108,7 @@ impl Lower {
         };
         match number {
             60_000..=69_999 => {}
-            _ => return self.fault(Fault::OutOfRange { word: src.text(at) }, at, out),
+            _ => return self.fault(Fault::OutOfRange { word: src.text(at).into() }, at, out),
         }
         if !matches!(number, 61_000..=61_999 | 65_000..=66_999) {
             let what = TextUnsupported::AlarmEnd;

@@ -10,6 +10,7 @@ use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::block_words::{Code, Given, Words};
@@ -128,8 +129,8 @@ impl Lower {
         if let Some(other) = row.read_as.as_deref()
             && self.first_time(&row.code)
         {
-            let code = format!("{} ({other} in its place)", row.code);
-            out.report(Fault::CodeLeftOut { code: code.into() }, given.span);
+            let what = LeftOut::ReadAs { code: row.code.as_str().into(), other: other.into() };
+            out.report(Fault::CodeLeftOut { what }, given.span);
         }
         let code = Code {
             name: &row.code,
@@ -381,7 +382,7 @@ impl Lower {
             return None;
         }
         if self.settings.dialect.numbers(quantity).unsigned && digits.mantissa < 0 {
-            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out);
         }
         let unit = match quantity {
             Quantity::Length => unit_of(self.units(span, out)),
@@ -399,7 +400,7 @@ impl Lower {
         let num = Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit };
         let plainly_in_range = num.mantissa.unsigned_abs() < 10_000_000 && num.scale <= 8;
         if !plainly_in_range && (num.nanos(false).is_none() || num.nanos(true).is_none()) {
-            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out);
         }
         Some(num)
     }
@@ -409,7 +410,7 @@ impl Lower {
         let num = self.number(given, Quantity::Integer, src, out)?;
         match u32::try_from(num.mantissa) {
             Ok(whole) => Some(whole),
-            Err(_) => self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out),
+            Err(_) => self.refuse(Fault::OutOfRange { word: src.text(given.span).into() }, given.span, out),
         }
     }
 }

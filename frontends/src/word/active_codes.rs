@@ -70,7 +70,7 @@ impl Lower {
         let entry = match self.state.length_entry {
             Know::Said(entry) | Know::Taken(entry) => {
                 if self.assume && self.first_time(code.row) {
-                    let meaning = format!("the last {letter}, in a block without one").into();
+                    let meaning = format!("LAST_ENTRY {letter}").into();
                     out.report(Fault::AssumedRow { code: code_text.clone(), meaning }, code.span);
                 }
                 Some(entry)

@@ -52,7 +52,7 @@ impl Lower {
         if let Some(span) = zero.map(|word| word.span)
             && codes.iter().any(|code| code.row.no_entry_zero)
         {
-            self.fault(Fault::OutOfRange { word: src.text(span) }, span, out);
+            self.fault(Fault::OutOfRange { word: src.text(span).into() }, span, out);
         }
         if !self.settings.dialect.can.length_alone {
             return;

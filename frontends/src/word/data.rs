@@ -41,7 +41,7 @@ impl Lower {
         let Some(which) = self.read_whole(&word, src, out) else { return };
         let count = u32::from(code.row.count.unwrap_or(0));
         let Some(offset) = (1..=count).contains(&which).then(|| first + (which - 1) as u16) else {
-            return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         };
         self.state.modes.work_offset = Know::Said(offset);
         self.push(code.span.to(word.span), Op::SetOriginOffsets(offset), out);
@@ -359,7 +359,7 @@ impl Lower {
             let radius = matches!(which, ToolValue::Radius | ToolValue::RadiusWear);
             let value = if radius && self.option(RADIUS_DATA, word.span, out) == "diameter" {
                 let Some(half) = value.literal().and_then(half) else {
-                    self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                    self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
                     continue;
                 };
                 Expr::Num(half)

@@ -253,7 +253,7 @@ impl Lower {
             let num = self.number(&word, Quantity::Factor, src, out)?;
             match num.mantissa > 0 {
                 true => Some(Expr::Num(num)),
-                false => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+                false => self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out),
             }
         };
         let factors = match (all, each) {

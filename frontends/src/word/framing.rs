@@ -188,7 +188,7 @@ impl Reader {
             Value::Number(_) | Value::Computed(_) | Value::None => None,
         };
         let Some(number) = number else {
-            out.report(Fault::OutOfRange { word: src.text(word.span) }, word.span);
+            out.report(Fault::OutOfRange { word: src.text(word.span).into() }, word.span);
             self.frame.faulty = true;
             return true;
         };
@@ -228,7 +228,7 @@ impl Reader {
     /// A program's name in a block of its own.
     fn named_program(&mut self, span: Span, src: Source, out: &mut Batch) {
         let Some(called) = Called::parse(src.bytes(span)) else {
-            out.report(Fault::OutOfRange { word: src.text(span) }, span);
+            out.report(Fault::OutOfRange { word: src.text(span).into() }, span);
             self.frame.faulty = true;
             return;
         };

@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CodeUnsupported, FrameUnsupported, MoveUnsupported};
 
 use super::block_words::{Code, Words, motion_of};
@@ -241,7 +242,7 @@ impl Lower {
         let op = match code.meaning {
             Meaning::LeftOut => {
                 if self.first_time(code.row) {
-                    out.report(Fault::CodeLeftOut { code: code.row.code.as_str().into() }, code.span);
+                    out.report(Fault::CodeLeftOut { what: LeftOut::code(&code.row.code) }, code.span);
                 }
                 return;
             }
@@ -270,7 +271,7 @@ impl Lower {
             let word = words.take(letter)?;
             let value = lower.amount(&word, Quantity::Length, words, src, out)?;
             match value.literal().is_some_and(|number| number.mantissa < 0) {
-                true => lower.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+                true => lower.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out),
                 false => Some((value, word.span)),
             }
         };
@@ -392,8 +393,8 @@ impl Lower {
             && self.assume
             && self.first_time(code.row)
         {
-            let code_text = format!("{} ({other} in its place)", code.row.code);
-            out.report(Fault::CodeLeftOut { code: code_text.into() }, code.span);
+            let what = LeftOut::ReadAs { code: code.row.code.as_str().into(), other: other.into() };
+            out.report(Fault::CodeLeftOut { what }, code.span);
         }
         let op = match code.meaning {
             Meaning::ChangeTool => {

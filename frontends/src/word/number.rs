@@ -72,7 +72,7 @@ impl Lower {
         };
         let rules = self.rules[quantity as usize];
         if rules.unsigned && digits.mantissa < 0 {
-            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         }
         let (unit, units) = match quantity {
             Quantity::Length | Quantity::Feed => {
@@ -149,7 +149,7 @@ impl Lower {
                 out.report(Fault::Rounded { word: src.text(word.span), written }, word.span);
                 return Some(Num { point: true, ..rounded });
             }
-            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         }
         Some(num)
     }
@@ -246,7 +246,7 @@ impl Lower {
         let num = self.number(word, Quantity::Integer, src, out)?.trimmed();
         match u32::try_from(num.mantissa) {
             Ok(whole) => Some(whole),
-            Err(_) => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+            Err(_) => self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out),
         }
     }
 

@@ -166,17 +166,17 @@ impl Lower {
 
 fn role_name(role: Role) -> &'static str {
     match role {
-        Role::Axis => "axis",
-        Role::CentreX | Role::CentreY | Role::CentreZ => "centre of an arc",
-        Role::Radius => "radius of an arc",
-        Role::Feed => "feed",
-        Role::Speed => "spindle speed",
-        Role::Tool => "tool",
-        Role::LengthEntry => "entry of the length table",
-        Role::Corrector => "tool corrector",
-        Role::RadiusEntry => "entry of the radius table",
-        Role::ToolEdge => "edge of the tool",
-        Role::Call => "number of a subprogram",
-        Role::Parameter => "parameter of codes",
+        Role::Axis => "ROLE axis",
+        Role::CentreX | Role::CentreY | Role::CentreZ => "ROLE centre",
+        Role::Radius => "ROLE radius",
+        Role::Feed => "ROLE feed",
+        Role::Speed => "ROLE speed",
+        Role::Tool => "ROLE tool",
+        Role::LengthEntry => "ROLE length-entry",
+        Role::Corrector => "ROLE corrector",
+        Role::RadiusEntry => "ROLE radius-entry",
+        Role::ToolEdge => "ROLE edge",
+        Role::Call => "ROLE call",
+        Role::Parameter => "ROLE parameter",
     }
 }

@@ -124,7 +124,7 @@ impl Lower {
             };
             let seconds = self.number(&word, Quantity::Seconds, src, out)?;
             if seconds.mantissa <= 0 {
-                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
             }
         }
         if let Some(turn) = rule.turn
@@ -144,7 +144,7 @@ impl Lower {
         let mut angle = self.number(&word, said.quantity, src, out)?;
         angle.unit = Unit::Degree;
         if !angle.nanos(false).is_some_and(|nanos| (0..360 * ONE).contains(&nanos)) {
-            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         }
         Some(angle)
     }

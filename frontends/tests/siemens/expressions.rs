@@ -125,7 +125,7 @@ fn numbers_that_are_none() {
         ("'H+1'", "BadNumber { text: ''H+1'' } at ''H+1''"),
         ("'HFFFFFFFFFFFFFFFFF'", "BadNumber { text: ''HFFFFFFFFFFFFFFFFF'' } at ''HFFFFFFFFFFFFFFFFF''"),
         ("''", "BadNumber { text: '''' } at ''''"),
-        ("1.2.3", "Syntax { found: '.3', expected: 'a word' } at '.3'"),
+        ("1.2.3", "Syntax { found: Text('.3'), expected: Word } at '.3'"),
     ]);
 }
 
@@ -146,6 +146,6 @@ fn variables_and_functions() {
         ("REP(1,24)", "REP(1, 24)"),
         ("TRUE", "TRUE"),
         ("\"N\"<<R1<<\"X\"", "((\"N\" Join R1) Join \"X\")"),
-        ("1+CTRANS(X,1):CROT(Z,2)", "Syntax { found: ':', expected: 'a word' } at ':'"),
+        ("1+CTRANS(X,1):CROT(Z,2)", "Syntax { found: Text(':'), expected: Word } at ':'"),
     ]);
 }

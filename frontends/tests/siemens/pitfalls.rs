@@ -45,8 +45,8 @@ fn labels() {
         ("NEXT: G1 X5", "NEXT: | G1 | X5"),
         ("N10 NEXT:X5", "N10 | NEXT: | X5"),
         ("AA:", "AA:"),
-        ("A:", "Syntax { found: ':', expected: 'a number' } at ':'"),
-        ("A1: X5", "Syntax { found: ':', expected: 'a word' } at ':'"),
+        ("A:", "Syntax { found: Text(':'), expected: Number } at ':'"),
+        ("A1: X5", "Syntax { found: Text(':'), expected: Word } at ':'"),
         ("GOTOF \"LAB\"<<R1", "Forward (\"LAB\" Join R1)"),
     ]);
 }
@@ -60,7 +60,7 @@ fn texts_and_comments() {
         ("T=\"em10\" D1", "T = \"em10\" | D1"),
         ("IF R1==1 ; (no) \"text", "IF (R1 Equal 1) | ; (no) \"text"),
         ("G1 X5 ;", "G1 | X5 | ;"),
-        ("(NOTE)", "Syntax { found: '(', expected: 'a block' } at '('"),
+        ("(NOTE)", "Syntax { found: Text('('), expected: Block } at '('"),
     ]);
     // Comments and texts in whatever coding.
     assert_eq!(read(b"X5 ;\xB4\xFA\xC2\xEB \xE9"), read("X5 ;\u{fffd}\u{fffd}\u{fffd}\u{fffd} \u{fffd}"));

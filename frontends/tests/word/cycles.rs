@@ -122,7 +122,10 @@ fn repetitions_of_a_cycle() {
         faults("fanuc", "G81 Z-5. R2. F50. L3\n"),
         ["NotSupported { code: 'L3', what: Code(Named { name: 'repetition by L' }) } at 'L3'"]
     );
-    assert_eq!(faults("fanuc", "G81 X1. Z-5. R2. K99999\n"), ["OutOfRange { word: 'K99999' } at 'K99999'"]);
+    assert_eq!(
+        faults("fanuc", "G81 X1. Z-5. R2. K99999\n"),
+        ["OutOfRange { word: Word('K99999') } at 'K99999'"]
+    );
 }
 
 #[test]
@@ -171,7 +174,7 @@ fn dwell_in_a_cycle_makes_no_hole() {
 fn what_a_cycle_lacks() {
     assert_eq!(faults("fanuc", "G82 X1. Z-5. R2.\n"), ["WordMissing { code: 'G82', word: 'P' } at 'G82'"]);
     assert_eq!(faults("fanuc", "G83 X1. Z-5. R2.\n"), ["WordMissing { code: 'G83', word: 'Q' } at 'G83'"]);
-    assert_eq!(faults("fanuc", "G83 X1. Z-5. R2. Q0\n")[0], "OutOfRange { word: 'Q0' } at 'Q0'");
+    assert_eq!(faults("fanuc", "G83 X1. Z-5. R2. Q0\n")[0], "OutOfRange { word: Word('Q0') } at 'Q0'");
     assert_eq!(
         faults("fanuc", "G18 G81 X1. Z-5. R2.\n"),
         ["NotSupported { code: 'G81', what: Cycle(OtherAxis) } at 'G81'"]
@@ -205,7 +208,7 @@ fn bolt_circles() {
     assert_eq!(pattern("G24X9.Y0.I0J0B-30.L3"), ["CIRCLE 3 from 9. 0. step -30.deg about 0 0"]);
     let lacks = |words: &str| faults("mach9", &format!("{cycle}{words}\n"));
     assert_eq!(lacks("G24X1.B30.L12"), ["WordMissing { code: 'G24', word: 'Y' } at 'G24'"]);
-    assert_eq!(lacks("G24X1.Y1.B30.L0"), ["OutOfRange { word: 'L0' } at 'L0'"]);
+    assert_eq!(lacks("G24X1.Y1.B30.L0"), ["OutOfRange { word: Word('L0') } at 'L0'"]);
     assert_eq!(faults("mach9", "G24XY18.B30.L12\n"), ["NoCycle at 'G24'"]);
 }
 

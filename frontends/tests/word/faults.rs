@@ -21,17 +21,17 @@ fn numbers_that_are_none() {
         ["BadNumber { text: '1234567890123456789.' } at '1234567890123456789.'"]
     );
     assert_eq!(faults("fanuc", "X.\n"), ["UnexpectedCharacter { found: '.' } at '.'"]);
-    assert_eq!(faults("fanuc", "X1.2.3\n"), ["Syntax { found: '.3', expected: 'a word' } at '.3'"]);
-    assert_eq!(faults("fanuc", "X1 2\n"), ["Syntax { found: '2', expected: 'a word' } at '2'"]);
-    assert_eq!(faults("fanuc", "X--1.\n"), ["Syntax { found: '-', expected: 'a number' } at '-'"]);
-    assert_eq!(faults("fanuc", "5 X1.\n"), ["Syntax { found: '5', expected: 'a word' } at '5'"]);
+    assert_eq!(faults("fanuc", "X1.2.3\n"), ["Syntax { found: Text('.3'), expected: Word } at '.3'"]);
+    assert_eq!(faults("fanuc", "X1 2\n"), ["Syntax { found: Text('2'), expected: Word } at '2'"]);
+    assert_eq!(faults("fanuc", "X--1.\n"), ["Syntax { found: Text('-'), expected: Number } at '-'"]);
+    assert_eq!(faults("fanuc", "5 X1.\n"), ["Syntax { found: Text('5'), expected: Word } at '5'"]);
     assert_eq!(
         faults("fanuc", "X99999999999.\n"),
-        ["OutOfRange { word: 'X99999999999.' } at 'X99999999999.'"]
+        ["OutOfRange { word: Word('X99999999999.') } at 'X99999999999.'"]
     );
     assert_eq!(
         faults("fanuc", "X1.0000000001\n"),
-        ["OutOfRange { word: 'X1.0000000001' } at 'X1.0000000001'"]
+        ["OutOfRange { word: Word('X1.0000000001') } at 'X1.0000000001'"]
     );
 }
 
@@ -103,7 +103,7 @@ fn codes_that_do_not_stand_together() {
         faults("fanuc", "G1 F9. X5. ,C2. ,R1.\n"),
         ["CodesExclude { first: ',C2.', second: ',R1.' } at ',R1.'"]
     );
-    assert_eq!(faults("fanuc", "G1 F9. X5. ,C0.\n"), ["OutOfRange { word: ',C0.' } at ',C0.'"]);
+    assert_eq!(faults("fanuc", "G1 F9. X5. ,C0.\n"), ["OutOfRange { word: Word(',C0.') } at ',C0.'"]);
     assert_eq!(faults("fanuc", "G0 G1 X1.\n"), ["CodesExclude { first: 'G0', second: 'G1' } at 'G1'"]);
     assert_eq!(faults("mach9", "G90G0X1.\n"), ["TooManyCodes { letter: 'G', limit: 1 } at 'G0'"]);
     assert_eq!(faults("fanuc", "M3 M8\n"), ["TooManyCodes { letter: 'M', limit: 1 } at 'M8'"]);
@@ -133,8 +133,8 @@ fn numbers_of_the_wrong_kind() {
     assert_eq!(faults("fanuc", "M3.\n"), ["PointNotAllowed { word: 'M3.' } at 'M3.'"]);
     assert_eq!(faults("fanuc", "T1.\n"), ["PointNotAllowed { word: 'T1.' } at 'T1.'"]);
     assert_eq!(faults("fanuc", "N1. X1.\n"), ["PointNotAllowed { word: 'N1.' } at 'N1.'"]);
-    assert_eq!(faults("fanuc", "F-5.\n"), ["OutOfRange { word: 'F-5.' } at 'F-5.'"]);
-    assert_eq!(faults("mach9", "T-1M6\n"), ["OutOfRange { word: 'T-1' } at 'T-1'"]);
+    assert_eq!(faults("fanuc", "F-5.\n"), ["OutOfRange { word: Word('F-5.') } at 'F-5.'"]);
+    assert_eq!(faults("mach9", "T-1M6\n"), ["OutOfRange { word: Word('T-1') } at 'T-1'"]);
 }
 
 #[test]
@@ -214,9 +214,9 @@ fn loops_and_macro_calls_that_are_none() {
 
 #[test]
 fn expressions_that_are_none() {
-    assert_eq!(faults("fanuc", "X[1+\n"), ["Syntax { found: 'end of block', expected: 'a number' } at ''"]);
-    assert_eq!(faults("fanuc", "X[1\n"), ["Syntax { found: 'end of block', expected: ']' } at ''"]);
-    assert_eq!(faults("fanuc", "#1\n"), ["Syntax { found: 'end of block', expected: '=' } at ''"]);
+    assert_eq!(faults("fanuc", "X[1+\n"), ["Syntax { found: EndOfBlock, expected: Number } at ''"]);
+    assert_eq!(faults("fanuc", "X[1\n"), ["Syntax { found: EndOfBlock, expected: Text(']') } at ''"]);
+    assert_eq!(faults("fanuc", "#1\n"), ["Syntax { found: EndOfBlock, expected: Text('=') } at ''"]);
 }
 
 #[test]

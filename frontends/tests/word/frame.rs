@@ -42,7 +42,7 @@ fn names_and_titles() {
     // The number is given at the control.
     let unnumbered = read("fanuc", "O0000 (PART 12)\nM30\n");
     assert_eq!((unnumbered.name.number, unnumbered.name.title.as_deref()), (None, Some("PART 12")));
-    assert_eq!(errors("fanuc", "O1\nM30\nO0\n"), ["OutOfRange { word: 'O0' } at 'O0'"]);
+    assert_eq!(errors("fanuc", "O1\nM30\nO0\n"), ["OutOfRange { word: Word('O0') } at 'O0'"]);
     assert_eq!(errors("fanuc", "O1\nM30\nO1\nM99\n"), ["ProgramTwice { name: '1' } at 'O1'"]);
 }
 
@@ -97,7 +97,7 @@ fn calls() {
     assert_eq!(calls("M98 P51002 L4\n"), ["CALL 51002 x4"]);
     assert_eq!(calls("G0 X1. M98 P7\n"), ["TRAVERSE! X1.", "& CALL 7 x1"]);
     assert_eq!(faults("fanuc", "M98\n"), ["WordMissing { code: 'M98', word: 'P' } at 'M98'"]);
-    assert_eq!(faults("fanuc", "M98 P0\n"), ["OutOfRange { word: 'P0' } at 'P0'"]);
+    assert_eq!(faults("fanuc", "M98 P0\n"), ["OutOfRange { word: Word('P0') } at 'P0'"]);
     assert_eq!(faults("fanuc", "M98 P1002 Q300\n"), ["WordUnused { word: 'Q300' } at 'Q300'"]);
 }
 

@@ -218,7 +218,7 @@ fn block_skip() {
         faults("fanuc", "/1/3 X1.\n"),
         ["NotSupported { code: '/3', what: Code(SecondSkipLevel) } at '/3'"]
     );
-    assert_eq!(faults("fanuc", "/0 X1.\n"), ["OutOfRange { word: '/0' } at '/0'"]);
+    assert_eq!(faults("fanuc", "/0 X1.\n"), ["OutOfRange { word: Word('/0') } at '/0'"]);
     assert_eq!(faults("mach9", "/2X1.\n"), ["NotSupported { code: '/2', what: Code(SkipLevel) } at '/2X1.'"]);
     assert_eq!(
         assumptions("mach9", "/M5\n/M5\nM2\n"),

@@ -77,15 +77,14 @@ pub(crate) fn spread(dialect: &mut Dialect, places: &mut Places) -> Result<(), F
 /// Checks the rows of behaviours, and makes an option of each open one; of those of variants too, so that an option can be
 /// chosen whatever the order.
 fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fault> {
-    let of_variants = dialect.variant.iter().enumerate().flat_map(|(at, variant)| {
-        let when: Vec<String> =
-            variant.when.iter().map(|(name, value)| format!("`{name}={value}`")).collect();
-        let counts = format!(" It counts with {}.", when.join(", "));
-        variant.behaviour.iter().map(move |row| (row, at, counts.clone(), true))
-    });
-    let own = dialect.behaviour.iter().enumerate().map(|(at, row)| (row, at, String::new(), false));
+    let of_variants = dialect
+        .variant
+        .iter()
+        .enumerate()
+        .flat_map(|(at, variant)| variant.behaviour.iter().map(move |row| (row, at, true)));
+    let own = dialect.behaviour.iter().enumerate().map(|(at, row)| (row, at, false));
     let mut options: Vec<(OptionRow, Range<usize>)> = Vec::new();
-    for (row, at, counts, of_variant) in own.chain(of_variants) {
+    for (row, at, of_variant) in own.chain(of_variants) {
         let rows = if of_variant { &places.variant } else { &places.behaviour };
         let Some((behaviour, _)) = row.meaning() else {
             return Err(fault(&row.name, RowFault::NoBehaviour, rows, at));
@@ -99,17 +98,12 @@ fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fau
             continue;
         }
         let values = behaviour.values().iter().chain([&UNKNOWN]);
-        let doc = format!(
-            "What becomes of the {}. `{UNKNOWN}`: ncc runs the program with each value, the \
-                           usual one (`{}`) first, and reports where they differ.{counts}",
-            behaviour.about(),
-            row.value
-        );
         let option = OptionRow {
             name,
             values: values.map(|value| (*value).to_owned()).collect(),
             default: UNKNOWN.to_owned(),
-            doc,
+            // Its words follow from the behaviour.
+            doc: String::new(),
             source: row.source.clone(),
         };
         options.push((option, rows.get(at).cloned().unwrap_or_default()));
@@ -225,9 +219,8 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             return Err(wrong(RowFault::NoNumberDefault));
         }
         if !fits {
-            let values = row.values.iter().map(|value| format!("`{value}`")).collect::<Vec<_>>().join(", ");
-            let form = format!("unknown variant `{}`, expected one of {values}", row.default);
-            return Err((DialectFault::Form(form), places.option.get(at).cloned()));
+            let (name, among) = (row.default.as_str().into(), row.values.as_slice().into());
+            return Err((DialectFault::NoDefaultValue { name, among }, places.option.get(at).cloned()));
         }
     }
     index.find_meanings(&dialect.code, &dialect.name);

@@ -39,6 +39,15 @@ pub struct DialectError {
 pub enum DialectFault {
     /// Not TOML, or a field that is not of the form that the schema says.
     Form(String),
+    /// `base` is not a text.
+    BaseNoText,
+    /// The default of an option is none of its values.
+    NoDefaultValue {
+        /// The default.
+        name: Box<str>,
+        /// The values.
+        among: Box<[String]>,
+    },
     /// A field that a dictionary must state itself.
     Missing {
         /// The field.

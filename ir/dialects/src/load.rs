@@ -187,7 +187,7 @@ impl<'t> Texts<'t> {
             return match over.get_ref().get("base") {
                 Some(other) => {
                     let place = self.place(other.span());
-                    Err(DialectFault::Form("`base` is the name of a dialect, a text".to_owned()).at(place))
+                    Err(DialectFault::BaseNoText.at(place))
                 }
                 // A word about a base that there is not is told as any other.
                 None => self.lay(Spanned::new(over.span(), DeTable::new()), over),

@@ -335,7 +335,7 @@ impl FromStr for Meaning {
             ("SET_CENTRE_MODE", "absolute") => Meaning::SetCentreMode(CentreFrom::Zero),
             ("SET_CENTRE_MODE", "incremental") => Meaning::SetCentreMode(CentreFrom::Start),
             ("SET_ORIGIN_OFFSETS", number) => {
-                Meaning::SetOriginOffsets(number.parse().map_err(|_| format!("no work offset: {text}"))?)
+                Meaning::SetOriginOffsets(number.parse().map_err(|_| format!("no meaning: {text}"))?)
             }
             ("CLEAR_FRAME", "shift") => Meaning::ClearFrame(FrameSlot::Shift),
             ("CLEAR_FRAME", "rotation") => Meaning::ClearFrame(FrameSlot::Rotation),
@@ -410,14 +410,14 @@ impl FromStr for Meaning {
             }
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(
-                PathMode::named(mode).ok_or_else(|| format!("no way of taking corners: {text}"))?,
+                PathMode::named(mode).ok_or_else(|| format!("no meaning: {text}"))?,
             ),
             ("EXACT_STOP", "") => Meaning::ExactStop,
             ("ADVISE", advice) => {
                 let (kind, value) = advice.split_once(' ').unwrap_or((advice, ""));
-                let kind = AdviceKind::named(kind).ok_or_else(|| format!("no advice: {text}"))?;
+                let kind = AdviceKind::named(kind).ok_or_else(|| format!("no meaning: {text}"))?;
                 match kind.value(value) {
-                    None if !value.is_empty() => return Err(format!("no advice: {text}")),
+                    None if !value.is_empty() => return Err(format!("no meaning: {text}")),
                     value => Meaning::Advise(kind, value),
                 }
             }

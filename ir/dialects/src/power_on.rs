@@ -58,13 +58,13 @@ pub enum PathStart {
 }
 
 impl PathStart {
-    /// In words.
-    pub const fn words(self) -> &'static str {
+    /// Its name in a dictionary.
+    pub const fn name(self) -> &'static str {
         match self {
-            PathStart::ExactStop => "exact stop",
-            PathStart::Rounded => "rounded by the lag of the axes",
-            PathStart::Within => "rounded within a setting",
-            PathStart::Blended => "blended without a tolerance",
+            PathStart::ExactStop => "exact-stop",
+            PathStart::Rounded => "rounded",
+            PathStart::Within => "within",
+            PathStart::Blended => "blended",
         }
     }
 }

@@ -497,12 +497,8 @@ fn with_units(dialect: &'static Dialect, units: Units) -> &'static Dialect {
         Units::Inch => UnitsName::Inch,
     };
     let mut derived = dialect.clone();
-    derived.power_on.units = Some(PowerOnFact {
-        value,
-        always: true,
-        of_the_machine: false,
-        source: "stated for this run".to_owned(),
-    });
+    derived.power_on.units =
+        Some(PowerOnFact { value, always: true, of_the_machine: false, source: "command line".to_owned() });
     let derived: &'static Dialect = Box::leak(Box::new(derived));
     made.push((dialect, units, derived));
     derived

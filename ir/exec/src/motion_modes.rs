@@ -12,6 +12,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::kinds::{moves, polar};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::MoveUnexecuted;
 
 impl Exec {
@@ -74,7 +75,7 @@ impl Exec {
             Op::LimitSpindleSpeed(limit) => {
                 let limit = u32::try_from(self.value(limit, span)? / (ONE / 1000));
                 let Some(limit) = limit.ok().filter(|limit| *limit > 0) else {
-                    return self.fault(Fault::OutOfRange { word: "highest speed".into() }, span);
+                    return self.fault(Fault::OutOfRange { word: Ranged::HighestSpeed }, span);
                 };
                 self.state.limit = limit;
                 self.within_limit(span)?;
@@ -107,7 +108,7 @@ impl Exec {
             }
             let (from, to) = (self.position[axis as usize], self.value(&word.value, stmt.span)?);
             if !(0..360 * ONE).contains(&to) {
-                return self.fault(Fault::OutOfRange { word: "angle of one turn".into() }, stmt.span);
+                return self.fault(Fault::OutOfRange { word: Ranged::TurnAngle }, stmt.span);
             }
             let sense = match way.turn(from, to) {
                 None => return self.not_executed(MoveUnexecuted::RotaryHalfTurn, stmt.span),

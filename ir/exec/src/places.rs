@@ -5,6 +5,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::ToolUnexecuted;
 
 use crate::event::by_control;
@@ -92,7 +93,7 @@ impl Exec {
             Distance::Incremental => {
                 let sum = from.wrapping_add(value);
                 if sum.unsigned_abs() >= 1 << MOST_BITS {
-                    return self.fault(Fault::OutOfRange { word: "sum of lengths".into() }, span);
+                    return self.fault(Fault::OutOfRange { word: Ranged::LengthSum }, span);
                 }
                 sum
             }

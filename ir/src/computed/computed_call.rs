@@ -3,12 +3,10 @@
 //!
 //! Not here: which programs are asked about (the front-end's), and how a control writes such a call.
 
+pub use super::alarm_texts::NO_SUCH_PROGRAM;
 use crate::expr::{Binary, Expr, Node};
 use crate::program::{Alarm, Call, Control, Op, Stmt, Text};
 use crate::source::Span;
-
-/// The text of the alarm where no program has the number, or none is to be called.
-pub const NO_SUCH_PROGRAM: &str = "no such program";
 
 /// Such a call.
 #[derive(Clone, Copy, Debug)]

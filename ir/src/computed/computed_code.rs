@@ -3,14 +3,11 @@
 //!
 //! Not here: which codes are asked about (the front-end's), and how a control writes such a code.
 
+pub use super::alarm_texts::NO_SUCH_CODE;
 use crate::expr::num::Num;
 use crate::expr::{Binary, Expr, Node, compared};
 use crate::program::{Alarm, Control, Op, Stmt};
 use crate::source::Span;
-
-/// The text of the alarm where no code has the number. No value comes to it: who makes such decisions has shown that the
-/// number is that of one of the codes on every way.
-pub const NO_SUCH_CODE: &str = "no such code";
 
 /// Such a code.
 #[derive(Clone, Debug)]

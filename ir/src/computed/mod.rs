@@ -8,6 +8,7 @@
 //!
 //! Not here: the values themselves (`expr`).
 
+pub mod alarm_texts;
 pub mod assigned_variables;
 pub mod computed_call;
 pub mod computed_code;

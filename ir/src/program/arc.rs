@@ -8,6 +8,7 @@ use crate::diag::Fault;
 use crate::expr::num::{Num, Unit};
 use crate::expr::{Binary, Expr, Node};
 use crate::run_time::RunTimeValue;
+use crate::syntax::Ranged;
 
 /// An arc or helix.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +58,7 @@ impl Turns {
     /// Only the run of the program knows it; it is below 0, or not whole.
     pub fn count(&self) -> Result<u32, Fault> {
         self.number().ok_or_else(|| match &self.0 {
-            Expr::Num(_) => Fault::OutOfRange { word: "number of turns".into() },
+            Expr::Num(_) => Fault::OutOfRange { word: Ranged::Turns },
             Expr::Node(_) => Fault::computes(RunTimeValue::ComputedTurns),
         })
     }

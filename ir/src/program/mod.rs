@@ -47,8 +47,9 @@ use crate::canon::{
     AXES, AdviceKind, CornerShape, Distance, FeedMode, Modes, Plane, ReturnLevel, RotaryWay, Side,
     SpindleMode, Units,
 };
+pub use crate::computed::alarm_texts::NO_SUCH_BLOCK;
 use crate::expr::{Expr, Target, Var};
-pub use crate::operator_text::{Alarm, NO_SUCH_BLOCK, Output, Piece};
+pub use crate::operator_text::{Alarm, Output, Piece};
 use crate::program::cycle::{Cycle, Pattern};
 use crate::program::packed::PackedLines;
 use crate::source::Span;

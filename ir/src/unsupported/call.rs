@@ -6,6 +6,8 @@ reasons! {
     /// What ncc does not translate: calls, returns and what they give.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub enum CallUnsupported {
+        /// A call with arguments, where calls are expanded.
+        Arguments,
         /// A call beside other words.
         BesideWords,
         /// Ncc does not know which program this calls.

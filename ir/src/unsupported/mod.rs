@@ -9,6 +9,7 @@ mod code;
 mod cycle;
 mod flow;
 mod frame;
+pub mod left_out;
 mod moves;
 mod polar;
 mod save;

@@ -9,7 +9,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::{Op, Stmt};
 
-use super::{Printer, cannot, literal};
+use super::{Printer, cannot, literal, notes};
 
 /// Least feed that the interpreter makes of a time, in the unit in force a minute.
 const LEAST: f64 = 0.1;
@@ -26,12 +26,8 @@ impl Printer<'_> {
     /// A mode by time sets no feed until a move has one.
     pub(super) fn feed_mode(&mut self, mode: FeedMode) -> Result<(), Fault> {
         self.feed = None;
-        let (note, turns) = match mode {
-            FeedMode::PerMinute => ("units per minute", 0),
-            FeedMode::PerRevolution => ("units per revolution", 1),
-            FeedMode::InverseTime => ("inverse time", 0),
-        };
-        self.note(&format!("feed mode set to {note}"));
+        let turns = u8::from(mode == FeedMode::PerRevolution);
+        self.note(notes::feed_mode(mode));
         let _ = writeln!(self.out, "SET_FEED_MODE(0, {turns})");
         if mode != FeedMode::InverseTime {
             self.call("SET_FEED_RATE(0.0000)");

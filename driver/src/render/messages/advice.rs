@@ -7,6 +7,7 @@ use ncc_dialects::{
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::program::numbered::Numbered;
+use ncc_ir::syntax::Found;
 use ncc_ir::unexecuted::{Unexecuted, ValueUnexecuted};
 
 use super::codes::{is_open, is_return};
@@ -44,7 +45,10 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         },
         Fault::LetterOForZero => vec![mend(at)],
         // Only some dialects have comments in brackets.
-        Fault::Syntax { found, .. } if **found == *"(" && !at.from.comment.open.starts_with('(') => {
+        Fault::Syntax { found, .. }
+            if matches!(found, Found::Text(text) if **text == *"(")
+                && !at.from.comment.open.starts_with('(') =>
+        {
             match at.from.comment.open.trim() {
                 "" => Vec::new(),
                 open => vec![Help::new("help-comment").text("open", open)],

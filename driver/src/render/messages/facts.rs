@@ -11,13 +11,17 @@ use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName, NoValue};
 use ncc_ir::expr::value::Wrong;
 use ncc_ir::geometry::offset_path::Unreachable;
+use ncc_ir::syntax::Ranged;
 
 use super::codes::{code_for, is_open, is_return, typed};
 use super::context::Context;
 use super::file_needs;
 use super::message::Message;
 use crate::render::numbers::{millimetres, numbered, signed, thousands};
-use crate::render::spelled::{assumed_fact, character, found_words, kept, mode, row_meaning, work_offset};
+use crate::render::spelled::{
+    alarms_mapped, assumed_fact, character, expected_words, found_words, kept, mode, mode_value,
+    path_start_short, row_meaning, work_offset,
+};
 use crate::render::text::{plain, plain_upto, shown};
 
 /// So much is shown of the words of a block in a headline, in characters.
@@ -87,7 +91,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::BlockTooLong { limit } => m.count("limit", *limit),
         Fault::WordWithoutNumber { letter } | Fault::WordTwice { letter } => m.text("letter", *letter),
         Fault::Syntax { found, expected } => {
-            m.text("found", found_words(found)).text("expected", plain(expected))
+            m.text("found", found_words(found)).text("expected", expected_words(expected))
         }
         Fault::OpeningMarkMissing { mark, follows: true } => m.form("between").text("mark", shown(mark)),
         Fault::OpeningMarkMissing { mark, follows: false } | Fault::TextBeforeStart { mark } => {
@@ -102,9 +106,8 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         }
         Fault::NotSupported { code, what } => m.reason(what).text("code", shown(code)).typed(typed(at.from)),
         Fault::CodesExclude { first, second } => m.text("first", shown(first)).text("second", shown(second)),
-        Fault::WordUnused { word } | Fault::PointNotAllowed { word } | Fault::OutOfRange { word } => {
-            m.text("word", shown(word))
-        }
+        Fault::WordUnused { word } | Fault::PointNotAllowed { word } => m.text("word", shown(word)),
+        Fault::OutOfRange { word } => out_of_range(word, m),
         // Any axis will do.
         Fault::WordMissing { code, word } if is_return(code, at.from) => {
             m.form("return").text("code", plain(code))
@@ -152,8 +155,11 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::RadiusUnknown { entry: None } => m.form("edge"),
         Fault::ContourUnreachable { why } => unreachable(*why, m),
 
-        Fault::AssumedMode { fact, value } => m.text("mode", mode(*fact)).text("value", plain(value)),
-        Fault::AssumedNoEffect { code } | Fault::CodeLeftOut { code } => m.text("code", shown(code)),
+        Fault::AssumedMode { fact, value } => {
+            m.text("mode", mode(*fact)).text("value", mode_value(*fact, value))
+        }
+        Fault::AssumedNoEffect { code } => m.text("code", shown(code)),
+        Fault::CodeLeftOut { what } => m.reason(what),
         Fault::AssumedBareNumber { word, value } => m.text("word", shown(word)).text("value", plain(value)),
         Fault::AssumedWorkOffset { offset } => m.text("offset", work_offset(*offset, [at.to, at.from])),
         Fault::AssumedRow { code, meaning } => {
@@ -191,7 +197,9 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             let m = if before == now { m.form("same") } else { m };
             m.text("before", millimetres(*before)).text("now", millimetres(*now))
         }
-        Fault::PathAtStart { source, target } => m.text("before", *source).text("after", *target),
+        Fault::PathAtStart { source, target } => {
+            m.text("before", path_start_short(source)).text("after", path_start_short(target))
+        }
         Fault::FeedOnArcs { contour_in_source: true, .. } => m.form("contour"),
         Fault::FeedOnArcs { .. } => m,
         Fault::LengthByHand { tool } | Fault::AssumedEdge { tool } => m.text("tool", tool.to_string()),
@@ -237,7 +245,8 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::AdviceLeftOut { kind } => m.text("kind", plain(&kind.replace('-', " "))),
         Fault::WorkOffsetLeftOut { offset } => m.text("offset", offset.to_string()),
         Fault::Flattened { blocks } => m.count("blocks", *blocks),
-        Fault::VariablesRenamed { map } | Fault::AlarmsRenumbered { map } => m.text("map", map.to_string()),
+        Fault::VariablesRenamed { map } => m.text("map", map.to_string()),
+        Fault::AlarmsRenumbered { map } => m.text("map", alarms_mapped(map)),
         Fault::ValuesInFull { digits } => m.count("digits", *digits),
         Fault::MacroCloned { name, names } => m.text("name", plain(name)).text("names", plain(names)),
         Fault::SideEffectWritten { behaviour } => {
@@ -356,4 +365,20 @@ pub(super) fn unreachable(why: Unreachable, m: Message) -> Message {
         Unreachable::NoMeeting => "no-meeting",
         Unreachable::TurnedBack => "turned-back",
     })
+}
+
+/// The entry of NC0209: a value is out of its range.
+fn out_of_range(what: &Ranged, m: Message) -> Message {
+    match what {
+        Ranged::Word(word) => m.text("word", shown(word)),
+        Ranged::Turns => m.form("turns"),
+        Ranged::Holes => m.form("holes"),
+        Ranged::PeckDepth => m.form("peck-depth"),
+        Ranged::LengthSum => m.form("length-sum"),
+        Ranged::TurnAngle => m.form("turn-angle"),
+        Ranged::HighestSpeed => m.form("highest-speed"),
+        Ranged::PointNumber => m.form("point-number"),
+        Ranged::StoredPosition => m.form("stored-position"),
+        Ranged::SkipLevel => m.form("skip-level"),
+    }
 }

@@ -1,5 +1,8 @@
 //! Each message once, with values: every entry of `messages/` is found, has its values, and keeps its length.
 
+use ncc_ir::alarms::{AlarmMapped, AlarmName};
+use ncc_ir::syntax::{Expected, Found, Ranged};
+use ncc_ir::unsupported::left_out::LeftOut;
 use std::collections::BTreeSet;
 
 use ncc_dialects::Dialect;
@@ -42,6 +45,7 @@ fn dialect(id: &str) -> &'static Dialect {
 /// Faults of each code, and of each form of a code.
 fn samples() -> Vec<Fault> {
     let mut all = text_and_meaning();
+    all.extend(forms_and_ranges());
     all.extend(assumed());
     all.extend(became());
     all.extend(target_and_verification());
@@ -61,8 +65,6 @@ fn text_and_meaning() -> Vec<Fault> {
         WordWithoutNumber { letter: 'X' },
         LetterOForZero,
         EmptyProgram,
-        Syntax { found: t(), expected: "a word".into() },
-        Syntax { found: "(".into(), expected: "a word".into() },
         NoProgramEnd,
         TextAfterEnd,
         TextBeforeStart { mark: "%".into() },
@@ -84,7 +86,6 @@ fn text_and_meaning() -> Vec<Fault> {
         WordTwice { letter: 'X' },
         TooManyCodes { letter: 'M', limit: 1 },
         PointNotAllowed { word: "S5000.".into() },
-        OutOfRange { word: t() },
         NoMotionMode,
         ArcWithoutCentre,
         ArcCentreAndRadius,
@@ -128,6 +129,55 @@ fn text_and_meaning() -> Vec<Fault> {
     ]
 }
 
+fn forms_and_ranges() -> Vec<Fault> {
+    use Fault::*;
+    vec![
+        Syntax { found: "(".into(), expected: Expected::Word },
+        Syntax { found: Found::EndOfLine, expected: Expected::Word },
+        Syntax { found: Found::EndOfBlock, expected: Expected::Word },
+        Syntax { found: Found::EndOfText, expected: Expected::Word },
+        Syntax { found: Found::Line, expected: Expected::Word },
+        Syntax { found: Found::ManyWords, expected: Expected::Word },
+        Syntax { found: "5".into(), expected: Expected::Text("]".into()) },
+        Syntax { found: "5".into(), expected: Expected::Word },
+        Syntax { found: "5".into(), expected: Expected::WordOrNumber },
+        Syntax { found: "5".into(), expected: Expected::Number },
+        Syntax { found: "5".into(), expected: Expected::NumberOrNothing },
+        Syntax { found: "5".into(), expected: Expected::WholeNumber },
+        Syntax { found: "5".into(), expected: Expected::QuotedText },
+        Syntax { found: "5".into(), expected: Expected::PlainEscapes },
+        Syntax { found: "5".into(), expected: Expected::Name },
+        Syntax { found: "5".into(), expected: Expected::OneOf("on, off".into()) },
+        Syntax { found: "5".into(), expected: Expected::Path },
+        Syntax { found: "5".into(), expected: Expected::Type },
+        Syntax { found: "5".into(), expected: Expected::Jump },
+        Syntax { found: "5".into(), expected: Expected::Expression },
+        Syntax { found: "5".into(), expected: Expected::Statement },
+        Syntax { found: "5".into(), expected: Expected::Block },
+        Syntax { found: "5".into(), expected: Expected::OperatorOrEnd },
+        Syntax { found: "5".into(), expected: Expected::EndOfBlock },
+        Syntax { found: "5".into(), expected: Expected::EndOfLine },
+        Syntax { found: "5".into(), expected: Expected::BodyAtEnd },
+        Syntax { found: "5".into(), expected: Expected::EndOfBody },
+        Syntax { found: "5".into(), expected: Expected::EndOfBodyAlone },
+        Syntax { found: "5".into(), expected: Expected::Words { most: 9 } },
+        Syntax { found: "5".into(), expected: Expected::Bodies { most: 9 } },
+        Syntax { found: "5".into(), expected: Expected::PointOfPlane },
+        Syntax { found: "5".into(), expected: Expected::RotaryAxis },
+        Syntax { found: "5".into(), expected: Expected::StraightMove },
+        OutOfRange { word: t().into() },
+        OutOfRange { word: Ranged::Turns },
+        OutOfRange { word: Ranged::Holes },
+        OutOfRange { word: Ranged::PeckDepth },
+        OutOfRange { word: Ranged::LengthSum },
+        OutOfRange { word: Ranged::TurnAngle },
+        OutOfRange { word: Ranged::HighestSpeed },
+        OutOfRange { word: Ranged::PointNumber },
+        OutOfRange { word: Ranged::StoredPosition },
+        OutOfRange { word: Ranged::SkipLevel },
+    ]
+}
+
 fn assumed() -> Vec<Fault> {
     use Fault::*;
     vec![
@@ -165,7 +215,8 @@ fn assumed() -> Vec<Fault> {
         OpenBehaviour { behaviour: Behaviour::VariablesAtEnd, source: true, taken: "kept", other: "lost" },
         MovedAtChange,
         OptionalStopDiffers,
-        PathAtStart { source: "exact stop", target: "rounded" },
+        PathAtStart { source: "exact-stop", target: "rounded" },
+        PathAtStart { source: "within", target: "blended" },
         NextRunShifted { axis: Axis::X, source: 0, target: 10_000_000_000 },
         NextRunTurned,
         NextRunVariables { names: ["500".into()].into(), source: Kept::Always, target: Kept::UntilEnd },
@@ -197,7 +248,13 @@ fn became() -> Vec<Fault> {
         NameAsComment,
         BlockSplit,
         MessageDropped,
-        CodeLeftOut { code: "M46".into() },
+        CodeLeftOut { what: LeftOut::Code { code: t() } },
+        CodeLeftOut { what: LeftOut::ReadAs { code: t(), other: t() } },
+        CodeLeftOut { what: LeftOut::WithoutAxis { code: t() } },
+        CodeLeftOut { what: LeftOut::WithoutLetter { code: t(), letter: 'D' } },
+        CodeLeftOut { what: LeftOut::Call { name: t() } },
+        CodeLeftOut { what: LeftOut::Dwell { code: t() } },
+        CodeLeftOut { what: LeftOut::Assignment { name: t() } },
         MessageAsComment,
         RepeatExpanded { times: 3 },
         FramesExpanded,
@@ -211,7 +268,14 @@ fn became() -> Vec<Fault> {
         WorkOffsetLeftOut { offset: 7 },
         Flattened { blocks: 1000 },
         VariablesRenamed { map: "#1 is R1".into() },
-        AlarmsRenumbered { map: "1 is 65001".into() },
+        AlarmsRenumbered {
+            map: [AlarmMapped { from: AlarmName::Number(1), to: AlarmName::Number(65_001), text: None }]
+                .into(),
+        },
+        AlarmsRenumbered {
+            map: [AlarmMapped { from: AlarmName::Text(t()), to: AlarmName::Number(1), text: Some(t()) }]
+                .into(),
+        },
         ValuesInFull { digits: 3 },
         OutputDropped,
         MacroCloned { name: "O9010".into(), names: "O9010 and O9011".into() },

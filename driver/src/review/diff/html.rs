@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::tell::{Account, Block, Difference};
+use crate::render::messages::message::{Message, Part};
 
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:76em;padding:0 1em;\
 color:#1c1c1c;background:#fff}h1{font-size:1.3em}h2{font-size:1em;margin:1.6em 0 .3em}\
@@ -31,17 +32,14 @@ pub fn write(out: &mut dyn Write, account: &Account) -> io::Result<()> {
         escaped(&account.summary)
     )?;
     if account.level == "motion" {
-        writeln!(
-            out,
-            "<p><small>Compared: {} events that agree, {} and {} that do not; in {} test set-ups, under {} \
-             setting(s) of the block-skip switches, within {} mm.</small></p>",
-            account.same,
-            account.unmatched[0],
-            account.unmatched[1],
-            account.worlds,
-            account.settings,
-            account.tolerance
-        )?;
+        let compared = Message::part(Part::Difference, "page-compared")
+            .text("same", account.same.to_string())
+            .text("first", account.unmatched[0].to_string())
+            .text("second", account.unmatched[1].to_string())
+            .text("set-ups", account.worlds.to_string())
+            .text("settings", account.settings.to_string())
+            .text("within", account.tolerance.to_string());
+        writeln!(out, "<p><small>{}</small></p>", escaped(&compared.headline()))?;
     }
     for note in &account.notes {
         writeln!(out, "<p><small>Note: {}</small></p>", escaped(note))?;
@@ -50,7 +48,9 @@ pub fn write(out: &mut dyn Write, account: &Account) -> io::Result<()> {
         one(out, difference)?;
     }
     if account.left_out > 0 {
-        writeln!(out, "<p>… and {} more, too many to be listed.</p>", account.left_out)?;
+        let left_out =
+            Message::part(Part::Difference, "page-left-out").text("more", account.left_out.to_string());
+        writeln!(out, "<p>{}</p>", escaped(&left_out.headline()))?;
     }
     writeln!(out, "<p><small>ncc {}</small></p></body></html>", env!("CARGO_PKG_VERSION"))
 }

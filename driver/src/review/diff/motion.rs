@@ -12,6 +12,7 @@ use ncc_diff::tape::Tape;
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::expr::num::Nanos;
 
+use crate::problem::BrokenOff;
 use crate::review::feed::{Settings, records};
 use crate::review::stream::{Course, clearances};
 use crate::side::Side;
@@ -135,9 +136,8 @@ fn once(
     let ((), courses) = side_by_side::run(first, second, AHEAD, |[a, b]| {
         compare(Tape::new(a), Tape::new(b), Rules { measure, shifts: true }, into);
     });
-    let joined = |course: Option<io::Result<Course>>| {
-        course.unwrap_or_else(|| Err(io::Error::other("a side's execution broke off")))
-    };
+    let joined =
+        |course: Option<io::Result<Course>>| course.unwrap_or_else(|| Err(io::Error::other(BrokenOff::Side)));
     let [first, second] = courses;
     Ok([joined(first)?, joined(second)?])
 }

@@ -83,7 +83,7 @@ pub(super) fn values(change: &Change) -> Option<[String; 2]> {
         Change::Dwell(a, b) | Change::Orient(a, b) => [number(*a), number(*b)],
         Change::Spindle(a, b) => [*a, *b].map(|s| spindle(s).to_owned()),
         Change::Tool(a, b) => [*a, *b].map(tool_name),
-        Change::Coolant(a, b) => [*a, *b].map(|on| coolant(on).to_owned()),
+        Change::Coolant(a, b) => [*a, *b].map(coolant),
         Change::Compensation(a, b) => [a, b].map(compensation),
         Change::WorkOffset(a, b) => [a.to_string(), b.to_string()],
         Change::Length(a, b) => [length(a), length(b)],

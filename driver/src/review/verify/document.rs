@@ -18,8 +18,8 @@ use crate::render::messages::message::{Message, Part};
 
 /// Version of the form.
 pub const VERSION: u32 = 1;
-/// What the document is.
-pub const KIND: &str = "ncc verification of a pair of programs";
+/// The kind of the document, by which a reader knows it.
+pub const KIND: &str = include_str!("../../../schema/certificate.kind");
 /// Its JSON Schema.
 pub const SCHEMA: &str = include_str!("../../../schema/certificate.schema.json");
 

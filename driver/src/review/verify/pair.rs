@@ -23,6 +23,7 @@ use super::in_step;
 use super::plan::Plan;
 use crate::job::Job;
 use crate::machines::pair::Machines;
+use crate::problem::BrokenOff;
 use crate::review::stream::{Course, Stage, Unsaid, clearances, look, stream, stream_as};
 use crate::side::Side;
 use crate::side_by_side::{self, Pieces, Take};
@@ -341,7 +342,7 @@ fn once(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2]) -> io::Result<Done> 
     let second = |take: Take<Piece>| hand_over(b, plan.unsaid, plan.controls(1, skip[1]), take);
     let (found, courses) = side_by_side::run(first, second, AHEAD, |pieces| together(pieces, plan));
     let (comparisons, difference, over) = found;
-    let broke_off = || io::Error::other("a side's execution broke off");
+    let broke_off = || io::Error::other(BrokenOff::Side);
     let joined = |course: Option<io::Result<Course>>| -> io::Result<Vec<Diagnostic>> {
         let errors = course.unwrap_or_else(|| Err(broke_off()))?.diagnostics.into_iter();
         Ok(errors.filter(|d| d.fault.gravity() == Gravity::Error).collect())

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::document::{Deviation, Document, First, One, Place, Program, Word, verify};
+use crate::render::spelled::meaning_words;
 
 /// Differences that are shown.
 const SHOWN: usize = 10;
@@ -100,7 +101,11 @@ fn largest(document: &Document, deviation: &Deviation) -> String {
 /// What each program leaves to its control, each list with its entry.
 fn left_to_control(program: &Program, verdict: Word) -> Vec<(&'static str, Vec<String>)> {
     let assumed = program.assumed.iter().map(|assumed| assumed.text.clone()).collect();
-    let rows = program.unconfirmed.iter().map(|row| format!("{} = {}", row.code, row.meaning)).collect();
+    let rows = program
+        .unconfirmed
+        .iter()
+        .map(|row| format!("{} = {}", row.code, meaning_words(&row.meaning)))
+        .collect();
     let unstated = match verdict {
         Word::Equal | Word::EqualWithinTolerance => "unstated",
         Word::Different | Word::NotCompared => "unstated-unsettled",

@@ -32,7 +32,7 @@ impl Lower {
             return self.not_supported(&src.text(given.span), what, given.span, out);
         }
         if num.mantissa < 0 {
-            return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(given.span).into() }, given.span, out);
         }
         self.rounding = (num.mantissa > 0).then_some(num);
         self.now.heading = true;
@@ -57,7 +57,7 @@ impl Lower {
             }
             let Some(size) = self.amount(given, Quantity::Length, src, out) else { continue };
             if size.literal().is_some_and(|num| num.mantissa <= 0) {
-                self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                self.fault(Fault::OutOfRange { word: src.text(given.span).into() }, given.span, out);
                 continue;
             }
             self.push(given.span, Op::Corner { shape, size }, out);

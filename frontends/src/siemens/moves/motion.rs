@@ -284,7 +284,7 @@ impl Lower {
                 return self.not_supported(&src.text(span), what, span, out);
             }
             if angle.is_some_and(|n| n.mantissa < 0) {
-                return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out);
+                return self.fault(Fault::OutOfRange { word: src.text(span).into() }, span, out);
             }
             *way = Some(said);
             at = Some(at.map_or(span, |at| at.to(span)));
@@ -367,7 +367,11 @@ impl Lower {
             Some(given) => match self.read_whole(given, src, out) {
                 Some(turns @ 0..=MOST_TURNS) => turns,
                 Some(_) => {
-                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                    return self.fault(
+                        Fault::OutOfRange { word: src.text(given.span).into() },
+                        given.span,
+                        out,
+                    );
                 }
                 None => return,
             },
@@ -393,7 +397,11 @@ impl Lower {
                     return;
                 };
                 if radius.literal().is_some_and(ncc_ir::expr::num::Num::is_zero) {
-                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                    return self.fault(
+                        Fault::OutOfRange { word: src.text(given.span).into() },
+                        given.span,
+                        out,
+                    );
                 }
                 let centre = Centre::Radius(radius);
                 Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns: Turns::from(turns), said }))
@@ -404,7 +412,11 @@ impl Lower {
                 };
                 let inside = num.nanos(false).is_some_and(|a| a > 0 && a < 360 * ONE);
                 if !inside {
-                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                    return self.fault(
+                        Fault::OutOfRange { word: src.text(given.span).into() },
+                        given.span,
+                        out,
+                    );
                 }
                 let angle = Expr::Num(num);
                 let shape = if about {

@@ -39,7 +39,7 @@ impl Lower {
             return self.fault(Fault::WordMissing { code, word }, block, out);
         };
         if given.distance.is_some() {
-            return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(given.span).into() }, given.span, out);
         }
         let Some(mut lead) = self.number(given, Quantity::Length, src, out) else { return };
         let minus = lead.mantissa < 0;
@@ -49,7 +49,7 @@ impl Lower {
             Thread::Plain | Thread::Back | Thread::Chuck => None,
         };
         if lead.is_zero() || minus && turn.is_none() {
-            return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(given.span).into() }, given.span, out);
         }
         let pitch = Pitch::Stated(Expr::Num(lead));
         self.push_thread(to, pitch, turn, block, out);

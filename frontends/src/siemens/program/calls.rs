@@ -16,6 +16,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr as Value, Many, Node, Var};
 use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CallUnsupported, Unsupported};
 
 use super::repeated_blocks::{NotRepeatable, Under};
@@ -289,7 +290,7 @@ impl Lower {
             return self.not_supported(&src.text(at), CallUnsupported::BesideWords, at, out);
         };
         if !(1..=MOST_TIMES).contains(&times) {
-            return self.fault(Fault::OutOfRange { word: src.text(at) }, at, out);
+            return self.fault(Fault::OutOfRange { word: src.text(at).into() }, at, out);
         }
         let own_feed = self.state.cycle.own_feed();
         let under = match &self.state.cycle {
@@ -350,7 +351,7 @@ impl Lower {
         let names = &self.settings.dialect.program.calls_left_out;
         let Some(own) = names.iter().find(|own| own.eq_ignore_ascii_case(name)) else { return false };
         if self.first_time(own) {
-            out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
+            out.report(Fault::CodeLeftOut { what: LeftOut::Call { name: name.into() } }, at);
         }
         true
     }
@@ -411,7 +412,7 @@ impl Lower {
             }
         };
         let Some(times) = times else {
-            return self.fault(Fault::OutOfRange { word: src.text(head.span) }, head.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(head.span).into() }, head.span, out);
         };
         let (from, mut to) = (upper(first), last.map(upper));
         for (name, span) in [Some((&from, first)), to.as_ref().zip(last)].into_iter().flatten() {

@@ -191,7 +191,11 @@ impl Lower {
             match at.whole_number().and_then(|at| u32::try_from(at).ok()).filter(|at| at < size) {
                 Some(at) => found.push(at),
                 None => {
-                    return self.refuse(Fault::OutOfRange { word: src.text(place.span) }, place.span, out);
+                    return self.refuse(
+                        Fault::OutOfRange { word: src.text(place.span).into() },
+                        place.span,
+                        out,
+                    );
                 }
             }
         }

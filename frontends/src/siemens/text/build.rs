@@ -5,6 +5,7 @@
 use lalrpop_util::ParseError;
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
+use ncc_ir::syntax::{Expected, Found};
 
 use super::token::{Refusal, Token};
 use super::tree::*;
@@ -16,7 +17,7 @@ fn refuse<T>(fault: Fault, span: Span) -> Parsed<T> {
     Err(ParseError::User { error: Refusal { fault, span } })
 }
 
-fn syntax<T>(found: &str, expected: &str, span: Span) -> Parsed<T> {
+fn syntax<T>(found: impl Into<Found>, expected: impl Into<Expected>, span: Span) -> Parsed<T> {
     refuse(Fault::Syntax { found: found.into(), expected: expected.into() }, span)
 }
 
@@ -35,7 +36,7 @@ pub(crate) fn whole_number(digits: Digits, l: u32, r: u32) -> Parsed<u32> {
     }
     match u32::try_from(digits.mantissa) {
         Ok(whole) => Ok(whole),
-        Err(_) => refuse(Fault::OutOfRange { word: spelt(digits) }, span),
+        Err(_) => refuse(Fault::OutOfRange { word: spelt(digits).into() }, span),
     }
 }
 
@@ -91,7 +92,7 @@ pub(crate) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
 pub(crate) fn count(letter: u8, count: Expr, l: u32, r: u32) -> Parsed<Expr> {
     match letter {
         b'P' => Ok(count),
-        _ => syntax(&char::from(letter).to_string(), "P", Span::new(l, r)),
+        _ => syntax(char::from(letter).to_string().as_str(), "P", Span::new(l, r)),
     }
 }
 
@@ -102,14 +103,14 @@ pub(crate) fn conditional(condition: Expr, jump: Jump, l: u32) -> Jump {
 /// A call by a text; it cannot hand over arguments.
 pub(crate) fn call(file: Expr, section: Option<(Target, Target)>) -> Parsed<Statement> {
     match file {
-        Expr::Call { name, span, .. } => syntax("(", "the end of the block", Span::new(name.end, span.end)),
+        Expr::Call { name, span, .. } => syntax("(", Expected::EndOfBlock, Span::new(name.end, span.end)),
         file => Ok(Statement::Call { file: Some(file), section }),
     }
 }
 
 pub(crate) fn call_by_path(path: Span, arguments: Option<Vec<Option<Expr>>>) -> Parsed<Statement> {
     match path.start == path.end {
-        true => syntax("end of block", "a path", path),
+        true => syntax(Found::EndOfBlock, Expected::Path, path),
         false => Ok(Statement::CallByPath { path, arguments: arguments.unwrap_or_default() }),
     }
 }

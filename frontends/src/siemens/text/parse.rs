@@ -9,6 +9,7 @@ use super::unit::{Kind, Line};
 use lalrpop_util::ParseError;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::{Expected, Found};
 
 lalrpop_util::lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused)]
@@ -68,10 +69,10 @@ fn explain(
     let syntax = |span: Span, expected: &[String]| {
         let at = |place: u32| (place - base) as usize;
         let found = match line.get(at(span.start)..at(span.end)) {
-            Some(text) if !text.is_empty() => String::from_utf8_lossy(text).into(),
-            _ => "end of block".into(),
+            Some(text) if !text.is_empty() => Found::Text(String::from_utf8_lossy(text).into()),
+            _ => Found::EndOfBlock,
         };
-        (Fault::Syntax { found, expected: wanted(expected).into() }, span)
+        (Fault::Syntax { found, expected: wanted(expected) }, span)
     };
     match error {
         ParseError::User { error } => (error.fault, error.span),
@@ -86,26 +87,27 @@ fn explain(
 }
 
 /// What could have stood there, in the trade's words.
-fn wanted(expected: &[String]) -> &'static str {
+fn wanted(expected: &[String]) -> Expected {
     let has = |name: &str| expected.iter().any(|e| e.trim_matches('"') == name);
+    let sign = |text: &str| Expected::from(text);
     let forms = [
-        ("skip", "a block"),
-        ("call", "a statement"),
-        (")", ")"),
-        ("]", "]"),
-        ("to", "TO"),
-        ("of", "OF"),
-        ("not", "an expression"),
-        ("system", "a word"),
-        ("goto", "a jump"),
-        ("type", "a type"),
-        ("number", "a number"),
-        ("name", "a name"),
-        ("letter", "P"),
-        ("=", "="),
-        ("as", "AS"),
-        ("*", "an operator or the end of the block"),
-        ("(", "("),
+        ("skip", Expected::Block),
+        ("call", Expected::Statement),
+        (")", sign(")")),
+        ("]", sign("]")),
+        ("to", sign("TO")),
+        ("of", sign("OF")),
+        ("not", Expected::Expression),
+        ("system", Expected::Word),
+        ("goto", Expected::Jump),
+        ("type", Expected::Type),
+        ("number", Expected::Number),
+        ("name", Expected::Name),
+        ("letter", sign("P")),
+        ("=", sign("=")),
+        ("as", sign("AS")),
+        ("*", Expected::OperatorOrEnd),
+        ("(", sign("(")),
     ];
-    forms.iter().find(|(name, _)| has(name)).map_or("the end of the block", |(_, words)| words)
+    forms.into_iter().find(|(name, _)| has(name)).map_or(Expected::EndOfBlock, |(_, form)| form)
 }

@@ -20,6 +20,7 @@
 use logos::Logos;
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Found;
 
 use super::tree::{Binary, Direction, Qualifier, TypeName, Unary};
 use crate::common::text::first_char;
@@ -175,8 +176,8 @@ impl<'t> Tokens<'t> {
         let start = self.raw.span().start;
         let rest = &self.raw.source()[start..];
         if let Some(quote @ (b'"' | b'\'')) = rest.first() {
-            let found = String::from_utf8_lossy(rest.trim_ascii_end()).into();
-            let fault = Fault::Syntax { found, expected: char::from(*quote).to_string().into() };
+            let found = Found::Text(String::from_utf8_lossy(rest.trim_ascii_end()).into());
+            let fault = Fault::Syntax { found, expected: char::from(*quote).to_string().as_str().into() };
             return Err(Refusal { fault, span: self.place(start, start + rest.trim_ascii_end().len()) });
         }
         let (found, len) = first_char(rest);
@@ -264,7 +265,7 @@ impl<'t> Tokens<'t> {
         self.raw.bump(digits);
         match digits {
             0 | 1 => self.lexed(Token::Skip(level)),
-            _ => self.refuse(Fault::OutOfRange { word: self.text() }),
+            _ => self.refuse(Fault::OutOfRange { word: self.text().into() }),
         }
     }
 

@@ -5,6 +5,7 @@
 
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Found;
 
 /// What a line is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +67,7 @@ pub(crate) fn line(line: &[u8], base: u32) -> Result<Line, (Fault, Span)> {
     match header {
         Some(header) => Ok(Line::Header(header)),
         None => {
-            let found = String::from_utf8_lossy(text).into();
+            let found = Found::Text(String::from_utf8_lossy(text).into());
             let expected = "%_N_NAME_MPF".into();
             Err((Fault::Syntax { found, expected }, span(0, text.len())))
         }

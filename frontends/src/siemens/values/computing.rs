@@ -19,6 +19,7 @@ use ncc_ir::expr::{Element, Expr, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::program::arguments;
 use ncc_ir::program::{Op, Type as Stored};
 use ncc_ir::source::Span;
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_ir::unsupported::{CodeUnsupported, Unsupported, ValueUnsupported};
 
 use super::formula::{ANY_R, is_r, may_be_one, r_parameter, reads};
@@ -140,7 +141,9 @@ impl Lower {
                     .map(|n| n.whole_number().and_then(|n| n.try_into().ok()))
                 {
                     Some(Some(number)) => number,
-                    Some(None) => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
+                    Some(None) => {
+                        return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out);
+                    }
                     None => {
                         let all = Numbers { scope: Scope::Common, prefix: "R".into(), from: 0, to: LAST_R };
                         let of = Many::Numbered(Box::new([all]));
@@ -155,7 +158,7 @@ impl Lower {
             }
         };
         if number > LAST_R {
-            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out);
         }
         let var = r_parameter(number);
         let name = var.name().into();
@@ -238,7 +241,10 @@ impl Lower {
             return false;
         }
         if self.first_time(&name) {
-            out.report(Fault::CodeLeftOut { code: format!("assignment to {name}").into() }, place.span);
+            out.report(
+                Fault::CodeLeftOut { what: LeftOut::Assignment { name: name.as_str().into() } },
+                place.span,
+            );
         }
         true
     }
@@ -301,7 +307,7 @@ impl Lower {
             let whole = at.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
             match whole {
                 Some(at) if at < *size => first = first * size + at,
-                Some(_) => return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out),
+                Some(_) => return self.fault(Fault::OutOfRange { word: src.text(span).into() }, span, out),
                 None => return refuse(self, ValueUnsupported::SeveralComputed, out),
             }
         }
@@ -336,7 +342,7 @@ impl Lower {
     ) -> Option<Vec<Option<Expr>>> {
         if !all {
             if values.len() > room as usize {
-                return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+                return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out);
             }
             let mut found = Vec::with_capacity(values.len());
             for value in values {
@@ -361,7 +367,7 @@ impl Lower {
             Some(Some(Tree::Number(digits, _))) if digits.scale == 0 && !digits.point => {
                 match u32::try_from(digits.mantissa) {
                     Ok(count) if count <= room => count,
-                    _ => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
+                    _ => return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out),
                 }
             }
             Some(Some(_)) => {

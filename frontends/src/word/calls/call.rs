@@ -8,6 +8,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::CallUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -33,7 +34,7 @@ impl Lower {
                 None => Some(1),
             };
             let (Some(times), Some(called)) = (times, Called::parse(name.as_bytes())) else {
-                return self.fault(Fault::OutOfRange { word: name }, span, out);
+                return self.fault(Fault::OutOfRange { word: name.into() }, span, out);
             };
             return self.call_program(called.text(), times, code.span.to(span), span, out);
         }
@@ -72,10 +73,10 @@ impl Lower {
             number %= packed;
         }
         if number == 0 {
-            return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         }
         if times == 0 || times > MOST_TIMES {
-            return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         }
         self.call_program(number.to_string().into(), times, code.span.to(word.span), word.span, out);
     }
@@ -85,7 +86,7 @@ impl Lower {
             return;
         }
         if times == 0 || times > MOST_TIMES {
-            return self.fault(Fault::OutOfRange { word: name }, word, out);
+            return self.fault(Fault::OutOfRange { word: name.into() }, word, out);
         }
         out.whole = true;
         self.centre_said_elsewhere(out);
@@ -102,7 +103,7 @@ impl Lower {
         let names = &self.settings.dialect.program.calls_left_out;
         let Some(place) = names.iter().position(|own| own == name) else { return false };
         if self.reported.calls_left_out.insert(place) {
-            out.report(Fault::CodeLeftOut { code: format!("call of {name}").into() }, at);
+            out.report(Fault::CodeLeftOut { what: LeftOut::Call { name: name.into() } }, at);
         }
         true
     }

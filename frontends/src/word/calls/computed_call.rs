@@ -41,7 +41,11 @@ impl Lower {
             Value::Number(_) | Value::None => match self.read_whole(program, src, out) {
                 Some(number @ 1..) => (number.to_string().into(), Vec::new()),
                 Some(0) => {
-                    return self.fault(Fault::OutOfRange { word: src.text(program.span) }, program.span, out);
+                    return self.fault(
+                        Fault::OutOfRange { word: src.text(program.span).into() },
+                        program.span,
+                        out,
+                    );
                 }
                 None => return,
             },

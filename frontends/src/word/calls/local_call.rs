@@ -92,7 +92,7 @@ impl Lower {
                 Some(n @ 1..=9999) => Op::Call(Box::new(once(n as u32))),
                 Some(_) => {
                     let word = count.map(|count| src.text(count.span)).unwrap_or_default();
-                    return self.fault(Fault::OutOfRange { word }, span, out);
+                    return self.fault(Fault::OutOfRange { word: word.into() }, span, out);
                 }
                 None => so_often(Op::Call(Box::new(once(1))), &times, span),
             },

@@ -115,7 +115,7 @@ impl Lower {
             if word.letter == count {
                 times = self.read_whole(word, src, out).unwrap_or(1);
                 if !(1..=MOST_TIMES).contains(&times) {
-                    self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                    self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
                 }
                 continue;
             }

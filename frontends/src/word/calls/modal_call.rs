@@ -69,8 +69,8 @@ impl Lower {
             return;
         } else {
             let what = match code.meaning {
-                Meaning::CallMacroAtBlocks => "MODAL_MACRO_CALL, the words of each block its arguments",
-                _ => "MODAL_MACRO_CALL, its arguments anew each time",
+                Meaning::CallMacroAtBlocks => "MODAL_MACRO_CALL words",
+                _ => "MODAL_MACRO_CALL anew",
             };
             self.assume_row(code.row, what, code.span, out);
             self.now.silent = true;

@@ -54,7 +54,7 @@ impl Lower {
         let [Some(from), Some(to), Some(times)] = whole else { return true };
         let total = self.option(REPEAT_COUNT, count.span, out) == "total";
         if times == 0 || times > MOST_TIMES {
-            self.fault(Fault::OutOfRange { word: src.text(count.span) }, count.span, out);
+            self.fault(Fault::OutOfRange { word: src.text(count.span).into() }, count.span, out);
             return true;
         }
         let times = if total { times - 1 } else { times };

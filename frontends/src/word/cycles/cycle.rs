@@ -375,7 +375,7 @@ impl Lower {
                 times
             }
             Some(_) => {
-                self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
                 0
             }
             None => 0,
@@ -426,10 +426,10 @@ impl Lower {
                 computed => return Some(computed),
             };
             if num.is_zero() {
-                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
             }
             if num.mantissa < 0 && self.settings.dialect.cycles.measured_anew {
-                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
             }
             // A peck's sign is ignored by the other controls that take one.
             Some(Expr::Num(Num { mantissa: num.mantissa.abs(), ..num }))
@@ -467,7 +467,7 @@ impl Lower {
         }
         let [first, less, least] = pecks.map(|num| num.nanos(false).unwrap_or(0));
         if less < 0 || least <= 0 || first < least {
-            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
         }
         Some(pecks)
     }

@@ -6,6 +6,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::Num;
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::CycleUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::known::Know;
@@ -81,7 +82,7 @@ impl Lower {
             return Some(dwell);
         }
         if self.assume {
-            out.report(Fault::CodeLeftOut { code: format!("dwell of {}", row.code).into() }, at);
+            out.report(Fault::CodeLeftOut { what: LeftOut::Dwell { code: row.code.as_str().into() } }, at);
         }
         None
     }

@@ -173,7 +173,7 @@ impl Lower {
         };
         match self.read_whole(&word, src, out)? {
             count @ 1..=9999 => Some(count),
-            _ => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+            _ => self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out),
         }
     }
 }

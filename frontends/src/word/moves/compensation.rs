@@ -13,6 +13,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
 use ncc_ir::unsupported::MoveUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -100,8 +101,8 @@ impl Lower {
         }
         if self.assume && !std::mem::replace(&mut self.radius.reported, true) {
             let letter = char::from(self.roles.radius_entry);
-            let fault = Fault::CodeLeftOut { code: format!("{} without {letter}", code.row.code).into() };
-            out.report(fault, code.span);
+            let what = LeftOut::WithoutLetter { code: code.row.code.as_str().into(), letter };
+            out.report(Fault::CodeLeftOut { what }, code.span);
         }
         true
     }

@@ -69,7 +69,9 @@ impl Lower {
                 };
                 self.push(word.span, Op::Corner { shape, size }, out);
             }
-            Some(_) | None => self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+            Some(_) | None => {
+                self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out)
+            }
         }
     }
 

@@ -10,6 +10,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::MoveUnsupported;
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use crate::batch::Batch;
 use crate::common::Source;
@@ -79,8 +80,8 @@ impl Lower {
             return;
         }
         if to.is_empty() && self.settings.get(MACHINE_WITHOUT_AXIS) == NOTHING {
-            let left_out = format!("{} without an axis", code.row.code).into();
-            return out.report(Fault::CodeLeftOut { code: left_out }, code.span);
+            let what = LeftOut::WithoutAxis { code: code.row.code.as_str().into() };
+            return out.report(Fault::CodeLeftOut { what }, code.span);
         }
         let mut refuse = |what: MoveUnsupported| {
             self.fault(Fault::not_supported(code.row.code.as_str(), what), code.span, out);

@@ -387,7 +387,7 @@ impl Lower {
         match self.read_whole(&word, src, out) {
             Some(turns @ 1..=MOST_TURNS) => Turns::from(turns - 1),
             Some(_) => {
-                self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                self.fault(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
                 Turns::NONE
             }
             None => Turns::NONE,

@@ -84,7 +84,7 @@ impl Lower {
             let word = words.take(letter)?;
             let num = self.number(&word, quantity, src, out)?;
             if letter == radius && num.mantissa < 0 {
-                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out);
             }
             Some(Expr::Num(num))
         };

@@ -50,7 +50,7 @@ impl Lower {
         }
         match self.number(word, quantity, src, out)? {
             num if num.mantissa > 0 => Some(num),
-            _ => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+            _ => self.refuse(Fault::OutOfRange { word: src.text(word.span).into() }, word.span, out),
         }
     }
 

@@ -7,6 +7,7 @@ use lalrpop_util::{ParseError, lalrpop_mod};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Unary};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::{Expected, Found};
 use ncc_ir::unsupported::{CodeUnsupported, TextUnsupported};
 
 use super::device_text;
@@ -350,7 +351,7 @@ impl Sink<'_> {
         };
         let Some(level) = level else {
             let word = self.text(start, end);
-            return self.fault(Fault::OutOfRange { word }, start, end);
+            return self.fault(Fault::OutOfRange { word: word.into() }, start, end);
         };
         if self.block.skip != 0 {
             let code = self.text(start, end);
@@ -412,10 +413,10 @@ pub(in crate::word) fn parse(
 fn refusal(error: ParseError<usize, Token, Refusal>, line: &[u8]) -> (Fault, usize, usize) {
     let syntax = |start: usize, end: usize, expected: &[String]| {
         let found = match line.get(start..end) {
-            Some(text) if start < end => String::from_utf8_lossy(text).into(),
-            _ => "end of block".into(),
+            Some(text) if start < end => Found::Text(String::from_utf8_lossy(text).into()),
+            _ => Found::EndOfBlock,
         };
-        (Fault::Syntax { found, expected: wanted(expected).into() }, start, end)
+        (Fault::Syntax { found, expected: wanted(expected) }, start, end)
     };
     match error {
         ParseError::User { error } => (error.fault, error.start, error.end),
@@ -427,15 +428,15 @@ fn refusal(error: ParseError<usize, Token, Refusal>, line: &[u8]) -> (Fault, usi
 }
 
 /// What could have stood there, in the trade's words.
-fn wanted(expected: &[String]) -> &'static str {
+fn wanted(expected: &[String]) -> Expected {
     let has = |name: &str| expected.iter().any(|e| e.trim_matches('"') == name);
     match (has("letter"), has("number"), has("[")) {
-        (true, true, _) => "a word or a number",
-        (true, false, _) => "a word",
-        (false, true, _) => "a number",
-        (false, false, true) => "[",
-        (false, false, false) if has("]") => "]",
-        (false, false, false) if has("=") => "=",
-        (false, false, false) => "the end of the block",
+        (true, true, _) => Expected::WordOrNumber,
+        (true, false, _) => Expected::Word,
+        (false, true, _) => Expected::Number,
+        (false, false, true) => "[".into(),
+        (false, false, false) if has("]") => "]".into(),
+        (false, false, false) if has("=") => "=".into(),
+        (false, false, false) => Expected::EndOfBlock,
     }
 }

@@ -72,9 +72,9 @@ fn arcs_that_are_none() {
     assert_eq!(faults("G2 X5 I1 CR=5\n"), ["ArcCentreAndRadius at 'CR=5'"]);
     assert_eq!(faults("G2 X5 I1 AR=5\n"), ["ArcCentreAndRadius at 'AR=5'"]);
     assert_eq!(faults("G2 AR=5\n"), ["ArcWithoutCentre at 'AR=5'"]);
-    assert_eq!(faults("G2 X5 AR=360\n"), ["OutOfRange { word: 'AR=360' } at 'AR=360'"]);
-    assert_eq!(faults("G2 X5 CR=0\n"), ["OutOfRange { word: 'CR=0' } at 'CR=0'"]);
-    assert_eq!(faults("G2 I5 TURN=1000\n"), ["OutOfRange { word: 'TURN=1000' } at 'TURN=1000'"]);
+    assert_eq!(faults("G2 X5 AR=360\n"), ["OutOfRange { word: Word('AR=360') } at 'AR=360'"]);
+    assert_eq!(faults("G2 X5 CR=0\n"), ["OutOfRange { word: Word('CR=0') } at 'CR=0'"]);
+    assert_eq!(faults("G2 I5 TURN=1000\n"), ["OutOfRange { word: Word('TURN=1000') } at 'TURN=1000'"]);
     assert_eq!(faults("G2 I5 TURN=1.\n"), ["PointNotAllowed { word: 'TURN=1.' } at 'TURN=1.'"]);
     assert_eq!(faults("CIP X5 Y2 I1=3\n"), ["WordMissing { code: 'CIP', word: 'J1' } at 'CIP X5 Y2 I1=3'"]);
     assert_eq!(faults("CT X5 I1\n"), ["WordUnused { word: 'I1' } at 'I1'"]);

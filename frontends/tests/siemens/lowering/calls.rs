@@ -75,7 +75,10 @@ fn units_that_are_refused() {
     assert_eq!(with_subs("", "%_N_B_INI\n$X=5\n").1, [refused("%_N_B_INI", "Text(NoProgram)", "%_N_B_INI")]);
     assert_eq!(with_subs("", "%_N_12_SPF\nM17\n").1, [refused("12", "Text(ByPathOnly)", "12")]);
     assert_eq!(with_subs("", "%_N_L1_SPF\nM17\n%_N_L1_SPF\nM17\n").1, ["ProgramTwice { name: '1' } at 'L1'"]);
-    assert_eq!(units("%_X\nM30\n").1[0], "Syntax { found: '%_X', expected: '%_N_NAME_MPF' } at '%_X'");
+    assert_eq!(
+        units("%_X\nM30\n").1[0],
+        "Syntax { found: Text('%_X'), expected: Text('%_N_NAME_MPF') } at '%_X'"
+    );
     assert_eq!(units("%\nM30\n").1, [] as [&str; 0]);
 }
 
@@ -182,7 +185,7 @@ fn labels_and_repetition() {
     assert_eq!(faults("AA: X1\nREPEAT AA BB\n"), ["LabelUnknown { name: 'BB' } at 'BB'"]);
     assert_eq!(
         faults("AA: X1\nREPEAT AA P=0\n"),
-        ["OutOfRange { word: 'REPEAT AA P=0' } at 'REPEAT AA P=0'"]
+        ["OutOfRange { word: Word('REPEAT AA P=0') } at 'REPEAT AA P=0'"]
     );
     assert_eq!(after_head("AA: X1\nREPEAT AA P=R1\n")[2], r#"REPEAT AA xNode(Var(Common("R1")))"#);
     assert_eq!(faults("AA: X1\nREPEAT AA P=\"A\"\n").len(), 1);

@@ -125,9 +125,9 @@ fn cycles_that_are_none() {
     let one = |call: &str| faults(&format!("{call}\n")).remove(0);
     assert_eq!(one("CYCLE81(,0,2,-5)"), "WordMissing { code: 'CYCLE81', word: 'RTP' } at 'CYCLE81(,0,2,-5)'");
     assert_eq!(one("CYCLE81(5,0,2)"), "WordMissing { code: 'CYCLE81', word: 'DP' } at 'CYCLE81(5,0,2)'");
-    assert_eq!(one("CYCLE81(5,6,2,-5)"), "OutOfRange { word: 'RTP' } at '5'");
-    assert_eq!(one("CYCLE81(5,5,2,,3)"), "OutOfRange { word: 'RTP' } at '5'");
-    assert_eq!(one("CYCLE81(5,0,-2,-3)"), "OutOfRange { word: 'SDIS' } at '-2'");
+    assert_eq!(one("CYCLE81(5,6,2,-5)"), "OutOfRange { word: Word('RTP') } at '5'");
+    assert_eq!(one("CYCLE81(5,5,2,,3)"), "OutOfRange { word: Word('RTP') } at '5'");
+    assert_eq!(one("CYCLE81(5,0,-2,-3)"), "OutOfRange { word: Word('SDIS') } at '-2'");
     assert_eq!(one("CYCLE81(5,0,2,3)"), "CycleUpsideDown at 'CYCLE81(5,0,2,3)'");
     assert_eq!(
         one("CYCLE81(5,0,2,-3,4)"),
@@ -137,7 +137,7 @@ fn cycles_that_are_none() {
         one("CYCLE81(5,0,2,-3,,2)"),
         "NotSupported { code: 'CYCLE81', what: Cycle(RefusedArgument { parameter: 'DTB', name: 'dwell at the bottom' }) } at '2'"
     );
-    assert_eq!(one("CYCLE82(5,0,2,-3,,-2)"), "OutOfRange { word: '-2' } at '-2'");
+    assert_eq!(one("CYCLE82(5,0,2,-3,,-2)"), "OutOfRange { word: Word('-2') } at '-2'");
     assert_eq!(
         one("CYCLE82(5,0,2,-3,,,,,11)"),
         "NotSupported { code: 'CYCLE82', what: Cycle(DepthMode { parameter: '_AMODE' }) } at '11'"
@@ -170,12 +170,12 @@ fn cycles_that_are_none() {
         one("CYCLE83(5,0,1,-20,,-8,,,,,.5,1)"),
         "NotSupported { code: 'CYCLE83', what: Cycle(RefusedArgument { parameter: 'FRF', name: 'another feed for the first peck' }) } at '.5'"
     );
-    assert_eq!(one("CYCLE83(5,0,1,-20,,-30)"), "OutOfRange { word: 'FDEP' } at '-30'");
+    assert_eq!(one("CYCLE83(5,0,1,-20,,-30)"), "OutOfRange { word: Word('FDEP') } at '-30'");
     assert_eq!(
         one("CYCLE83(5,0,1,-20,,,,,,,,1)"),
         "WordMissing { code: 'CYCLE83', word: 'FDEP' } at 'CYCLE83(5,0,1,-20,,,,,,,,1)'"
     );
-    assert_eq!(one("CYCLE83(5,0,1,-20,,-8,,,,,,2)"), "OutOfRange { word: 'VARI' } at '2'");
+    assert_eq!(one("CYCLE83(5,0,1,-20,,-8,,,,,,2)"), "OutOfRange { word: Word('VARI') } at '2'");
     assert_eq!(one("CYCLE81(10,0,R1,-5)"), "NotSupported { code: 'R1', what: Code(ComputedWord) } at 'R1'");
     assert_eq!(one("CYCLE81(5,0,2,-5,,,,,,7)"), "WordUnused { word: '7' } at '7'");
     assert_eq!(

@@ -7,7 +7,7 @@ fn what_a_program_never_says_is_told_where_it_relies_on_it() {
     assert_eq!(
         assumptions("X1\nZ2 F5\nG2 X5 I1\nM30\n"),
         [
-            "AssumedMode { fact: Motion, value: 'line at feed' } at 'X1'",
+            "AssumedMode { fact: Motion, value: 'feed' } at 'X1'",
             "AssumedMode { fact: Distance, value: 'absolute' } at 'X1'",
             "AssumedMode { fact: Units, value: 'mm' } at 'X1'",
             "AssumedMode { fact: WorkOffset, value: '1' } at 'X1'",

@@ -47,7 +47,7 @@ fn what_is_computed_and_has_no_meaning() {
     let alone = "Call(SubAlone)";
     refused("PROC A_B(VAR REAL C_D)", "PROC", alone, "C_D");
     refused("PROC A_B(REAL C_D=5)", "PROC", alone, "C_D");
-    assert_eq!(one("R1000=5"), "OutOfRange { word: 'R1000' } at 'R1000'");
+    assert_eq!(one("R1000=5"), "OutOfRange { word: Word('R1000') } at 'R1000'");
     assert_eq!(faults("X=(5)\n"), [] as [&str; 0]);
 }
 
@@ -98,14 +98,14 @@ fn words_that_are_none() {
     assert_eq!(one("G0 G1 X1"), "CodesExclude { first: 'G0', second: 'G1' } at 'G1'");
     assert_eq!(one("SUPA G53 X1"), "CodesExclude { first: 'SUPA', second: 'G53' } at 'G53'");
     assert_eq!(one("M3 M8 M9 M1 M0 M5"), "TooManyCodes { letter: 'M', limit: 5 } at 'M5'");
-    assert_eq!(one("D10"), "OutOfRange { word: 'D10' } at 'D10'");
+    assert_eq!(one("D10"), "OutOfRange { word: Word('D10') } at 'D10'");
     assert_eq!(one("T5.5"), "PointNotAllowed { word: 'T5.5' } at 'T5.5'");
-    assert_eq!(one("F-5"), "OutOfRange { word: 'F-5' } at 'F-5'");
+    assert_eq!(one("F-5"), "OutOfRange { word: Word('F-5') } at 'F-5'");
     assert_eq!(one("G1."), "PointNotAllowed { word: 'G1.' } at 'G1.'");
-    assert_eq!(one("X12345678901"), "OutOfRange { word: 'X12345678901' } at 'X12345678901'");
+    assert_eq!(one("X12345678901"), "OutOfRange { word: Word('X12345678901') } at 'X12345678901'");
     assert_eq!(one("CR X5"), "WordMissing { code: 'CR', word: '=' } at 'CR'");
-    assert_eq!(one("L1.5"), "OutOfRange { word: 'L1.5' } at 'L1.5'");
-    assert_eq!(one("L1 P0"), "OutOfRange { word: 'L1 P0' } at 'L1 P0'");
+    assert_eq!(one("L1.5"), "OutOfRange { word: Word('L1.5') } at 'L1.5'");
+    assert_eq!(one("L1 P0"), "OutOfRange { word: Word('L1 P0') } at 'L1 P0'");
     assert_eq!(one("L1 X5"), "NotSupported { code: 'L1', what: Call(BesideWords) } at 'L1'");
     assert_eq!(diagnostics(&read("M6\nM30\n"), b"M6\nM30\n"), ["NoToolSelected at 'M6'"]);
 }

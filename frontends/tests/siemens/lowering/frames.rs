@@ -32,8 +32,8 @@ fn frames_that_are_refused() {
     assert_eq!(faults("TRANS X5 G0\n"), refused("TRANS", "Frame(BesideFunctions)", "TRANS"));
     assert_eq!(faults("TRANS X=IC(5)\n"), refused("X=IC(5)", "Frame(FrameDistance)", "X=IC(5)"));
     assert_eq!(faults("TRANS X5 F9\n"), ["WordUnused { word: 'F9' } at 'F9'"]);
-    assert_eq!(faults("SCALE X0\n"), ["OutOfRange { word: 'X0' } at 'X0'"]);
-    assert_eq!(faults("SCALE X-1\n"), ["OutOfRange { word: 'X-1' } at 'X-1'"]);
+    assert_eq!(faults("SCALE X0\n"), ["OutOfRange { word: Word('X0') } at 'X0'"]);
+    assert_eq!(faults("SCALE X-1\n"), ["OutOfRange { word: Word('X-1') } at 'X-1'"]);
     assert_eq!(faults("G58 X5\n"), refused("G58", "Code(Named { name: 'axial absolute shift' })", "G58"));
     assert_eq!(
         faults("ROTS X5 Y5\n"),

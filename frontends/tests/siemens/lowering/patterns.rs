@@ -61,9 +61,9 @@ fn patterns_that_are_none() {
         one("HOLES2(0,0,18,0,0)"),
         "WordMissing { code: 'HOLES2', word: 'NUM' } at 'HOLES2(0,0,18,0,0)'"
     );
-    assert_eq!(one("HOLES2(0,0,0,0,0,8)"), "OutOfRange { word: 'RAD' } at '0'");
+    assert_eq!(one("HOLES2(0,0,0,0,0,8)"), "OutOfRange { word: Word('RAD') } at '0'");
     assert_eq!(one("HOLES2(0,0,5,0,0,2.5)"), "PointNotAllowed { word: '2.5' } at '2.5'");
-    assert_eq!(one("HOLES1(0,0,0,0,5,0)"), "OutOfRange { word: 'NUM' } at '0'");
+    assert_eq!(one("HOLES1(0,0,0,0,5,0)"), "OutOfRange { word: Word('NUM') } at '0'");
     // It is shared out where that is 0, which is known for what is never 0.
     assert_eq!(
         one("HOLES2(0,0,5,0,R1,2)"),

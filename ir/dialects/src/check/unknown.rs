@@ -43,6 +43,10 @@ impl DialectFault {
                 let among = CYCLE_KINDS.to_vec();
                 return Some(UnknownWord { kind: UnknownKind::CycleKind, name: kind, among });
             }
+            DialectFault::NoDefaultValue { name, among } => {
+                let among = among.iter().map(String::as_str).collect();
+                return Some(UnknownWord { kind: UnknownKind::Value, name, among });
+            }
             _ => return None,
         };
         let meaning = message.strip_prefix("no ").and_then(|rest| rest.split_once(": "));

@@ -11,6 +11,7 @@ use ncc_ir::geometry::arc_solver::{ArcRule, Around, SolvedArc, solve_arc};
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Point, Shape};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::MoveUnexecuted;
 
 /// Most turns of one arc; more is a slip of the pen.
@@ -228,7 +229,7 @@ impl Exec {
         let kind = |full| Kind::Arc { plane, turn: sense, full, centre: centre_here };
         if turns > 0 {
             if turns > MOST_TURNS {
-                return self.fault(Fault::OutOfRange { word: "number of turns".into() }, span);
+                return self.fault(Fault::OutOfRange { word: Ranged::Turns }, span);
             }
             // The whole turns are an event each; the third axis goes with the angle.
             let total = geometry::sweep_degrees(start, end, centre, turn, turns).abs();

@@ -16,6 +16,7 @@ use ncc_ir::geometry::hole_positions::{Here, HolePositions};
 use ncc_ir::program::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift, next_peck};
 use ncc_ir::program::{Coord, Point};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::CycleUnexecuted;
 use ncc_ir::unsupported::CycleUnsupported;
 
@@ -274,7 +275,7 @@ impl Exec {
         let less = less.map(|less| self.value(less, span)).transpose()?;
         let grows = less.is_some_and(|less| less < 0 || first < peck);
         if peck <= 0 || first <= 0 || grows || way / peck > MAX_PECKS {
-            return self.fault(Fault::OutOfRange { word: "depth of a peck".into() }, span);
+            return self.fault(Fault::OutOfRange { word: Ranged::PeckDepth }, span);
         }
         Ok(Strokes { first, peck, less, pause: None, dwell: None })
     }

@@ -16,6 +16,7 @@ use ncc_ir::geometry::offset_path::{Leg, Spot};
 use ncc_ir::lack::ArcsLack;
 use ncc_ir::program::cycle::absolute;
 use ncc_ir::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt, Turns};
+use ncc_ir::syntax::Ranged;
 use ncc_ir::track::Tracker;
 
 /// This pass.
@@ -85,7 +86,7 @@ pub(crate) fn leg(arc: &Arc, centre: Spot) -> Result<Leg, Fault> {
 fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     let turns = arc.turns.count()?;
     if turns > MOST_TURNS {
-        return Err(Fault::OutOfRange { word: "number of turns".into() });
+        return Err(Fault::OutOfRange { word: Ranged::Turns });
     }
     let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
     let (first, second, normal) = plane.axes();

@@ -3,6 +3,7 @@
 //! What a subprogram takes from its caller (motion or cycle in force, distance mode, plane, units)
 //! becomes what this caller has in force.
 
+use ncc_ir::unsupported::CallUnsupported;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::pass::{Pass, ProgramMoment, ProgramStep, Subprograms};
@@ -168,7 +169,7 @@ impl<'a> Inliner<'a> {
             return self.refuse(Fault::CallRecursive { name: call.name.clone() }, span);
         }
         if !sub.parameters.is_empty() || !call.arguments.is_empty() {
-            return self.refuse(Fault::MacroLanguage { what: "a call with arguments".into() }, span);
+            return self.refuse(Fault::not_supported(&*call.name, CallUnsupported::Arguments), span);
         }
         let fault = Fault::CallExpanded { name: call.name.clone(), times: call.times };
         self.diags.push(Diagnostic::new(fault, span));

@@ -14,6 +14,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE, Unit};
 use ncc_ir::program::cycle::{Along, First, Pattern, absolute};
 use ncc_ir::program::{Coord, Move, Op, Point, Program, Stmt};
+use ncc_ir::syntax::Ranged;
 use ncc_ir::track::Tracker;
 
 /// This pass.
@@ -161,7 +162,7 @@ pub(crate) fn holes(walk: &Walk, pattern: &Pattern, decimals: u8) -> Result<Vec<
         Pattern::Grid { columns, rows, .. } => columns.count.checked_mul(rows.count),
     };
     if count.is_none_or(|n| n > MOST_HOLES) {
-        return Err(Fault::OutOfRange { word: "number of holes".into() });
+        return Err(Fault::OutOfRange { word: Ranged::Holes });
     }
     let Some(plane) = plane(walk) else {
         return Err(Fault::EntryFactNeeded { fact: ncc_ir::diag::ModeName::Plane });

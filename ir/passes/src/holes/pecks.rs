@@ -17,6 +17,7 @@ use ncc_ir::expr::num::{Nanos, Num};
 use ncc_ir::lack::HolesLack;
 use ncc_ir::program::cycle::{Clearance, CycleKind, absolute, next_peck};
 use ncc_ir::program::{Op, Point};
+use ncc_ir::syntax::Ranged;
 use ncc_ir::track::ActiveCycle;
 
 /// Most pecks of one hole; more is a slip of the pen.
@@ -96,7 +97,7 @@ pub(super) fn pecks(
     let less = less.as_ref().map(length).transpose()?;
     let grows = less.is_some_and(|less| less < 0 || first < peck);
     if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MAX_PECKS {
-        return Err(Fault::OutOfRange { word: "depth of a peck".into() });
+        return Err(Fault::OutOfRange { word: Ranged::PeckDepth });
     }
     let unit = unit_of(normal, walk.unit());
     let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));

@@ -4,7 +4,7 @@
 //! The numbers of alarms that are computed stay. Not here: alarms that the target gives by itself.
 
 use crate::pass::Pass;
-use ncc_ir::alarms::Alarms;
+use ncc_ir::alarms::{AlarmMapped, AlarmName, Alarms};
 use ncc_ir::computed::computed_call::NO_SUCH_PROGRAM;
 use ncc_ir::computed::computed_code::NO_SUCH_CODE;
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -29,13 +29,12 @@ pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<
         true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
         false => &[NO_SUCH_CODE],
     };
-    let mut reported: Vec<(String, Span)> = Vec::new();
+    let mut reported: Vec<(AlarmMapped, Span)> = Vec::new();
     for procedure in &mut program.procedures {
         body(&mut procedure.body, alarms, own, &mut reported);
     }
     if let Some((_, at)) = reported.first() {
-        let all: Vec<&str> = reported.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
-        let map = all.join(", ").into();
+        let map = reported.iter().take(MOST_TOLD).map(|(mapped, _)| mapped.clone()).collect();
         diags.push(Diagnostic::new(Fault::AlarmsRenumbered { map }, *at));
     }
 }
@@ -62,25 +61,22 @@ fn characters(stmts: &mut [Stmt], alarms: &Alarms, diags: &mut Vec<Diagnostic>) 
     }
 }
 
-fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], reported: &mut Vec<(String, Span)>) {
+fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], reported: &mut Vec<(AlarmMapped, Span)>) {
     for stmt in stmts {
         match &mut stmt.op {
             Op::Alarm(alarm) => {
                 if let Some(other) = other(alarm, alarms, own) {
-                    let number = |alarm: &Alarm| {
-                        let number =
-                            alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole_number());
-                        number.map_or_else(
-                            || format!("the one with the text {:?}", &*alarm.text),
-                            |n| n.to_string(),
-                        )
+                    let name = |alarm: &Alarm| {
+                        let number = alarm.number.as_ref().and_then(Expr::literal);
+                        let number = number.and_then(|n| n.whole_number());
+                        number.map_or_else(|| AlarmName::Text((&*alarm.text).into()), AlarmName::Number)
                     };
-                    let mut what = format!("{} is {}", number(alarm), number(&other));
-                    if other.number.is_some() && other.text.chars().count() < alarm.text.chars().count() {
-                        what.push_str(&format!(" with the text {:?}", &*other.text));
-                    }
-                    if !reported.iter().any(|(known, _)| *known == what) {
-                        reported.push((what, stmt.span));
+                    let is_cut =
+                        other.number.is_some() && other.text.chars().count() < alarm.text.chars().count();
+                    let text = is_cut.then(|| (&*other.text).into());
+                    let mapped = AlarmMapped { from: name(alarm), to: name(&other), text };
+                    if !reported.iter().any(|(known, _)| *known == mapped) {
+                        reported.push((mapped, stmt.span));
                     }
                     **alarm = other;
                 }

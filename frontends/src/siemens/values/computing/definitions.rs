@@ -114,12 +114,12 @@ impl Lower {
             };
             match size.filter(|size| (1..=MOST_ELEMENTS).contains(size)) {
                 Some(size) => sizes.push(size),
-                None => return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out),
+                None => return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out),
             }
         }
         let total = sizes.iter().try_fold(1u32, |all, size| all.checked_mul(*size));
         if total.is_none_or(|total| total > MOST_ELEMENTS) {
-            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+            return self.refuse(Fault::OutOfRange { word: src.text(span).into() }, span, out);
         }
         Some((name, sizes.into()))
     }
