@@ -31,7 +31,6 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::expr::system::System;
 use ncc_ir::program::cycle::{Clearance, CycleKind};
-use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
 use ncc_ir::source::Span;
@@ -49,7 +48,7 @@ use crate::verify_run::controls::fixed;
 use crate::verify_run::{WORLDS, levels};
 
 pub use self::made::{Control, Made, Stage, Takes};
-pub use self::waiting::Waiting;
+pub use self::waiting::{Reading, Waiting};
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -82,16 +81,6 @@ pub struct Course {
     pub whole: bool,
     /// Length and SHA-256 of the source's bytes; only where [`look`] has read them to their end.
     pub bytes: Option<(u64, [u8; 32])>,
-}
-
-/// Statements of a program that streams, in their order, not executed.
-pub struct Reading {
-    /// Lines of a piece before its statements.
-    pub table: LineTable,
-    /// The statements of a piece.
-    pub stmts: Vec<Stmt>,
-    /// What the program has taken for granted so far.
-    pub assumed: Modes,
 }
 
 /// What is taken for granted where a program asks for a value of the machine's own.

@@ -4,14 +4,23 @@
 //! statements of a piece: first statements | rows of a table | the other statements
 //! ```
 
+use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
 use ncc_ir::program::line_table::LineTable;
 use ncc_ir::program::rows::Rows;
 
-use super::Reading;
-
 /// Lines of tables that become statements at once where both sides have lines that do not pass.
 const FEW: usize = 32;
+
+/// Statements of a program that streams, in their order, not executed.
+pub struct Reading {
+    /// Lines of a piece before its statements.
+    pub table: LineTable,
+    /// The statements of a piece.
+    pub stmts: Vec<Stmt>,
+    /// What the program has taken for granted so far.
+    pub assumed: Modes,
+}
 
 /// What of a side's piece is still to be executed: first statements, then rows of a table, then the other statements.
 #[derive(Default)]
