@@ -208,13 +208,12 @@ impl Exec {
         let same = |course: &&Course| apart && start.stands && course.start == start;
         let course = match valued.courses.iter().find(same) {
             Some(course) => *course,
-            None => {
-                let course = self.course(&valued.lines, start, apart)?;
-                if apart {
-                    valued.courses.push(course);
-                }
+            None if apart => {
+                let course = self.course::<true>(&valued.lines, start)?;
+                valued.courses.push(course);
                 course
             }
+            None => self.course::<false>(&valued.lines, start)?,
         };
         Some(self.take_course(&course, valued.inch))
     }
@@ -253,9 +252,9 @@ impl Exec {
         }
     }
 
-    /// How lines go from here; `None` where one of them is a fault or no straight line. `apart`: whether two places of the
+    /// How lines go from here; `None` where one of them is a fault or no straight line. `APART`: whether two places of the
     /// program are two on the machine.
-    fn course(&self, lines: &[Valued], start: Start, apart: bool) -> Option<Course> {
+    fn course<const APART: bool>(&self, lines: &[Valued], start: Start) -> Option<Course> {
         let Start { by_time, mut motion, mut feed, mut stands, .. } = start;
         // Rotary axes stay where they are.
         let [mut x, mut y, mut z, a, b, c] = start.at;
@@ -290,12 +289,15 @@ impl Exec {
                 from = Some([x, y, z]);
                 [x, y, z] = next;
             }
-            let mut goes = other || !stands;
-            if goes && !(apart && stands) {
-                let end = self.place(&[x, y, z, a, b, c]);
-                goes = end != last;
-                last = end;
-            }
+            let goes = if APART && stands {
+                other
+            } else {
+                let before = last;
+                if other || !stands {
+                    last = self.place(&[x, y, z, a, b, c]);
+                }
+                last != before
+            };
             events += u64::from(goes);
             // Behind the first move the machine stands where the program does.
             (stands, moved) = (true, true);
