@@ -22,6 +22,8 @@ pub struct Batch {
     pub(crate) tabled: bool,
     /// Further statements of the main procedure.
     pub stmts: Vec<Stmt>,
+    /// The last block of the main procedure that was read with the pieces before, whose statements may be taken out.
+    pub(crate) last: Option<Span>,
     /// Subprograms that are complete.
     pub procedures: Vec<Procedure>,
     /// The program's own name, as far as read.
@@ -50,6 +52,12 @@ impl Batch {
     pub fn main(&mut self, body: Vec<Stmt>) -> Procedure {
         let heading = self.heading.take().map(|heading| *heading).unwrap_or_default();
         Procedure { body, ..heading }
+    }
+
+    /// Remembers the last block of a piece, before its statements are taken out.
+    pub(crate) fn keep_last(&mut self) {
+        let stmt = self.stmts.last().map(|stmt| stmt.span);
+        self.last = stmt.or_else(|| self.table.rows().last().map(Row::span)).or(self.last);
     }
 
     /// Where further statements go: into the subprogram that is being read, else into the main procedure. Whoever looks

@@ -137,6 +137,7 @@ impl Reader {
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         self.read_showing(text, base, out, (usize::MAX, &mut |_, _| {}));
+        out.keep_last();
     }
 
     /// As of [`crate::Reader::settled`].
@@ -409,10 +410,9 @@ impl Reader {
         self.faulty |= self.lower.end_flow(out);
         if (in_sub || self.blocks) && !self.lower.ended && !over {
             let end = self.end;
-            let at = match self.lower.target(out).last() {
-                Some(stmt) => stmt.span,
-                None => Span::new(end.saturating_sub(1), end),
-            };
+            let last = self.lower.target(out).last().map(|stmt| stmt.span);
+            let before = if in_sub { None } else { out.last };
+            let at = last.or(before).unwrap_or_else(|| Span::new(end.saturating_sub(1), end));
             if in_sub {
                 self.lower.now.failed = false;
                 self.lower.leave_motion_before(at, out);

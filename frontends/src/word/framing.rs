@@ -303,10 +303,9 @@ impl Reader {
         let expected = in_sub || self.frame.blocks;
         if expected && !self.lower.ended && !self.frame.faulty {
             let end = self.frame.end;
-            let at = match self.lower.target(out).last() {
-                Some(stmt) => stmt.span,
-                None => Span::new(end.saturating_sub(1), end),
-            };
+            let last = self.lower.target(out).last().map(|stmt| stmt.span);
+            let before = if in_sub { None } else { out.last };
+            let at = last.or(before).unwrap_or_else(|| Span::new(end.saturating_sub(1), end));
             out.report(Fault::NoProgramEnd, at);
             if self.lower.settings.dialect.program.o_words && self.lower.state.compensated == Know::Said(true)
             {

@@ -91,6 +91,7 @@ impl Reader {
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         self.read_showing(text, base, out, (usize::MAX, &mut |_, _| {}));
+        out.keep_last();
     }
 
     /// As of [`crate::Reader::settled`].
