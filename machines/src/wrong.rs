@@ -147,7 +147,7 @@ pub enum Wrong {
     Missing {
         /// The key.
         key: &'static str,
-        /// What needs the key.
+        /// The entry that needs the key.
         needs: Needs,
     },
     /// An M code that the dialect has.

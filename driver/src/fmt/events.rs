@@ -294,6 +294,8 @@ mod tests {
     use ncc_dialects::{Settings, builtin};
 
     use super::*;
+    use crate::source::chunks::PIECE;
+    use crate::source::spliced::behind_a_piece;
 
     const PROGRAM: &str = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\n\
         G1 Z-1. F100.\nX10.\nX10.\nG2 X20. Y0. I5. J0.\nG1 X21.\n/2 Y5.\n/X3.\nG91 X1.\nG90 G81 Z-3. R2. F80.\nX1. Y2.\nG80\n\
@@ -354,6 +356,29 @@ mod tests {
             let other = PROGRAM.replacen(from, to, 1);
             assert_ne!(other, PROGRAM);
             assert_eq!(executed_once([PROGRAM, &other]), None, "{from} as {to}");
+        }
+    }
+
+    /// Rows of tables: laid out otherwise they are executed once, and count as their statements do; with another word they
+    /// are not the same.
+    #[test]
+    fn rows_are_executed_once_only_where_both_texts_have_them() {
+        let head = "G21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nG0 X0. Y0. S500 M3\nG43 H1 Z50.\nG1 X0. F100.\n/2 X3.\n/Y1.\n";
+        let rows =
+            ["G1 X1.", "X2.", "X3. Z5.", "Y4.", "Y4.", "X5. Y1. F90.", "G0 X1.", "Z7."].map(str::to_owned);
+        let text = behind_a_piece(head, "G52 X1.", &rows);
+        let laid_out = text.replace("X3. Z5.", "X3.Z5.").replace("G0 X1.", "G00X1.");
+        assert_ne!(laid_out, text);
+        let events = executed_once([&text, &laid_out]);
+        assert!(events.is_some());
+        assert_eq!(events, executed_twice([&text, &laid_out]));
+        for (from, to) in
+            [("X3. Z5.", "X3. Z6."), ("X2.", "Y2."), ("F90.", "F91."), ("G0 X1.", "X1."), ("Y4.\n", "")]
+        {
+            // In the piece after the first one.
+            let at = PIECE + text[PIECE..].find(from).expect("a row");
+            let other = format!("{}{to}{}", &text[..at], &text[at + from.len()..]);
+            assert_eq!(executed_once([&text, &other]), None, "{from} as {to}");
         }
     }
 

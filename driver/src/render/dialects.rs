@@ -98,7 +98,7 @@ fn options(out: &mut String, d: &Dialect) -> fmt::Result {
     Ok(())
 }
 
-/// What an option states: its own words, or those of the behaviour that it settles.
+/// The text of an option: its own words, or those of the behaviour that it settles.
 pub fn option_about<'d>(d: &'d Dialect, option: &OptionRow) -> String {
     let settles = |row: &&BehaviourRow| {
         row.open && Behaviour::named(&row.name).is_some_and(|behaviour| behaviour.option() == option.name)

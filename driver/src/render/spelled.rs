@@ -109,7 +109,7 @@ pub(crate) fn row_meaning(code: &str, meaning: &str, dialects: [&Dialect; 2]) ->
     entry_or_text(row, meaning)
 }
 
-/// What an unconfirmed row means, where its dictionary is not at hand.
+/// The meaning of an unconfirmed row, without its dictionary.
 pub(crate) fn meaning_words(meaning: &str) -> String {
     entry_or_text(meaning.replace(' ', "-"), meaning)
 }

@@ -37,7 +37,7 @@ impl Tracker {
         self.out_of_hole();
     }
 
-    /// What a hole leaves, besides where it is in the plane.
+    /// The state after a hole, besides its position in the plane.
     pub fn out_of_hole(&mut self) {
         let Some(in_force) = &mut self.cycle else {
             self.position[..3].fill(None);

@@ -1,4 +1,4 @@
-//! What is still to be executed of two programs that are read beside one another.
+//! The two sides of a comparison: pieces that are read, and their parts that are not executed yet.
 //!
 //! ```text
 //! statements of a piece: first statements | rows of a table | the other statements
@@ -18,11 +18,11 @@ pub struct Reading {
     pub table: LineTable,
     /// The statements of a piece.
     pub stmts: Vec<Stmt>,
-    /// What the program has taken for granted so far.
+    /// Facts taken for granted so far.
     pub assumed: Modes,
 }
 
-/// What of a side's piece is still to be executed: first statements, then rows of a table, then the other statements.
+/// The part of a side's piece that is not executed yet: first statements, then rows of a table, then the other statements.
 #[derive(Default)]
 pub struct Waiting {
     stmts: Vec<Stmt>,

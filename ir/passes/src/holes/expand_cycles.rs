@@ -391,7 +391,8 @@ fn must_expand(
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
 
-/// What all holes are made of that begin at this level and behind one another; `None` where that hangs on where they are.
+/// The moves that all further holes of a cycle share, for a tool that stands at this level; `None` if they depend on the
+/// position of the hole.
 fn series_from(
     from: Nanos,
     walk: &Walk,
@@ -407,7 +408,7 @@ fn series_from(
         return None;
     }
     let mut moves = Vec::new();
-    // Of a hole where the tool stands there is no move in the plane.
+    // A hole at the tool's own position has no move in the plane.
     hole(walk, in_force, &Point::default(), feed, target, &mut moves).ok()?;
     let raises = way != Approach::PlaneFirst && way.retracts(from, in_force.retract?);
     Some(Series { from, moves, place: usize::from(raises) })

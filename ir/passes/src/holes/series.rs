@@ -1,11 +1,11 @@
-//! Holes of one cycle one behind the other: each is the moves of the one before it, elsewhere.
+//! Expands consecutive holes of one cycle: each repeats the moves of the hole before it at another position.
 //!
 //! ```text
-//! X10. Y20. / X30. / Y5.    →    four moves each, of which the one in the plane alone is another
+//! X10. Y20. / X30. / Y5.    →    four moves each; only the move in the plane differs
 //! ```
 //!
-//! Behind a hole the tool stands at the level to which the cycle returns, so that all holes but the first begin at one
-//! level; and nothing else that a hole is made of changes where nothing but holes comes between.
+//! After a hole the tool is at the return level of the cycle. So all holes after the first start at one level, and nothing
+//! between them changes the other moves.
 //!
 //! Not here: what these moves are (`expand_cycles`).
 
@@ -43,7 +43,7 @@ pub(super) fn over_hole(walk: &Walk, to: &Point, normal: Axis) -> (Point, bool) 
     let here = &walk.at;
     let mut over = to.clone();
     over.axes[normal as usize] = None;
-    // A waiting length offset is taken up by a word of Z, even if the tool stands there already.
+    // A waiting length offset takes effect at the next Z word, even if the tool is at that Z already.
     let mut goes = walk.waiting && over.get(Axis::Z).is_some();
     for (axis, word) in Axis::ALL.into_iter().zip(&mut over.axes) {
         let Some(coord) = word else { continue };
