@@ -89,6 +89,14 @@ const ROWS: &[Row] = &[
         ..PLAIN
     },
     Row { name: "variable in each line", head: "#1=0.5", lines: &["{} F[500.+#1]"], ..PLAIN },
+    Row {
+        name: "other variables in each line",
+        from: "siemens",
+        to: "fanuc",
+        head: "R1=0.5",
+        lines: &["{} F=500+R{v}+R{w}"],
+        ..PLAIN
+    },
     Row { name: "arcs by centre", moves: Moves::Arcs, ..PLAIN },
     Row { name: "arcs by radius", moves: Moves::Radius, ..PLAIN },
     Row { name: "G0 and G1 in turn", head: "G1 F900", lines: &["G0 {}", "G1 {}"], ..PLAIN },
@@ -211,6 +219,8 @@ fn text(row: &Row, bytes: usize) -> String {
             ("{n}", &(n % 99_990 * 10 + 10).to_string()),
             ("{a}", &(n as i64 % 360 - 180).abs().to_string()),
             ("{y}", &mm(i64::from(n % 90_000))),
+            ("{v}", &(1 + n % 100).to_string()),
+            ("{w}", &(1 + (n * 37 + n / 100) % 100).to_string()),
             ("{f}", &(10 + n % 50).to_string()),
         ];
         text += &values.iter().fold(line.to_owned(), |line, (key, value)| line.replace(key, value));

@@ -9,6 +9,9 @@ use ncc_ir::program::packing::packs;
 use ncc_ir::program::shapes::{WordRole, WordShape, each_number};
 use ncc_ir::program::{Op, Stmt};
 
+/// Most kinds of computed words of a stretch: each word is held against all of them.
+const MOST_COMPUTED: usize = 256;
+
 /// Which words are packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Words {
@@ -50,6 +53,11 @@ impl Kinds {
             _ => {}
         }
         more
+    }
+
+    /// Whether there are so many kinds of computed words that moves like these are not worth packing.
+    pub(super) fn is_full(&self) -> bool {
+        self.computed.len() >= MOST_COMPUTED
     }
 
     fn has_more_words(&mut self, role: WordRole, word: &Expr) -> bool {

@@ -34,6 +34,8 @@ pub(crate) struct Packer {
     words: Words,
     /// Where the statements begin that may be packed yet.
     from: usize,
+    /// Whether those behind that were looked at, and more of them are needed.
+    needs_more: bool,
     open: Option<OpenStretch>,
 }
 
@@ -58,7 +60,7 @@ enum Found {
 impl Packer {
     /// For stretches of so many moves or more.
     pub(crate) fn new(shortest: usize, words: Words) -> Packer {
-        Packer { shortest, words, from: 0, open: None }
+        Packer { shortest, words, from: 0, needs_more: false, open: None }
     }
 
     /// How many statements are looked at together, as long as more are read.
@@ -69,7 +71,8 @@ impl Packer {
     /// Packs what is long enough of the first `settled` statements, behind which others will follow.
     pub(crate) fn pack(&mut self, body: &mut Vec<Stmt>, settled: usize) {
         let settled = settled.min(body.len());
-        if settled.saturating_sub(self.from) >= self.at_once() {
+        let enough = self.at_once().saturating_mul(if self.needs_more { 2 } else { 1 });
+        if settled.saturating_sub(self.from) >= enough {
             self.go(body, settled, false);
         }
     }
@@ -145,6 +148,7 @@ impl Packer {
 
     /// Looks for the next stretch.
     fn begin(&mut self, body: &mut Vec<Stmt>, settled: usize, over: bool) -> Found {
+        self.needs_more = false;
         let run = body[self.from..settled].iter().take_while(|stmt| self.words.packs(stmt)).count();
         let run_end = self.from + run;
         let more = run_end == settled && !over;
@@ -168,6 +172,10 @@ impl Packer {
                     other = true;
                     break;
                 }
+                if known.is_full() {
+                    self.from = end + 1;
+                    return Found::Further;
+                }
                 start = end + 1;
             }
             end += 1;
@@ -181,6 +189,7 @@ impl Packer {
             let tail = tail(body, start, end);
             if tail < start.saturating_add(self.shortest) {
                 if goes_on && first_end - self.from < 2 * self.at_once() {
+                    self.needs_more = true;
                     return Found::Wait;
                 }
                 // The next one begins behind what is said seldom.
@@ -253,4 +262,43 @@ pub(crate) fn pack(body: &mut Vec<Stmt>, shortest: usize, words: Words) {
         packer.pack(body, usize::MAX);
     }
     packer.finish(body, usize::MAX);
+}
+
+#[cfg(test)]
+mod tests {
+    use ncc_dialects::{Settings, builtin};
+    use ncc_frontends::{Batch, Reader};
+
+    use super::super::{SHORTEST, stretches, unpack};
+    use super::*;
+
+    fn body(text: &str) -> Vec<Stmt> {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        let (mut reader, mut batch) = (Reader::new(settings, true), Batch::default());
+        reader.read(text.as_bytes(), 0, &mut batch);
+        reader.finish(&mut batch);
+        batch.stmts
+    }
+
+    /// Looking at each word of one beside all kinds before it took minutes where each line has its own variable.
+    #[test]
+    fn moves_of_too_many_kinds_are_left_and_those_behind_are_packed() {
+        let other: String = (0..400).map(|n| format!("G01 X#{}\n", 500 + n)).collect();
+        let same: String = (0..1_000).map(|n| format!("X[#500+{n}.5]\n")).collect();
+        let read = body(&format!("{other}{same}"));
+        let mut packed = read.clone();
+        pack(&mut packed, SHORTEST, Words::All);
+        let many: Vec<usize> =
+            stretches(&packed).iter().map(|stretch| stretch.lines.unpack().count()).collect();
+        assert!(matches!(many[..], [many] if many > 700), "{many:?}");
+        unpack(&mut packed);
+        assert_eq!(packed, read);
+
+        let mut kinds = Kinds::default();
+        let full = read.iter().position(|stmt| {
+            kinds.has_more(stmt);
+            kinds.is_full()
+        });
+        assert!(full.is_some_and(|many| many < 400), "{full:?}");
+    }
 }
