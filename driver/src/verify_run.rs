@@ -36,7 +36,7 @@ use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
-use self::controls::{alarms_of, fixed, resolution, with_parameters, writes};
+use self::controls::{fixed, resolution, with_parameters, writes};
 use self::differences::different;
 use self::facts::looked_at;
 use self::verifier::{ALL_SETTINGS, Run, unreadable};
@@ -97,13 +97,15 @@ impl Verifier {
             // Both sides compute, in coordinates of their own: a millionth is what they have in common.
             (finest.mm, finest.inch) = (finest.mm.min(6), finest.inch.min(7));
         }
+        let computes = job.to.caps().flow.computes;
+        let computes = computes.as_deref();
         let runs = (1..=WORLDS)
             .map(|seed| {
                 let [source, target] = worlds_of(job, seed);
                 let mut comparison = Comparison::new(finest, source.start);
                 comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
                 comparison.see(ncc_exec::Seen::by(&job.to.dialect.caps));
-                comparison.say_alarms(alarms_of(&job.to));
+                comparison.say_alarms(computes.and_then(|there| there.alarms.clone()));
                 if stops_differ(job) {
                     comparison.optional_stops();
                 }
@@ -143,7 +145,7 @@ impl Verifier {
             runs.iter_mut().for_each(|run| run.source.without_output());
         }
         // Nobody has put other values in the messages of a program that is executed.
-        let in_full = job.to.caps().flow.computes.and_then(|there| there.values_in_full);
+        let in_full = computes.and_then(|there| there.values_in_full);
         if let Some(digits) = in_full.filter(|_| job.passes.is_empty()) {
             runs.iter_mut().for_each(|run| run.source.values_in_full(digits));
         }
@@ -174,15 +176,9 @@ impl Verifier {
             own_facts: own_facts(job),
             given: job.given_to_runs(),
             fineness: fineness(job),
-            near: job.to.caps().flow.computes.is_some_and(|computes| computes.near),
-            functions: job
-                .to
-                .caps()
-                .flow
-                .computes
-                .map(|computes| computes.functions.clone())
-                .unwrap_or_default(),
-            equal_within: job.to.caps().flow.computes.and_then(|computes| computes.equal_within),
+            near: computes.is_some_and(|there| there.near),
+            functions: computes.map(|there| there.functions.clone()).unwrap_or_default(),
+            equal_within: computes.and_then(|there| there.equal_within),
             last: Span::default(),
             outliving: Vec::new(),
             assumed: Modes::default(),

@@ -37,6 +37,9 @@ pub const LEFT_OUT: &str = "left-out";
 /// degrees) or `half` a turn to each side (the sine's -90 to 90).
 pub const ANGLE_RANGE: &str = "angle_range";
 
+/// Value of [`ANGLE_RANGE`]: from 0 to 360 degrees.
+pub(crate) const TURN: &str = "turn";
+
 /// Option of a dictionary whose dwells count by a point: what a dwell counts that is computed, `seconds` or
 /// `milliseconds`.
 pub const COMPUTED_DWELL: &str = "computed_dwell";
@@ -442,7 +445,7 @@ impl Settings {
         if self.writes_names() {
             caps.flow.call_digits = 0;
         }
-        let turn = self.get(ANGLE_RANGE) == "turn";
+        let turn = self.get(ANGLE_RANGE) == TURN;
         if let Some(computes) = caps.flow.computes.as_mut().filter(|computes| computes.turn != turn) {
             Arc::make_mut(computes).turn = turn;
         }

@@ -10,6 +10,7 @@ use ncc_ir::expr::system::System;
 use crate::formula::{Handing, Statement};
 use crate::meaning::Meaning;
 use crate::schema::{Dialect, Family};
+use crate::settings::{ANGLE_RANGE, TURN};
 use crate::stored::VariableName;
 
 /// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
@@ -70,8 +71,8 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
             let lengths = dialect.numbers(crate::Quantity::Length);
             [lengths.increment, lengths.increment_inch.unwrap_or(lengths.increment)]
         },
-        // An option of the control says so ([`crate::Settings::caps`]).
-        turn: false,
+        // Where an option of the control is chosen, that says so ([`crate::Settings::caps`]).
+        turn: dialect.option.iter().any(|option| option.name == ANGLE_RANGE && option.default == TURN),
         blocks: rules.blocks,
         opposite: rules.not.is_some() || rules.not_behind.is_some(),
         near: rules.near,
