@@ -21,6 +21,8 @@ use crate::power_on::SafeStart;
 use crate::schema::{Dialect, Family};
 use crate::stored::DataKind;
 
+pub use self::computes::ANGLE_RANGE;
+pub(crate) use self::computes::TURN;
 use self::computes::computes;
 use self::holes::holes;
 

@@ -13,6 +13,7 @@ use ncc_ir::geometry::arc_solver::{ArcRule, MOST_SHORT};
 use ncc_ir::program::cycle::Approach;
 
 use crate::Quantity;
+use crate::caps::{ANGLE_RANGE, TURN};
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::derive;
 use crate::power_on::{PowerOnFact, UnitsName};
@@ -32,13 +33,6 @@ pub const TAP_DWELL: &str = "tap_dwell";
 
 /// Value of [`TAP_DWELL`]: it is left out, and told.
 pub const LEFT_OUT: &str = "left-out";
-
-/// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
-/// degrees) or `half` a turn to each side (the sine's -90 to 90).
-pub const ANGLE_RANGE: &str = "angle_range";
-
-/// Value of [`ANGLE_RANGE`]: from 0 to 360 degrees.
-pub(crate) const TURN: &str = "turn";
 
 /// Option of a dictionary whose dwells count by a point: what a dwell counts that is computed, `seconds` or
 /// `milliseconds`.

@@ -10,11 +10,17 @@ use ncc_ir::expr::system::System;
 use crate::formula::{Handing, Statement};
 use crate::meaning::Meaning;
 use crate::schema::{Dialect, Family};
-use crate::settings::{ANGLE_RANGE, TURN};
 use crate::stored::VariableName;
 
 /// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
 const VALUE_DIGITS: u8 = 6;
+
+/// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
+/// degrees) or `half` a turn to each side (the sine's -90 to 90).
+pub const ANGLE_RANGE: &str = "angle_range";
+
+/// Value of [`ANGLE_RANGE`]: from 0 to 360 degrees.
+pub(crate) const TURN: &str = "turn";
 
 /// What the dialect computes with.
 pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
