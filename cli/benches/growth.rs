@@ -61,7 +61,7 @@ fn files_by_include(bencher: Bencher<'_, '_>, times: usize) {
     let settings = settings("fanuc");
     let gathered = |path: &Path| {
         let mut source = open(path).expect("a file");
-        ncc_driver::source::called::gather(
+        ncc_driver::source::include_path::load_subprograms(
             &mut source,
             &settings,
             &[folder.path().to_owned()],

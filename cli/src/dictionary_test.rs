@@ -7,13 +7,18 @@ use ncc_driver::dialect_test::{table, test};
 use ncc_driver::problem::{Exit, Problem};
 
 use crate::files;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// Tests dictionaries, those of files and those that are known by name, and prints the failures and counts, with `all` every row.
 ///
 /// # Errors
 /// A file cannot be read or is no dictionary, there is no dialect of a name, or printing.
-pub fn run(mut known: Known, what: &[PathBuf], all: bool, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(
+    mut known: DialectRegistry,
+    what: &[PathBuf],
+    all: bool,
+    err: &mut dyn WriteColor,
+) -> Result<Exit, Problem> {
     let named = |path: &PathBuf| path.to_str().and_then(|id| known.get(id));
     let unknown: Vec<PathBuf> = what.iter().filter(|path| named(path).is_none()).cloned().collect();
     let ids: Vec<String> = what.iter().filter_map(|path| Some(named(path)?.id.clone())).collect();

@@ -9,14 +9,14 @@ use ncc_driver::render::messages::codes::may_be_stated;
 use ncc_machines::reading::Side;
 
 use crate::args::typed::MCode;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// Puts what the user has said of M codes and calls into the dictionary of a side.
 ///
 /// # Errors
 /// A code that is left out or carried has a meaning in the source's dialect, or the code that is written for it has
 /// one in the target's.
-pub(crate) fn state(settings: &mut Settings, side: Side, known: &Known) -> Result<(), Problem> {
+pub(crate) fn state(settings: &mut Settings, side: Side, known: &DialectRegistry) -> Result<(), Problem> {
     let own = |code: &MCode| match side {
         Side::From => Some(code.number),
         Side::To => code.written,

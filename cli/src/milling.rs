@@ -12,7 +12,7 @@ use ncc_driver::source::Source;
 use ncc_driver::source::not_milling::{self, Refusal, note};
 
 use crate::files;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// The form in which a refusal is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub(crate) enum Voice {
 pub(crate) fn open(
     path: &Path,
     voice: Voice,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Source, Problem> {
     let mut source = files::open(path)?;
@@ -47,7 +47,7 @@ pub(crate) fn open(
 pub(crate) fn admit(
     source: &mut Source,
     voice: Voice,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Option<Refusal>, Problem> {
     let Some(refusal) = not_milling::refusal(source, known.all_for_mills())? else {

@@ -9,7 +9,7 @@ use ncc_driver::job::Job;
 use ncc_driver::problem::Problem;
 use ncc_driver::source::Source;
 
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// What to say to who names no target.
 pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --machine-to MACHINE";
@@ -21,7 +21,7 @@ pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --
 pub(crate) fn recognise(
     source: &mut Source,
     say: bool,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<&'static Dialect, Problem> {
     recognise_all(source, say, known, err).map(|(dialect, _)| dialect)
@@ -34,7 +34,7 @@ pub(crate) fn recognise(
 pub(crate) fn recognise_all(
     source: &mut Source,
     say: bool,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<(&'static Dialect, Vec<&'static Dialect>), Problem> {
     let found = ncc_driver::guess::recognise(source, &known.all())?;
@@ -52,7 +52,7 @@ pub(crate) fn recognise_all(
 pub(crate) fn doubt_dialect(
     source: &mut Source,
     job: &Job,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn Write,
 ) -> io::Result<()> {
     let Some((other, reasons)) = better(&mut source.file, &job.from, known.all())? else { return Ok(()) };

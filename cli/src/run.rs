@@ -16,7 +16,7 @@ use ncc_driver::render::scaffold::scaffold;
 use ncc_driver::render::terminal::Shown;
 use ncc_driver::render::{About, dialects, explain, line, report};
 use ncc_driver::source::not_milling::Refusal;
-use ncc_driver::source::{Source, called};
+use ncc_driver::source::{Source, include_path};
 use ncc_driver::translate::{self, tools_by_name};
 use ncc_ir::canon::Units;
 use ncc_passes::PASSES;
@@ -25,13 +25,13 @@ use crate::args::sugar::{Said, rewrite};
 use crate::args::typed::{Assumed, Color, Eol, Format, Style, is_name};
 use crate::args::{Cli, DialectsWhat, Translate, Verb};
 use crate::files::{self, Destination, arrow};
-use crate::known::{self, Known};
 use crate::milling::{self, Voice};
-use crate::order::Order;
 use crate::print_after::print_after;
 use crate::provenance::why;
 use crate::recognised::{doubt_dialect, recognise_all};
+use crate::registry::{self, DialectRegistry};
 use crate::report::tell;
+use crate::target_options::TargetOptions;
 use crate::time::running::Running;
 use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
 
@@ -47,8 +47,9 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
     let as_json = arguments.windows(2).any(|a| a[0] == "--format" && a[1] == "json")
         || arguments.iter().any(|a| a == "--format=json");
     // A shell's torn arrow is understood only where the target's name is known.
-    let files = known::files(&arguments);
-    let mut known = match Known::with(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor)) {
+    let files = registry::files(&arguments);
+    let mut known = match DialectRegistry::with(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor))
+    {
         Ok(known) => known,
         Err(problem) => return fail(&problem, &mut err, as_json),
     };
@@ -126,7 +127,7 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
 }
 
 /// Prints a dictionary to begin with.
-fn new_dialect(id: &str, base: &str, known: &Known) -> Result<(), Problem> {
+fn new_dialect(id: &str, base: &str, known: &DialectRegistry) -> Result<(), Problem> {
     let base = known.dialect(base)?;
     if !is_name(id) || known.get(id).is_some() {
         return Err(Problem::usage(
@@ -165,7 +166,7 @@ fn ended(done: Result<Exit, Problem>, err: &mut dyn WriteColor) -> Exit {
 }
 
 /// Takes up a torn arrow if it is certain that it is one.
-fn honour(said: Said, known: &Known) -> Result<(Vec<OsString>, Option<&'static Dialect>), Problem> {
+fn honour(said: Said, known: &DialectRegistry) -> Result<(Vec<OsString>, Option<&'static Dialect>), Problem> {
     let (from, typed, rest) = match said {
         Said::Plain(arguments) => return Ok((arguments, None)),
         Said::Arrow { from, typed, rest } => (from, typed, rest),
@@ -185,7 +186,12 @@ fn honour(said: Said, known: &Known) -> Result<(Vec<OsString>, Option<&'static D
 }
 
 /// What clap has to say: help and version on stdout, anything else is wrong usage.
-fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &mut dyn WriteColor) -> Exit {
+fn clap_says(
+    error: &clap::Error,
+    arguments: &[OsString],
+    known: &DialectRegistry,
+    err: &mut dyn WriteColor,
+) -> Exit {
     let unknown = error.kind() == ErrorKind::InvalidSubcommand || error.kind() == ErrorKind::UnknownArgument;
     let verbs: Vec<String> = Cli::command().get_subcommands().map(|v| v.get_name().to_owned()).collect();
     let word = arguments.iter().skip(1).find_map(|a| a.to_str().filter(|a| !a.starts_with('-')));
@@ -214,7 +220,7 @@ fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &m
 fn translate_verb(
     args: &Translate,
     arrow: Option<&'static Dialect>,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Exit {
     let as_json = args.format == Format::Json;
@@ -224,7 +230,7 @@ fn translate_verb(
 fn translated(
     args: &Translate,
     arrow: Option<&'static Dialect>,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     if batch::is_meant(args) {
@@ -240,7 +246,7 @@ fn translated(
         let mut nowhere = Buffer::no_color();
         let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
         let row = project::row(path, say, known, told)?;
-        Order::find(args, known, row.as_deref(), told)?
+        TargetOptions::find(args, known, row.as_deref(), told)?
     };
     if file_per_tool(&order.to) {
         batch::per_tool::check(args, order.folder(args), arrow)?;
@@ -278,7 +284,7 @@ fn translated(
     };
     let mut job = order.job(args, from, &source.name, crlf)?;
     job.rivals = rivals;
-    called::gather(&mut source, &job.from, known.folders(), &files::Disk)?;
+    include_path::load_subprograms(&mut source, &job.from, known.folders(), &files::Disk)?;
     job.called.clone_from(&source.called);
     job.assumed.extend_from_slice(&source.assumed);
     tools_by_name::number(&mut job, &mut source.file)
@@ -348,7 +354,7 @@ fn destination(args: &Translate, arrow: Option<&'static Dialect>) -> Result<Dest
 /// Writes the report, and the line for a reader of JSON, of a program that is none for a mill.
 fn not_milling(
     args: &Translate,
-    order: &Order,
+    order: &TargetOptions,
     source: &mut Source,
     refusal: &Refusal,
     (voice, err): (Voice, &mut dyn WriteColor),

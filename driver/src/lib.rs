@@ -23,8 +23,8 @@
 //!
 //! | to | there is |
 //! |---|---|
-//! | say what is asked for | [`job`], [`machines`], [`job::given`] (what variables hold), [`job::project_answers`] |
-//! | give it programs | [`source`], [`source::called`] (programs that it calls, by name) |
+//! | say what is asked for | [`job`], [`machines`], [`job::initial_variables`] (what variables hold), [`job::project_answers`] |
+//! | give it programs | [`source`], [`source::include_path`] (programs that it calls, by name) |
 //! | know the dialect | [`guess`], [`source::not_milling`] |
 //! | translate | [`translate`], [`questions`], [`translate::split`] (one text as several files) |
 //! | compare two programs | [`side`], [`review`], [`translate::judge`] |

@@ -10,7 +10,7 @@ use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_driver::check::{self, told};
 use ncc_driver::guess::recognise;
-use ncc_driver::job::given::{self, Given};
+use ncc_driver::job::initial_variables::{self, InitialVariables};
 use ncc_driver::job::options::{choose, state_units};
 use ncc_driver::job::{Job, file_per_tool};
 use ncc_driver::machines::pair::Machines;
@@ -25,7 +25,7 @@ use ncc_driver::review::verify::document::{Call, Document, Word};
 use ncc_driver::review::verify::hashes::{self, Named};
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
-use ncc_driver::source::called::{Library, gather};
+use ncc_driver::source::include_path::{Library, load_subprograms};
 use ncc_driver::source::{Source, not_milling};
 use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Header, Payload, Shape};
@@ -196,11 +196,11 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     let (from, rivals) =
         settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, asked.units)?;
     let crlf = source.is_crlf()?;
-    gather(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
-    let (mut given, mut values) = (Given::default(), Vec::new());
+    load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
+    let (mut given, mut values) = (InitialVariables::default(), Vec::new());
     for (name, value) in &asked.value {
         let wrong = |why| RequestFault::Value(name.clone(), why);
-        let (name, value) = given::value(&format!("{name}={value}")).map_err(wrong)?;
+        let (name, value) = initial_variables::value(&format!("{name}={value}")).map_err(wrong)?;
         if let Some(value) = value {
             given.put(&name, value);
             values.push((name, value));
@@ -249,7 +249,7 @@ fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem
     let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
     // What a profile states of its control holds for programs in that control's language.
     let own = machines.from.as_ref().is_some_and(|profile| profile.dialect.id == from.dialect.id);
-    gather(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
+    load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
     source.rewind()?;
     let mut side = Side::of(source, from, if own { machines } else { Machines::default() }, None);
     side.job.rivals = rivals;
@@ -306,8 +306,11 @@ fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outpu
 /// Both programs of a comparison, and how far lengths may be apart.
 fn sides(two: &Two, files: &Files, messages: &mut Buffer) -> Result<([Side; 2], Option<i64>), Problem> {
     let wrong = || RequestFault::NoTolerance;
-    let tolerance =
-        two.tolerance.as_deref().map(|text| given::decimal(text).ok_or_else(wrong)).transpose()?;
+    let tolerance = two
+        .tolerance
+        .as_deref()
+        .map(|text| initial_variables::decimal(text).ok_or_else(wrong))
+        .transpose()?;
     Ok(([side(&two.a, files, messages)?, side(&two.b, files, messages)?], tolerance))
 }
 

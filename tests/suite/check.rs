@@ -10,7 +10,7 @@ use clap::Parser;
 use codespan_reporting::term::termcolor::NoColor;
 use ncc::args::typed::Color;
 use ncc::args::{Cli, Verb};
-use ncc::known::Known;
+use ncc::registry::DialectRegistry;
 use ncc_driver::problem::Exit;
 use ncc_tests::corpus::{self, DIALECTS, files};
 use ncc_tests::expect::{self, Failures};
@@ -33,7 +33,7 @@ fn check(arguments: &[String], files: &[&Path]) -> Result<(Exit, Vec<u8>), Exit>
     let cli = Cli::try_parse_from(&all).unwrap_or_else(|e| panic!("{all:?}: {e}"));
     let Verb::Check(asked) = cli.verb else { panic!("another verb") };
     let mut told = NoColor::new(Vec::new());
-    match ncc::check::run(&asked, &Known::built_in(), Color::Never, &mut told) {
+    match ncc::check::run(&asked, &DialectRegistry::built_in(), Color::Never, &mut told) {
         Ok(exit) => Ok((exit, fs::read(&output).expect("an output"))),
         Err(problem) => Err(problem.exit),
     }

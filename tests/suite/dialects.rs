@@ -3,7 +3,7 @@
 //! `tests/dialects/<name>.toml` is a dictionary beside `<name>.expected`, the failures of its test and the
 //! summary, or what is said of a file that is no dictionary. `UPDATE_EXPECT=1` writes them.
 
-use ncc::known::Known;
+use ncc::registry::DialectRegistry;
 use ncc_dialects::Family;
 use ncc_driver::dialect_test;
 use ncc_tests::corpus;
@@ -63,7 +63,7 @@ fn faulty_dictionaries_are_found_out() {
     for path in corpus::files(&folder).into_iter().filter(|p| p.extension().is_some_and(|e| e == "toml")) {
         files += 1;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let mut known = Known::built_in();
+        let mut known = DialectRegistry::built_in();
         let text = match known.add(std::slice::from_ref(&path), None) {
             Ok(loaded) => {
                 let rows = dialect_test::test(loaded[0]);

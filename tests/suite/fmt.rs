@@ -8,7 +8,7 @@ use std::path::Path;
 use clap::Parser;
 use codespan_reporting::term::termcolor::NoColor;
 use ncc::args::{Cli, Verb};
-use ncc::known::Known;
+use ncc::registry::DialectRegistry;
 use ncc_dialects::{Family, builtin};
 use ncc_driver::problem::Exit;
 use ncc_exec::Event;
@@ -29,7 +29,7 @@ fn fmt(dialect: &str, options: &str, text: &[u8]) -> (Exit, Vec<u8>, String) {
     all.extend(options.split_whitespace().map(OsString::from));
     all.push(path.clone().into());
     let cli = Cli::try_parse_from(&all).unwrap_or_else(|e| panic!("{all:?}: {e}"));
-    let mut known = Known::built_in();
+    let mut known = DialectRegistry::built_in();
     if cli.assume.is_some() {
         known.assume_milling();
     }

@@ -9,9 +9,9 @@ use std::io::Cursor;
 use std::ops::Range;
 
 use codespan_reporting::term::termcolor::NoColor;
-use ncc::known::Known;
 use ncc::provenance::args::Why;
 use ncc::provenance::why;
+use ncc::registry::DialectRegistry;
 use ncc_driver::job::{Job, Outcome};
 use ncc_driver::provenance::map;
 use ncc_driver::provenance::trace::Asked;
@@ -296,7 +296,7 @@ fn the_source_stands_beside_the_text() {
 fn the_answer_about_a_line_has_a_schema() {
     let schema: Value = serde_json::from_str(why::SCHEMA).expect("the schema is JSON");
     let folder = tempfile::tempdir().expect("a folder");
-    let known = Known::built_in();
+    let known = DialectRegistry::built_in();
     let mut failures = Failures::default();
     let mut answers = 0;
     for (program, to) in [("grid.cn", "siemens"), ("teste.cn", "fanuc"), ("calls.nc", "siemens")] {

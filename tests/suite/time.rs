@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use codespan_reporting::term::termcolor::NoColor;
 use ncc::args::{Cli, Verb};
-use ncc::known::Known;
+use ncc::registry::DialectRegistry;
 use ncc_driver::problem::Exit;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
@@ -29,7 +29,7 @@ pub(crate) fn time(arguments: &[&str], files: &[&Path]) -> Result<Vec<u8>, Exit>
     let Verb::Time(asked) = Cli::try_parse_from(all).expect("arguments").verb else { panic!("another verb") };
     // What is told is not for whoever runs the tests.
     let mut told = NoColor::new(Vec::new());
-    match ncc::time::run(&asked, &Known::built_in(), &mut told) {
+    match ncc::time::run(&asked, &DialectRegistry::built_in(), &mut told) {
         Ok(Exit::Done) => Ok(fs::read(output).expect("an output")),
         Ok(other) => Err(other),
         Err(problem) => Err(problem.exit),

@@ -2,7 +2,7 @@
 //! a change that the verification of translations finds makes it different; pages with one fact in every
 //! dialect are equal whoever wrote them.
 
-use ncc::known::Known;
+use ncc::registry::DialectRegistry;
 use ncc::review::cert::disagreements;
 use ncc::review::verify::{SCHEMA, of_texts};
 use ncc_dialects::{Family, builtin};
@@ -28,7 +28,7 @@ mod words;
 const SAMPLE: usize = 4;
 
 fn verify(job: &Job, source: &[u8], output: &[u8]) -> Document {
-    of_texts(job, [source, output], None, &Known::built_in()).expect("anonymous files")
+    of_texts(job, [source, output], None, &DialectRegistry::built_in()).expect("anonymous files")
 }
 
 fn value(document: &Document) -> Value {

@@ -2,7 +2,7 @@
 //!
 //! Values are parsed here as far as that needs no file; what they mean together is `run`'s matter.
 
-pub mod setting;
+pub mod common_args;
 pub mod sugar;
 pub mod typed;
 
@@ -15,7 +15,7 @@ use ncc_ir::diag::Verdict;
 use ncc_ir::expr::num::Num;
 use ncc_passes::Pass;
 
-use crate::args::setting::{Lines, Standing, Telling};
+use crate::args::common_args::{Lines, StartPosition, Verbosity};
 use crate::args::typed::Assumed;
 use crate::args::typed::MCode;
 use crate::args::typed::{Color, Format, Style, UnitsArg, call_left_out, numbering, pair};
@@ -191,14 +191,14 @@ pub struct Translate {
     pub to_option: Vec<(String, String)>,
     /// Where it begins.
     #[command(flatten, next_help_heading = "What to translate")]
-    pub standing: Standing,
+    pub standing: StartPosition,
     /// What variables may be given before the program begins, by a caller or an operator: a TOML file
     #[arg(long, value_name = "FILE", help_heading = "What to translate")]
     pub args: Option<PathBuf>,
     /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
     /// output sets it. `#4120=2` and `#4111=2` are the T and H code in force on a Fanuc. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
     /// such a one out [may be repeated]
-    #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::given::value, help_heading = "What to translate")]
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::initial_variables::value, help_heading = "What to translate")]
     pub value: Vec<(String, Option<Num>)>,
 
     /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
@@ -312,7 +312,7 @@ pub struct Translate {
     pub print_after: Option<String>,
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
     /// Messages for people, or as JSON, one object a line; of several programs, one document on stdout
     /// [default: human]
     #[arg(

@@ -4,7 +4,7 @@ use std::fmt;
 
 use clap::ValueEnum;
 use ncc_backends::Numbering;
-use ncc_driver::job::given::decimal;
+use ncc_driver::job::initial_variables::decimal;
 use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::expr::num::Nanos;
 

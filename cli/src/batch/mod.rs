@@ -44,12 +44,12 @@ use self::work::{Bench, Done, Held, Store, make_folder};
 use crate::args::Translate;
 use crate::args::typed::Format;
 use crate::files;
-use crate::known::Known;
-use crate::order::Order;
+use crate::registry::DialectRegistry;
+use crate::target_options::TargetOptions;
 use ncc_driver::problem::Exit;
 use ncc_driver::problem::Problem;
 use ncc_driver::problem::as_write;
-use ncc_driver::source::called;
+use ncc_driver::source::include_path;
 
 /// Whether a command is about several programs, or about a folder of outputs.
 pub(crate) fn is_meant(args: &Translate) -> bool {
@@ -69,7 +69,7 @@ pub(crate) fn is_meant(args: &Translate) -> bool {
 pub(crate) fn run(
     args: &Translate,
     arrow: Option<&'static Dialect>,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let begun = Instant::now();
@@ -77,7 +77,7 @@ pub(crate) fn run(
     let mut nowhere = Buffer::no_color();
     // A command need not say what project files say, so this failure alone is no error.
     let mut aside = if err.supports_color() { Buffer::ansi() } else { Buffer::no_color() };
-    let plain = Order::find(args, known, None, &mut aside);
+    let plain = TargetOptions::find(args, known, None, &mut aside);
     let one = matches!(args.files.as_slice(), [file] if !file.is_dir());
     if plain.as_ref().is_ok_and(|order| one && file_per_tool(&order.to)) {
         per_tool::check(args, None, arrow)?;
@@ -109,8 +109,9 @@ pub(crate) fn run(
     }
     let split = !args.no_split && (args.split || split::usual(to));
     // Names that follow from what is in the programs are known at the end.
-    let late =
-        split || orders.orders().any(|(order, _)| order.machines.names_by_number()) || called::by_files(to);
+    let late = split
+        || orders.orders().any(|(order, _)| order.machines.names_by_number())
+        || include_path::by_files(to);
     let late = late || orders.orders().any(|(order, _)| file_per_tool(&order.to));
     let sources: BTreeSet<_> = found.items.iter().filter_map(|item| identity(&item.path)).collect();
     let shown = |at: usize| found.items[at].path.display().to_string();
@@ -168,7 +169,7 @@ fn folders(orders: &Orders) -> String {
 }
 
 /// The folder of the outputs that the command names.
-fn output_folder(args: &Translate, known: &Known) -> Result<Option<PathBuf>, Problem> {
+fn output_folder(args: &Translate, known: &DialectRegistry) -> Result<Option<PathBuf>, Problem> {
     let several = several(args);
     let folder = match &args.output {
         Some(name) if name != Path::new("-") => Some(name.clone()),
@@ -198,7 +199,7 @@ fn output_folder(args: &Translate, known: &Known) -> Result<Option<PathBuf>, Pro
 }
 
 /// Extensions of files in folders that are taken, in small letters.
-fn extensions(order: Option<&Order>, known: &Known) -> BTreeSet<String> {
+fn extensions(order: Option<&TargetOptions>, known: &DialectRegistry) -> BTreeSet<String> {
     let of = |dialect: &Dialect| dialect.extensions.iter().map(|e| e.to_lowercase()).collect::<Vec<_>>();
     match order.and_then(|order| order.named) {
         Some(dialect) => of(dialect).into_iter().collect(),

@@ -11,9 +11,9 @@ use ncc_driver::problem::Problem;
 
 use super::gather::{Gathered, Reason, identity};
 use crate::args::Translate;
-use crate::known::Known;
-use crate::order::Order;
 use crate::project::{self, InForce};
+use crate::registry::DialectRegistry;
+use crate::target_options::TargetOptions;
 
 /// The orders of a batch.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub(super) struct Orders {
 }
 
 /// An order, and the folder of its outputs.
-type One = Result<(Order, PathBuf), Problem>;
+type One = Result<(TargetOptions, PathBuf), Problem>;
 
 impl Orders {
     /// Those of the programs that were found. `plain` is the order without a project file, `folder` that of `-o`.
@@ -33,15 +33,15 @@ impl Orders {
     /// A project file has faults; no program has an order; targets differ.
     pub(super) fn of(
         args: &Translate,
-        plain: Result<Order, Problem>,
+        plain: Result<TargetOptions, Problem>,
         folder: Option<&Path>,
         found: &Gathered,
-        known: &Known,
+        known: &DialectRegistry,
         told: &mut dyn WriteColor,
     ) -> Result<Orders, Problem> {
         let rows = found.items.iter().map(|item| project::row(&item.path, false, known, told));
         let rows = rows.collect::<Result<Vec<_>, _>>()?;
-        let placed = |order: Order| {
+        let placed = |order: TargetOptions| {
             let folder = folder.or(order.folder(args)).map(Path::to_owned);
             folder.map(|folder| (order, folder)).ok_or_else(|| where_to(args))
         };
@@ -59,7 +59,7 @@ impl Orders {
                 None => {
                     let order = match (&row, plain.take_if(|_| row.is_none())) {
                         (None, Some(plain)) => plain,
-                        (row, _) => Order::find(args, known, row.as_deref(), told),
+                        (row, _) => TargetOptions::find(args, known, row.as_deref(), told),
                     };
                     orders.all.push(order.and_then(placed));
                     seen.push(row);
@@ -88,7 +88,7 @@ impl Orders {
     }
 
     /// The order of a program, with the folder of its outputs.
-    pub(super) fn at(&self, program: usize) -> Option<&(Order, PathBuf)> {
+    pub(super) fn at(&self, program: usize) -> Option<&(TargetOptions, PathBuf)> {
         self.all.get(*self.of.get(program)?)?.as_ref().ok()
     }
 
@@ -99,7 +99,7 @@ impl Orders {
     }
 
     /// Every order.
-    pub(super) fn orders(&self) -> impl Iterator<Item = &(Order, PathBuf)> {
+    pub(super) fn orders(&self) -> impl Iterator<Item = &(TargetOptions, PathBuf)> {
         self.all.iter().flatten()
     }
 

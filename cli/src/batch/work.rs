@@ -17,7 +17,7 @@ use ncc_driver::provenance::trace::Asked;
 use ncc_driver::questions::of_translation;
 use ncc_driver::render::human::told;
 use ncc_driver::render::{About, json, questions};
-use ncc_driver::source::{Source, called, not_milling};
+use ncc_driver::source::{Source, include_path, not_milling};
 use ncc_driver::translate::{self, split, tools_by_name};
 use ncc_ir::diag::{Fault, Gravity, Verdict};
 use sha2::{Digest, Sha256};
@@ -28,8 +28,8 @@ use super::per_tool::left_over;
 use super::summary::{Missing, OfTool, Result as Came, Row};
 use crate::args::Translate;
 use crate::args::typed::{Eol, Format};
-use crate::known::Known;
 use crate::recognised::doubt_dialect;
+use crate::registry::DialectRegistry;
 use crate::report::tell;
 use crate::{files, recognised};
 
@@ -90,7 +90,7 @@ pub(super) struct Done {
 pub(super) struct Bench<'a> {
     pub(super) args: &'a Translate,
     pub(super) orders: &'a Orders,
-    pub(super) known: &'a Known,
+    pub(super) known: &'a DialectRegistry,
     pub(super) items: &'a [Item],
     /// Programs that are not to be translated.
     pub(super) refused: &'a BTreeMap<usize, Problem>,
@@ -167,7 +167,7 @@ impl Bench<'_> {
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
         job.rivals = rivals;
         job.one_thread = true;
-        called::gather(&mut source, &job.from, self.known.folders(), &files::Disk)?;
+        include_path::load_subprograms(&mut source, &job.from, self.known.folders(), &files::Disk)?;
         job.called.clone_from(&source.called);
         job.assumed.extend_from_slice(&source.assumed);
         tools_by_name::number(&mut job, &mut source.file)

@@ -6,7 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use ncc_ir::expr::num::Nanos;
 
-use crate::args::setting::{Holding, Reading, Switches, Telling};
+use crate::args::common_args::{Reading, Switches, VariablesArg, Verbosity};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,7 +42,7 @@ pub struct Check {
     pub switches: Switches,
     /// What their variables hold.
     #[command(flatten, next_help_heading = "What is checked")]
-    pub holding: Holding,
+    pub holding: VariablesArg,
 
     /// Do not tell of these rules or messages
     #[arg(
@@ -83,7 +83,7 @@ pub struct Check {
 
     /// What is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }
 
 /// Forms of the result.
@@ -104,5 +104,6 @@ fn id() -> impl TypedValueParser<Value = u16> {
 }
 
 fn plane(text: &str) -> Result<Nanos, String> {
-    ncc_driver::job::given::decimal(text).ok_or_else(|| "write a decimal, such as 2 or -0.5".to_owned())
+    ncc_driver::job::initial_variables::decimal(text)
+        .ok_or_else(|| "write a decimal, such as 2 or -0.5".to_owned())
 }

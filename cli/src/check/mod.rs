@@ -23,7 +23,7 @@ pub use ncc_driver::check::json::SCHEMA;
 use self::args::{Check, Form};
 use crate::args::typed::Color;
 use crate::files::{self, Destination};
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 use crate::review::side::{Asked, open_one};
 use crate::time::running::Running;
 use ncc_driver::check::told::Graded;
@@ -44,7 +44,12 @@ use ncc_driver::source::spool::Spool;
 ///
 /// # Errors
 /// Wrong usage, or a file that cannot be read or written.
-pub fn run(args: &Check, known: &Known, color: Color, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(
+    args: &Check,
+    known: &DialectRegistry,
+    color: Color,
+    err: &mut dyn WriteColor,
+) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
@@ -84,7 +89,7 @@ fn one(
     args: &Check,
     file: &str,
     profile: Option<&Profile>,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Program, Problem> {
     let asked = Asked {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::args::setting::{Standing, Telling};
+use crate::args::common_args::{StartPosition, Verbosity};
 use crate::args::typed::pair;
 
 const EXAMPLES: &str = "\
@@ -42,7 +42,7 @@ pub struct Doctor {
     pub to_option: Vec<(String, String)>,
     /// Where it begins.
     #[command(flatten)]
-    pub standing: Standing,
+    pub standing: StartPosition,
     /// Write a profile of the source's machine with the questions, to be filled in; a new file
     #[arg(long, value_name = "FILE")]
     pub write_from: Option<PathBuf>,
@@ -52,5 +52,5 @@ pub struct Doctor {
 
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }

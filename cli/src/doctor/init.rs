@@ -11,11 +11,11 @@ use ncc_machines::reading::{Place, Side, UNNAMED, key_of, quoted};
 
 use super::question::Question;
 use super::stub::comment;
-use crate::known::Known;
 use crate::project::args::Init;
+use crate::registry::DialectRegistry;
 
 /// The text of the file. Every question is a comment with the key that answers it.
-pub(super) fn text(args: &Init, known: &Known, about: &About, asked: &[Question]) -> String {
+pub(super) fn text(args: &Init, known: &DialectRegistry, about: &About, asked: &[Question]) -> String {
     let mut text = String::new();
     comment(
         &mut text,

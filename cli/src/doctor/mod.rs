@@ -36,21 +36,21 @@ use ncc_machines::reading::{Place, Side, UNNAMED};
 use question::{Question, questions};
 
 use self::args::Doctor;
-use crate::args::setting::Telling;
+use crate::args::common_args::Verbosity;
 use crate::args::typed::Start;
-use crate::known::Known;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::args::Init;
 use crate::project::{self, Sides, Stated};
 use crate::recognised::{INTO_WHAT, recognise};
+use crate::registry::DialectRegistry;
 use crate::{files, m_codes};
 
 /// Runs it. Exit code 0 if the program can be translated, whatever is asked; else that of the translation.
 ///
 /// # Errors
 /// Wrong usage, or a file.
-pub fn run(args: &Doctor, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Doctor, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let stated = Asked {
         file: &args.file,
         from: args.from.as_deref(),
@@ -101,7 +101,11 @@ pub fn run(args: &Doctor, known: &Known, err: &mut dyn WriteColor) -> Result<Exi
 ///
 /// # Errors
 /// Wrong usage, or a file.
-pub(crate) fn project(args: &Init, known: &Known, err: &mut dyn WriteColor) -> Result<String, Problem> {
+pub(crate) fn project(
+    args: &Init,
+    known: &DialectRegistry,
+    err: &mut dyn WriteColor,
+) -> Result<String, Problem> {
     let stated = Asked {
         file: &args.program,
         from: args.from.as_deref(),
@@ -111,7 +115,7 @@ pub(crate) fn project(args: &Init, known: &Known, err: &mut dyn WriteColor) -> R
         from_option: &args.from_option,
         to_option: &[],
         start: [None; AXES],
-        telling: Telling { verbose: false, quiet: false },
+        telling: Verbosity { verbose: false, quiet: false },
         no_project: true,
     };
     let Examined { job, mut source, outcome, .. } = examine(&stated, known, err)?;
@@ -132,7 +136,7 @@ struct Asked<'a> {
     from_option: &'a [(String, String)],
     to_option: &'a [(String, String)],
     start: Start,
-    telling: Telling,
+    telling: Verbosity,
     /// Whether no project file counts.
     no_project: bool,
 }
@@ -146,7 +150,7 @@ struct Examined {
     exit: Exit,
 }
 
-fn examine(args: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Examined, Problem> {
+fn examine(args: &Asked, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Examined, Problem> {
     let mut machines = crate::machines::find_both(args.machine_from, args.machine_to, known, err)?;
     let stated = Stated {
         from: args.from,

@@ -9,7 +9,7 @@ use std::io;
 
 use ncc_dialects::Dialect;
 
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// Why an arrow cannot be honoured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ impl Doubt {
 ///
 /// # Errors
 /// The doubt, if it is not certain that a shell has just made or emptied that file for us.
-pub fn target(known: &Known) -> Result<&'static Dialect, Doubt> {
+pub fn target(known: &DialectRegistry) -> Result<&'static Dialect, Doubt> {
     let stdout = own_stdout().map_err(|_| Doubt::NoFile)?;
     let metadata = stdout.metadata().map_err(|_| Doubt::NoFile)?;
     if !metadata.is_file() {

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use ncc_driver::job::Output;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::render::terminal::Shown;
-use ncc_driver::source::called::Library;
+use ncc_driver::source::include_path::Library;
 use ncc_driver::source::{Origin, Source, halted};
 use same_file::Handle;
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use ncc_backends::Numbering;
 
-use crate::args::setting::{Lines, Reading, Standing, Telling};
+use crate::args::common_args::{Lines, Reading, StartPosition, Verbosity};
 use crate::args::typed::numbering;
 
 const EXAMPLES: &str = "\
@@ -37,7 +37,7 @@ pub struct Fmt {
     pub machine: Option<String>,
     /// Where they begin.
     #[command(flatten, next_help_heading = "What is laid out")]
-    pub standing: Standing,
+    pub standing: StartPosition,
 
     /// Write nothing; list the files that would change, and exit with 1 if there is one
     #[arg(long, help_heading = "What is written")]
@@ -67,5 +67,5 @@ pub struct Fmt {
 
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }

@@ -32,14 +32,14 @@ use ncc_machines::schema::BlockNumbers;
 use self::args::Fmt;
 use crate::args::typed::Eol;
 use crate::files;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 use crate::review::side::{Asked, open_one, operand};
 
 /// Runs the verb.
 ///
 /// # Errors
 /// Wrong usage, or, of a single file, what keeps it from being laid out.
-pub fn run(args: &Fmt, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Fmt, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.files.iter().filter(|file| is_stdin(file)).count() > 1 {
         return Err(Problem::usage("stdin can be read only once", "name a file"));
     }
@@ -82,7 +82,7 @@ struct Done {
     executed: bool,
 }
 
-fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+fn one(args: &Fmt, file: &str, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let asked = Asked {
         operand: file,
         from: args.reading.from.as_deref(),
@@ -124,7 +124,12 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
 ///
 /// # Errors
 /// What keeps it from being laid out.
-pub fn of_text(from: Settings, layout: Layout, text: &[u8], known: &Known) -> Result<Vec<u8>, Problem> {
+pub fn of_text(
+    from: Settings,
+    layout: Layout,
+    text: &[u8],
+    known: &DialectRegistry,
+) -> Result<Vec<u8>, Problem> {
     let memory = |e: io::Error| Problem::file("use", "an anonymous file", &e);
     let job = Job { layout, ..Job::new(from.clone(), from, "text") };
     let mut nowhere = Buffer::no_color();
@@ -149,7 +154,7 @@ fn laid_out(
     loudness: Loudness,
     job: &Job,
     source: &mut Source,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Done, Problem> {
     let shown = source.shown.clone();
@@ -286,7 +291,7 @@ fn tell(done: &Done, source: &Source, say: bool, err: &mut dyn WriteColor) {
 fn write(
     args: &Fmt,
     file: &str,
-    known: &Known,
+    known: &DialectRegistry,
     source: &mut Source,
     mut done: Done,
 ) -> Result<Exit, Problem> {

@@ -25,7 +25,7 @@ use ncc_machines::{Profile, ProfileError, shipped};
 
 use self::args::What;
 use crate::args::typed::Eol;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 use crate::{files, machines};
 
 /// The schema of profiles, as it is documented.
@@ -35,7 +35,7 @@ pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/machine-
 ///
 /// # Errors
 /// A profile is not there or has faults; stdout cannot be written.
-pub fn run(args: &Machines, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Machines, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let print = |text: &str| files::to_stdout(&mut |out| out.write_all(text.as_bytes()));
     match &args.what {
         None => print(&show::list(shipped()))?,
@@ -67,7 +67,7 @@ pub fn run(args: &Machines, known: &Known, err: &mut dyn WriteColor) -> Result<E
 ///
 /// # Errors
 /// There is none of that name, the file cannot be read, or the profile has faults.
-pub fn find(name: &str, known: &Known, err: &mut dyn WriteColor) -> Result<Profile, Problem> {
+pub fn find(name: &str, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Profile, Problem> {
     if let Some(profile) = ncc_machines::find(name) {
         return Ok(profile.clone());
     }
@@ -161,7 +161,7 @@ pub(crate) fn count(n: usize, noun: &str) -> String {
 pub(crate) fn find_both(
     from: Option<&str>,
     to: Option<&str>,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<pair::Machines, Problem> {
     let mut one = |name: Option<&str>| {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use ncc_plot::{Chart, View};
 
-use crate::args::setting::{Reading, Setting, Telling};
+use crate::args::common_args::{Reading, Setting, Verbosity};
 use crate::args::typed::pair;
 use crate::time::args::{Form, StageArg, Time};
 
@@ -65,7 +65,7 @@ pub struct Plot {
 
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }
 
 impl Plot {

@@ -22,8 +22,8 @@ use ncc_time::Timed;
 
 use self::args::Plot;
 use crate::files::Destination;
-use crate::known::Known;
 use crate::milling::{self, Voice};
+use crate::registry::DialectRegistry;
 use crate::time::{self, Shop};
 
 /// What a file is.
@@ -52,7 +52,7 @@ impl Sink for Recorder {
 /// # Errors
 /// Wrong usage, a file that cannot be read or written, or a program without a way to draw. What is
 /// wrong with a program is told on `err`.
-pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub(crate) fn run(args: &Plot, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
     let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
     let opened = args.files.iter().map(|path| milling::open(path, voice, known, err));

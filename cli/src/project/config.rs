@@ -16,7 +16,7 @@ use super::load::SCHEMAS;
 use super::projects::{InForce, Loaded, Row};
 use super::settle::facts;
 use super::{Look, Projects};
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 use crate::{files, machines};
 
 /// Files and folders that are looked at for a pattern's sake.
@@ -29,7 +29,7 @@ pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/project-
 ///
 /// # Errors
 /// The file has faults, or there is none; stdout cannot be written.
-pub fn run(args: &Config, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Config, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
@@ -59,7 +59,7 @@ fn head(file: &Loaded) -> String {
 fn of_program(
     program: &Path,
     projects: &Projects,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<String, Problem> {
     if let Err(error) = program.metadata() {
@@ -126,7 +126,11 @@ fn table(lines: &[Line]) -> String {
     lines.iter().map(|(key, value, place)| format!("  {key:keys$}  {value:values$}  {place}\n")).collect()
 }
 
-fn of_folder(projects: &Projects, known: &Known, err: &mut dyn WriteColor) -> Result<String, Problem> {
+fn of_folder(
+    projects: &Projects,
+    known: &DialectRegistry,
+    err: &mut dyn WriteColor,
+) -> Result<String, Problem> {
     let here = Path::new(".");
     let Some((file, _)) = projects.nearest(here, known, err)? else { return Err(none(here)) };
     let mut text = head(&file);

@@ -10,13 +10,13 @@ use ncc_machines::project::NAME;
 
 use super::args::Init;
 use crate::doctor;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// Writes the file.
 ///
 /// # Errors
 /// It is there already; wrong usage; a file that cannot be read or written.
-pub fn run(args: &Init, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Init, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let folder = args.program.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let path = match folder == Path::new(".") {
         true => PathBuf::from(NAME),

@@ -14,8 +14,8 @@ use toml::Spanned;
 
 use super::Look;
 use super::projects::{InForce, Loaded, Projects, Row, Value};
-use crate::known::Known;
 use crate::machines;
+use crate::registry::DialectRegistry;
 
 /// The commands that list every key.
 pub(super) const SCHEMAS: &str =
@@ -34,11 +34,11 @@ impl Projects {
     /// What the nearest file says of a program.
     ///
     /// # Errors
-    /// As of [`Known::project`].
+    /// As of [`DialectRegistry::project`].
     pub(super) fn find(
         &self,
         look: Look,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<Option<Arc<InForce>>, Problem> {
         let here = Path::new(".");
@@ -78,7 +78,7 @@ impl Projects {
     pub(super) fn nearest(
         &self,
         folder: &Path,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<Option<(Arc<Loaded>, PathBuf)>, Problem> {
         // A folder that is not there is told where the program is opened.
@@ -130,7 +130,7 @@ fn near(path: &Path) -> PathBuf {
     path.to_owned()
 }
 
-fn load(path: PathBuf, known: &Known, err: &mut dyn WriteColor) -> Result<Loaded, Problem> {
+fn load(path: PathBuf, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Loaded, Problem> {
     let shown = near(&path).display().to_string();
     let ignored = |mut problem: Problem| {
         problem.help.push("`--no-config` ignores it".to_owned());
@@ -193,7 +193,7 @@ impl Loaded {
     }
 
     /// What a row names and is not there.
-    fn not_there(&self, row: &Programs, known: &Known) -> Vec<ProfileError> {
+    fn not_there(&self, row: &Programs, known: &DialectRegistry) -> Vec<ProfileError> {
         let machine = |machine: &Option<MachineRef>| match machine {
             Some(MachineRef::Named(name)) if !self.is_machine(name.get_ref()) => {
                 let name_ = name.get_ref().clone();
@@ -219,7 +219,7 @@ impl Loaded {
     pub(super) fn row(
         self: &Arc<Loaded>,
         at: usize,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<InForce, Problem> {
         let row = &self.project.rows[at];

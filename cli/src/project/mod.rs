@@ -27,7 +27,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::job::project_answers::Used;
 use ncc_driver::problem::Problem;
 
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// Which program a project file is asked about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +42,7 @@ pub(crate) enum Look<'a> {
     Nothing,
 }
 
-impl Known {
+impl DialectRegistry {
     /// What the project file says of a program.
     ///
     /// # Errors
@@ -62,11 +62,11 @@ impl Known {
 /// What the project file says of a program in a file. With `say`, a file of which no row is about it is told.
 ///
 /// # Errors
-/// As of [`Known::project`].
+/// As of [`DialectRegistry::project`].
 pub(crate) fn row(
     path: &Path,
     say: bool,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Option<Arc<InForce>>, Problem> {
     let row = known.project(Look::File(path), err)?;

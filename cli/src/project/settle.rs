@@ -15,7 +15,7 @@ use ncc_machines::table::{Stated as Fact, Tell};
 
 use super::projects::{InForce, Row};
 use crate::args::typed::MCode;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// What a call states itself.
 #[derive(Clone, Copy, Debug, Default)]
@@ -81,7 +81,7 @@ pub(crate) fn settle(
     sides: Sides,
     stated: &Stated,
     dialect: Option<&'static Dialect>,
-    known: &Known,
+    known: &DialectRegistry,
 ) -> Result<Settled, Problem> {
     let mut used = Used { file: row.file.shown.clone(), sha256: hex(&row.file.sha256), ..Used::default() };
     let named = |id: Option<&str>| id.filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose();
@@ -149,7 +149,7 @@ fn before(option: &str, row: &InForce, key: &str, value: &str, line: usize) -> S
     format!("{option} goes before {key} = {value} ({}:{line})", row.file.shown)
 }
 
-fn codes(known: &Known, number: impl Fn(&MCode) -> Option<u16>) -> Vec<(u16, MCode)> {
+fn codes(known: &DialectRegistry, number: impl Fn(&MCode) -> Option<u16>) -> Vec<(u16, MCode)> {
     known.m_codes().iter().filter_map(|code| Some((number(code)?, *code))).collect()
 }
 

@@ -19,15 +19,15 @@ use ncc_driver::questions::Policy;
 use ncc_driver::render::About;
 use ncc_driver::render::report::hex;
 use ncc_driver::source::spool::Spool;
-use ncc_driver::source::{Source, called};
+use ncc_driver::source::{Source, include_path};
 use ncc_driver::translate::translate_recording;
 
 use super::args::Why;
 use super::read::{Document, own_settings, read};
 use crate::files;
-use crate::known::Known;
 use crate::milling::{self, Voice};
 use crate::recognised::recognise;
+use crate::registry::DialectRegistry;
 
 /// A map with the source that it was made of.
 pub(crate) struct Found {
@@ -43,7 +43,7 @@ pub(crate) fn find(
     args: &Why,
     output: &mut Source,
     sha256: &[u8],
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Found, Problem> {
     let (out, line) = &args.place;
@@ -94,7 +94,7 @@ fn with_called(
     mut source: Source,
     document: &Document,
     map: &Path,
-    known: &Known,
+    known: &DialectRegistry,
 ) -> Result<Source, Problem> {
     let side = &document.source;
     let Some(settings) = own_settings(side, known).filter(|_| !side.called.is_empty()) else {
@@ -109,7 +109,7 @@ fn with_called(
             folders.push(folder);
         }
     }
-    called::gather(&mut source, &settings, &folders, &files::Disk)?;
+    include_path::load_subprograms(&mut source, &settings, &folders, &files::Disk)?;
     let found: Vec<String> =
         source.called.iter().flat_map(|called| &called.files).map(|file| hex(&file.sha256)).collect();
     let other = side.called.iter().enumerate().find(|(at, file)| found.get(*at) != Some(&file.sha256));
@@ -128,7 +128,7 @@ fn source_of(
     document: &Document,
     out: &Path,
     map: &Path,
-    known: &Known,
+    known: &DialectRegistry,
 ) -> Result<Source, Problem> {
     let side = &document.source;
     let beside = |path: &Path| path.parent().map(|folder| folder.join(&side.name));
@@ -167,7 +167,7 @@ fn again(
     path: &Path,
     output: &mut Source,
     sha256: &[u8],
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Found, Problem> {
     let mut source = milling::open(path, Voice::Quiet, known, err)?;

@@ -9,7 +9,7 @@ use ncc_driver::provenance::map::VERSION;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// One of both sides, as the map names it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -174,7 +174,7 @@ impl<'de> Visitor<'de> for LineSeed {
 }
 
 /// The output's dialect with the options that it was written with; `None` if there is no such dialect here.
-pub(super) fn own_settings(side: &Side, known: &Known) -> Option<Settings> {
+pub(super) fn own_settings(side: &Side, known: &DialectRegistry) -> Option<Settings> {
     let mut settings = Settings::new(known.get(&side.dialect)?);
     for (option, value) in &side.options {
         settings.choose(option, value).ok()?;

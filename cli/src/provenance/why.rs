@@ -16,7 +16,7 @@ use super::find::{Found, find};
 use super::read::{Events, Place, Row, own_settings};
 use crate::args::typed::Format;
 use crate::files;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 
 /// The version of the answer's form.
 const VERSION: u32 = 1;
@@ -70,7 +70,7 @@ struct Modal {
 ///
 /// # Errors
 /// Wrong usage, a file that cannot be read, or one that is not what the map was made of.
-pub fn run(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Why, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let answer = ask(args, known, err)?;
     let to_stdout = match args.format {
         Format::Json => files::data_to_stdout,
@@ -90,12 +90,16 @@ pub fn run(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, 
 ///
 /// # Errors
 /// As of [`run`].
-pub fn document(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<serde_json::Value, Problem> {
+pub fn document(
+    args: &Why,
+    known: &DialectRegistry,
+    err: &mut dyn WriteColor,
+) -> Result<serde_json::Value, Problem> {
     let answer = ask(args, known, err)?;
     serde_json::to_value(&answer).map_err(|e| Problem::file("write", "the answer", &e.into()))
 }
 
-fn ask(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Answer, Problem> {
+fn ask(args: &Why, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Answer, Problem> {
     let (path, line) = &args.place;
     let mut output = files::open(path)?;
     let wrong = |e: io::Error| Problem::file("read", &path.display().to_string(), &e);
@@ -116,7 +120,7 @@ fn ask(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Answer, Pr
     answer(args, found, &mut output, known)
 }
 
-fn answer(args: &Why, found: Found, output: &mut Source, known: &Known) -> Result<Answer, Problem> {
+fn answer(args: &Why, found: Found, output: &mut Source, known: &DialectRegistry) -> Result<Answer, Problem> {
     let (path, line) = &args.place;
     let Found { document, mut source } = found;
     let wrong = |e: io::Error| Problem::file("read", &path.display().to_string(), &e);

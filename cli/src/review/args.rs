@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::args::setting::{Holding, Nearness, Standing, Telling};
+use crate::args::common_args::{StartPosition, Tolerance, VariablesArg, Verbosity};
 use crate::args::typed::{Format, pair};
 
 const EXAMPLES: &str = "\
@@ -59,13 +59,13 @@ pub struct Verify {
     pub to_option: Vec<(String, String)>,
     /// Where SRC begins.
     #[command(flatten, next_help_heading = "What is compared")]
-    pub standing: Standing,
+    pub standing: StartPosition,
     /// What the variables of both hold.
     #[command(flatten, next_help_heading = "What is compared")]
-    pub holding: Holding,
+    pub holding: VariablesArg,
     /// What counts as the same.
     #[command(flatten, next_help_heading = "What is compared")]
-    pub nearness: Nearness,
+    pub nearness: Tolerance,
 
     /// With SRC and OUT, write a certificate to this file; without, check the certificate in it again
     #[arg(long, value_name = "FILE", help_heading = "Certificates")]
@@ -90,7 +90,7 @@ pub struct Verify {
     pub schema: bool,
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }
 
 /// `ncc git-textconv`.

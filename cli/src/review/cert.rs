@@ -18,8 +18,8 @@ use super::comparison::{call, cannot_compare, compare, exit, is_stdin, show};
 use super::side::{Asked, open};
 use crate::args::typed::Format;
 use crate::files;
-use crate::known::Known;
 use crate::project::Look;
+use crate::registry::DialectRegistry;
 
 /// Longest value that is told whole, in characters.
 const LONGEST: usize = 80;
@@ -35,7 +35,7 @@ pub(crate) fn check_again(
     args: &Verify,
     file: &Path,
     anew: Option<&[String; 2]>,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let certificate = read(file)?;

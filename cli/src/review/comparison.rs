@@ -22,7 +22,7 @@ use ncc_ir::expr::num::Nanos;
 use super::args::Verify;
 use crate::args::typed::Format;
 use crate::files;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 use crate::time::running::Running;
 use ncc_driver::review::verify::document::Word;
 use ncc_driver::side::Side;
@@ -36,7 +36,7 @@ pub(crate) fn call(
     machines: [Option<&str>; 2],
     tolerance: Option<Nanos>,
     sides: &[Side; 2],
-    known: &Known,
+    known: &DialectRegistry,
 ) -> io::Result<Call> {
     Ok(Call {
         files,
@@ -60,7 +60,7 @@ pub(crate) fn compare(
     args: &Verify,
     sides: &mut [Side; 2],
     call: &Call,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Document, Problem> {
     let running = Running::shown(&sides[0].source.name, args.format == Format::Human && !args.telling.quiet);
@@ -86,7 +86,7 @@ fn say(
     args: &Verify,
     side: &mut Side,
     course: &ncc_driver::review::stream::Course,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> io::Result<()> {
     let shown = side.source.shown.clone();

@@ -11,24 +11,24 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Dialect;
 use ncc_driver::guess::{Guess, guess};
-use ncc_driver::job::given::Given;
+use ncc_driver::job::initial_variables::InitialVariables;
 use ncc_driver::job::options::{choose, state_units};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::side::Side;
-use ncc_driver::source::{Source, called};
+use ncc_driver::source::{Source, include_path};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
 use crate::args::typed::Start;
 use crate::args::typed::is_name;
 use crate::files::{self, AS_STORED};
-use crate::known::Known;
 use crate::m_codes;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::{self, InForce, Look, Sides, Stated, settle};
 use crate::recognised::recognise;
+use crate::registry::DialectRegistry;
 
 /// What a command says of one side.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +44,7 @@ pub(crate) struct Asked<'a> {
     /// Where the tool stands before the first block.
     pub(crate) start: Option<Start>,
     /// What its variables hold before.
-    pub(crate) given: Given,
+    pub(crate) given: InitialVariables,
     /// A machine that the command line names for another purpose than reading: none of a project file counts beside it.
     pub(crate) beside: Option<&'a str>,
     /// Which program a project file is asked about; by default the one in the operand's file.
@@ -77,7 +77,7 @@ impl Asked<'_> {
 /// It looks like a dialect, there is none of that name, and no such file either.
 pub(crate) fn operand<'o>(
     text: &'o str,
-    known: &Known,
+    known: &DialectRegistry,
 ) -> Result<(Option<&'static Dialect>, &'o Path), Problem> {
     let Some((id, path)) = text.split_once(':').filter(|(id, path)| is_name(id) && !path.is_empty()) else {
         return Ok((None, Path::new(text)));
@@ -100,7 +100,7 @@ pub(crate) fn operand<'o>(
 pub(crate) fn open(
     asked: [&Asked; 2],
     say: bool,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<[Side; 2], Problem> {
     let [a, b] = asked;
@@ -145,7 +145,7 @@ fn unread(problem: Problem) -> Problem {
 pub(crate) fn open_one(
     asked: &Asked,
     say: bool,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Side, Problem> {
     let mut opened = Opened::of(asked, None, say, known, err)?;
@@ -171,7 +171,7 @@ impl Opened {
         asked: &Asked,
         target: Option<&InForce>,
         say: bool,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<Opened, Problem> {
         let (named, path) = operand(asked.operand, known)?;
@@ -210,7 +210,7 @@ impl Opened {
         &mut self,
         other: Option<&'static Dialect>,
         say: bool,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<(), Problem> {
         if self.named.is_some() {
@@ -245,7 +245,7 @@ impl Opened {
         mut self,
         asked: &Asked,
         say: bool,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<Side, Problem> {
         let dialect = match self.named {
@@ -269,7 +269,7 @@ impl Opened {
             let whole = asked.given.only(name).filter(|value| value.fract() == 0.0);
             whole.into_iter().for_each(|value| from.state_value(name, value as i64));
         }
-        called::gather(&mut self.source, &from, known.folders(), &files::Disk)?;
+        include_path::load_subprograms(&mut self.source, &from, known.folders(), &files::Disk)?;
         self.source.rewind()?;
         let mut side = Side::of(self.source, from, machines, asked.start);
         side.job.given = asked.given.clone();
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn a_dialect_stands_before_a_colon() {
-        let known = Known::built_in();
+        let known = DialectRegistry::built_in();
         let taken = |text| operand(text, &known).map(|(d, p)| (d.map(|d| d.id.as_str()), p.to_owned()));
         for (text, dialect, path) in [
             ("mach9:a.cn", Some("mach9"), "a.cn"),

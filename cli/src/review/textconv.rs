@@ -23,14 +23,14 @@ use ncc_ir::canon::Spindle;
 use super::args::Textconv;
 use super::side::{Asked, open_one};
 use crate::files;
-use crate::known::Known;
 use crate::project::Look;
+use crate::registry::DialectRegistry;
 
 /// Runs the verb.
 ///
 /// # Errors
 /// Wrong usage, or a file that cannot be read.
-pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Textconv, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let (_, own) = super::side::operand(&args.file, known)?;
     let name = own.file_name().unwrap_or_default().to_string_lossy();
     // Of a version in its store, git hands over a copy somewhere else.

@@ -18,7 +18,7 @@ use super::comparison::{call, cannot_compare, compare, exit, show, write};
 use super::side::{Asked, open, operand};
 use crate::args::typed::Format;
 use crate::files;
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 pub use ncc_driver::review::verify::document::SCHEMA;
 use ncc_driver::side::Side;
 use ncc_driver::source::Source;
@@ -28,7 +28,7 @@ use ncc_driver::source::spool::Spool;
 ///
 /// # Errors
 /// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on `err`.
-pub fn run(args: &Verify, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Verify, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
@@ -51,7 +51,7 @@ pub fn run(args: &Verify, known: &Known, err: &mut dyn WriteColor) -> Result<Exi
 fn verify(
     args: &Verify,
     files: &[String; 2],
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let given = args.holding.read()?;
@@ -114,7 +114,7 @@ pub fn of_texts(
     job: &Job,
     texts: [&[u8]; 2],
     tolerance: Option<Nanos>,
-    known: &Known,
+    known: &DialectRegistry,
 ) -> io::Result<Document> {
     let anonymous =
         |text: &[u8], name: &str| -> io::Result<Source> { Ok(Source::of(Spool::of(text.to_vec()), name)) };

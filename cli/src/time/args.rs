@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use ncc_driver::time::drive::Stage;
 
-use crate::args::setting::{Reading, Setting, Telling};
+use crate::args::common_args::{Reading, Setting, Verbosity};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,7 +65,7 @@ pub struct Time {
 
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }
 
 /// What is printed.

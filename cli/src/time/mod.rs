@@ -27,7 +27,7 @@ use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::questions::{self, Policy};
 use ncc_driver::render::{About, summary as account};
 use ncc_driver::render::{Loudness, human};
-use ncc_driver::source::{Source, called};
+use ncc_driver::source::{Source, include_path};
 use ncc_driver::time::drive::{Course, Plan, Sink, Stage, drive};
 use ncc_driver::time::payload::{self, Header};
 use ncc_driver::time::{assumed, canon, columns, csv, duration};
@@ -40,11 +40,11 @@ use ncc_time::{AssumedFact, Machine};
 use self::args::{Form, Time};
 use self::progress::Progress;
 use crate::files::{self, Destination};
-use crate::known::Known;
 use crate::m_codes;
 use crate::milling::{self, Voice};
 use crate::project::{self, Sides, Stated};
 use crate::recognised::recognise_all;
+use crate::registry::DialectRegistry;
 pub use ncc_driver::time::payload::SCHEMA;
 use ncc_driver::time::summary::Report;
 use ncc_driver::time::summary::Timing;
@@ -65,7 +65,7 @@ impl Shop {
     pub(crate) fn of(
         args: &Time,
         own: Option<&Profile>,
-        known: &Known,
+        known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<Shop, Problem> {
         let profile = match &args.setting.machine {
@@ -90,7 +90,7 @@ impl Shop {
 /// # Errors
 /// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on
 /// `err`.
-pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
@@ -161,12 +161,12 @@ fn same(one: &Own, other: &Own) -> bool {
 /// Keeps with a source what a project file says of it; gives its machine.
 ///
 /// # Errors
-/// As of [`Known::project`].
+/// As of [`DialectRegistry::project`].
 pub(crate) fn settle(
     args: &Time,
     path: &Path,
     source: &mut Source,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Own, Problem> {
     let Some(row) = project::row(path, !args.telling.quiet, known, err)? else { return Ok(None) };
@@ -221,7 +221,7 @@ impl Lost {
 }
 
 /// What options mean together.
-fn check(args: &Time, known: &Known) -> Result<(), Problem> {
+fn check(args: &Time, known: &DialectRegistry) -> Result<(), Problem> {
     if let Some(id) = args.reading.from.as_deref().filter(|id| *id != "auto") {
         known.dialect(id)?;
     }
@@ -271,7 +271,7 @@ impl Write for Spool {
 pub(crate) fn job(
     args: &Time,
     shop: &Shop,
-    known: &Known,
+    known: &DialectRegistry,
     source: &mut Source,
     err: &mut dyn WriteColor,
 ) -> Result<Job, Problem> {
@@ -296,7 +296,7 @@ pub(crate) fn job(
     let mut from = choose(machines.settings(Side::From, dialect), &args.reading.from_option)?;
     state_units(&mut from, known.units())?;
     m_codes::state(&mut from, Side::From, known)?;
-    called::gather(source, &from, known.folders(), &files::Disk)?;
+    include_path::load_subprograms(source, &from, known.folders(), &files::Disk)?;
     source.rewind()?;
     Ok(Job {
         machines,
@@ -336,7 +336,7 @@ fn own_parameter(profile: &Profile, option: &str) -> Option<Nanos> {
 pub(crate) fn execute(
     args: &Time,
     plan: &Plan,
-    known: &Known,
+    known: &DialectRegistry,
     source: &mut Source,
     sink: &mut dyn Sink,
     err: &mut dyn WriteColor,
@@ -357,7 +357,7 @@ pub(crate) fn execute(
 fn tell(
     args: &Time,
     plan: &Plan,
-    known: &Known,
+    known: &DialectRegistry,
     source: &mut Source,
     course: &Course,
     err: &mut dyn WriteColor,
@@ -415,7 +415,7 @@ pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<Stri
 fn summaries(
     args: &Time,
     shop: &Shop,
-    known: &Known,
+    known: &DialectRegistry,
     sources: &mut [Source],
     lost: &mut Lost,
     err: &mut dyn WriteColor,
@@ -481,7 +481,7 @@ fn write_report(args: &Time, report: &Report, spool: &mut Spool) -> io::Result<(
 fn stream(
     args: &Time,
     shop: &Shop,
-    known: &Known,
+    known: &DialectRegistry,
     source: &mut Source,
     spool: &mut Spool,
     err: &mut dyn WriteColor,
@@ -558,7 +558,7 @@ fn canonical(
     out: &mut dyn Write,
     err: &mut dyn WriteColor,
 ) -> Result<Result<Course, Failure>, Problem> {
-    let known = Known::built_in();
+    let known = DialectRegistry::built_in();
     let shown = source.shown.clone();
     let cannot = |e: io::Error| Problem::file("time", &shown, &e);
     let to = Settings::new(known.dialect("canon")?);

@@ -8,7 +8,7 @@
 //!
 //! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
 
-pub mod given;
+pub mod initial_variables;
 pub mod options;
 pub mod parameters;
 pub mod project_answers;
@@ -35,14 +35,14 @@ use ncc_machines::reading::{Place, Side};
 use ncc_passes::modes::side_effects::SideEffects;
 use ncc_passes::{Compensating, Pass};
 
-use crate::job::given::Given;
+use crate::job::initial_variables::InitialVariables;
 use crate::job::project_answers::Used;
 use crate::machines::pair::Machines;
 use crate::problem::Exit;
 use crate::questions::question::{Policy, Question};
-use crate::source::called;
 use crate::source::called_files::Called;
 use crate::source::chunks::PIECE;
+use crate::source::include_path;
 use crate::source::spool::Spool;
 pub use crate::stretches::SHORTEST as SHORTEST_STRETCH;
 
@@ -73,7 +73,7 @@ pub struct Job {
     /// (millimetres or degrees, in nanos); `None` is not known.
     pub start: [Option<Nanos>; AXES],
     /// What the source's variables may be given before it begins.
-    pub given: Given,
+    pub given: InitialVariables,
     /// Values of variables at the start, as the user states them. The output sets them itself.
     pub values: Vec<(String, Num)>,
     /// The program number of the output, where the target has one.
@@ -148,7 +148,7 @@ impl Job {
             verify: true,
             head: true,
             start: [None; AXES],
-            given: Given::default(),
+            given: InitialVariables::default(),
             values: Vec::new(),
             program_number: None,
             source_name: source_name.into(),
@@ -401,7 +401,7 @@ impl Outcome {
     /// The name of the output's file; that of a subprogram that stands alone, for a control that finds them by their
     /// files, is the one by which its callers look for it.
     pub fn file_name(&self, machines: &Machines, to: &Dialect, source: &str) -> String {
-        let called = self.output.called().and_then(|name| called::file_of(to, name));
+        let called = self.output.called().and_then(|name| include_path::file_of(to, name));
         called.unwrap_or_else(|| machines.file_name(to, source, self.program_number))
     }
 

@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 use ncc_passes::Legaliser;
 
 use super::Job;
-use super::given::Given;
+use super::initial_variables::InitialVariables;
 use crate::render::numbers::signed;
 
 /// What is stated of the start.
@@ -62,7 +62,7 @@ impl Job {
 
     /// What variables may be given when the program runs: not the T and H code in force at the start, which are read with
     /// the text.
-    pub(crate) fn given_to_runs(&self) -> Given {
+    pub(crate) fn given_to_runs(&self) -> InitialVariables {
         if self.given.names().next().is_none() {
             return self.given.clone();
         }

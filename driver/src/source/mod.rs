@@ -7,10 +7,10 @@
 //!
 //! Not here: what a text means (front-ends).
 
-pub mod called;
 pub mod called_files;
 pub mod chunks;
 pub mod halted;
+pub mod include_path;
 pub mod interrupted;
 pub mod not_milling;
 pub(crate) mod reader;

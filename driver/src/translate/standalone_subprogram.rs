@@ -19,7 +19,7 @@ use ncc_passes::values::variables::questions;
 
 use super::rewrite::FLATTEN;
 use super::translation::Translation;
-use crate::source::called;
+use crate::source::include_path;
 
 impl Translation<'_> {
     /// Prepares for such a program; `true` where the target cannot say it (reported).
@@ -87,7 +87,7 @@ impl Translation<'_> {
         let number = || source.name.number.map(|number| number.to_string().into());
         let file = self.job.source_name.trim_start_matches('-');
         let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-        own.or_else(number).unwrap_or_else(|| called::program_in(self.job.from.dialect, stem))
+        own.or_else(number).unwrap_or_else(|| include_path::program_in(self.job.from.dialect, stem))
     }
 
     /// A macro's arguments, which are variables of its calls by their letters, become parameters for a target that has

@@ -19,7 +19,7 @@ use ncc_ir::source::Span;
 use ncc_passes::values::variables::Fineness;
 
 use crate::job;
-use crate::job::given::Given;
+use crate::job::initial_variables::InitialVariables;
 
 /// Highest level of block skip: a tenth is a Sinumerik's `/1`.
 pub(super) const MOST_LEVELS: u8 = 10;
@@ -185,7 +185,7 @@ pub struct Verifier {
     /// What the target's control always begins with, and the source's does not.
     pub(super) own_facts: Modes,
     /// What variables may be given.
-    pub(super) given: Given,
+    pub(super) given: InitialVariables,
     /// What the target computes with.
     pub(super) functions: Vec<Function>,
     /// How far apart two numbers are that the target's own comparisons find equal.

@@ -6,12 +6,12 @@ use std::sync::LazyLock;
 
 use libfuzzer_sys::fuzz_target;
 use ncc::fmt::of_text;
-use ncc::known::Known;
+use ncc::registry::DialectRegistry;
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::{Family, Settings, builtins};
 use ncc_driver::problem::Exit;
 
-static KNOWN: LazyLock<Known> = LazyLock::new(Known::built_in);
+static KNOWN: LazyLock<Known> = LazyLock::new(DialectRegistry::built_in);
 
 fuzz_target!(|data: &[u8]| {
     let [from, numbers, text @ ..] = data else { return };

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::args::setting::{Holding, Nearness, Standing, Telling};
+use crate::args::common_args::{StartPosition, Tolerance, VariablesArg, Verbosity};
 use crate::args::typed::pair;
 
 const EXAMPLES: &str = "\
@@ -52,13 +52,13 @@ pub struct Diff {
     pub b_option: Vec<(String, String)>,
     /// Where both begin.
     #[command(flatten, next_help_heading = "What is compared")]
-    pub standing: Standing,
+    pub standing: StartPosition,
     /// What the variables of both hold.
     #[command(flatten, next_help_heading = "What is compared")]
-    pub holding: Holding,
+    pub holding: VariablesArg,
     /// What counts as the same.
     #[command(flatten, next_help_heading = "What is compared")]
-    pub nearness: Nearness,
+    pub nearness: Tolerance,
     /// Compare the text, block by block, instead of what it does
     #[arg(long, help_heading = "What is compared")]
     pub text: bool,
@@ -104,7 +104,7 @@ pub struct Diff {
 
     /// How much is told.
     #[command(flatten)]
-    pub telling: Telling,
+    pub telling: Verbosity,
 }
 
 /// Form of the result.

@@ -20,15 +20,15 @@ use ncc_driver::source::not_milling;
 use super::args::GitDiff;
 use super::{SHOWN, plain, text, unified};
 use crate::files;
-use crate::known::Known;
 use crate::project::Look;
+use crate::registry::DialectRegistry;
 use crate::review::side::{Asked, open};
 
 /// Runs the verb.
 ///
 /// # Errors
 /// The arguments are not those of git, or stdout cannot be written.
-pub fn run(args: &GitDiff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &GitDiff, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let word = |i: usize| args.git.get(i).map_or("", String::as_str);
     if args.git.len() == 1 {
         return print(&format!("{}: unmerged\n", word(0)));
@@ -65,7 +65,7 @@ fn extent(file: &str) -> String {
 }
 
 /// The dialect of both versions: of the new one, else of the old one, else by the path.
-fn dialect<'a>(args: &'a GitDiff, known: &'a Known, versions: [&str; 2]) -> Option<&'a str> {
+fn dialect<'a>(args: &'a GitDiff, known: &'a DialectRegistry, versions: [&str; 2]) -> Option<&'a str> {
     if let Some(from) = &args.from {
         return Some(from);
     }
@@ -75,7 +75,13 @@ fn dialect<'a>(args: &'a GitDiff, known: &'a Known, versions: [&str; 2]) -> Opti
     })
 }
 
-fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mut dyn WriteColor) -> String {
+fn both(
+    args: &GitDiff,
+    known: &DialectRegistry,
+    versions: [&str; 2],
+    path: &str,
+    err: &mut dyn WriteColor,
+) -> String {
     // Files of git have names of their own: they are never taken for `DIALECT:PATH`.
     let names = versions
         .map(|file| if Path::new(file).is_absolute() { file.to_owned() } else { format!("./{file}") });
@@ -105,7 +111,7 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mu
 }
 
 /// The difference of the texts, where a version is no milling program.
-fn of_texts(known: &Known, versions: [&str; 2], path: &str) -> Option<String> {
+fn of_texts(known: &DialectRegistry, versions: [&str; 2], path: &str) -> Option<String> {
     let mut sources = versions.map(|file| files::open(Path::new(file)).ok());
     let mut out = String::new();
     for (source, version) in sources.iter_mut().zip(["old", "new"]) {

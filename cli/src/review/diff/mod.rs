@@ -24,7 +24,7 @@ use ncc_driver::review::diff::{html, json};
 use self::args::{Diff, Form, Ignore};
 use self::text::Texts;
 use super::side::{Asked, open};
-use crate::known::Known;
+use crate::registry::DialectRegistry;
 use crate::time::running::Running;
 use crate::{files, project};
 pub use ncc_driver::review::diff::json::SCHEMA;
@@ -42,7 +42,7 @@ const SHOWN: usize = 10;
 ///
 /// # Errors
 /// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on `err`.
-pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &Diff, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
@@ -172,7 +172,7 @@ fn say(
     args: &Diff,
     sides: &mut [Side; 2],
     found: &Motion,
-    known: &Known,
+    known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> io::Result<()> {
     for (side, course) in sides.iter_mut().zip(&found.courses) {

@@ -9,7 +9,7 @@ use ncc_ir::source::Span;
 use ncc_passes::values::assumption_check::Assumption;
 use ncc_passes::values::variables::renamed::Renamed;
 
-use crate::job::given::Given as Stated;
+use crate::job::initial_variables::InitialVariables as Stated;
 
 /// What another program has left in a variable.
 const LEFT_THERE: f64 = -791.3;

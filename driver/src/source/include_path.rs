@@ -48,7 +48,7 @@ pub trait Library {
 ///
 /// # Errors
 /// A file cannot be read, or holds another program than the one that its name says.
-pub fn gather(
+pub fn load_subprograms(
     source: &mut Source,
     settings: &Settings,
     folders: &[PathBuf],

@@ -31,7 +31,7 @@ type Derived = (usize, Side, &'static Dialect);
 
 /// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub struct DialectRegistry {
     shops: Vec<&'static Dialect>,
     /// Files of those, and their texts, in the same order.
     texts: Vec<(PathBuf, String)>,
@@ -55,10 +55,10 @@ pub struct Known {
     derived: Arc<Mutex<Vec<Derived>>>,
 }
 
-impl Known {
+impl DialectRegistry {
     /// The built-in dialects.
-    pub fn built_in() -> Known {
-        Known::default()
+    pub fn built_in() -> DialectRegistry {
+        DialectRegistry::default()
     }
 
     /// Those, and the ones that files define. Called once in a process: what is read is kept.
@@ -66,8 +66,8 @@ impl Known {
     /// # Errors
     /// A file cannot be read, or is no dictionary; with `out`, the latter has been told there, with
     /// its place, and the problem has no words of its own.
-    pub fn with(files: &[PathBuf], out: Option<&mut dyn WriteColor>) -> Result<Known, Problem> {
-        let mut known = Known::built_in();
+    pub fn with(files: &[PathBuf], out: Option<&mut dyn WriteColor>) -> Result<DialectRegistry, Problem> {
+        let mut known = DialectRegistry::built_in();
         known.add(files, out)?;
         Ok(known)
     }
@@ -75,7 +75,7 @@ impl Known {
     /// Adds what files define, and gives it.
     ///
     /// # Errors
-    /// As of [`Known::with`].
+    /// As of [`DialectRegistry::with`].
     pub fn add(
         &mut self,
         files: &[PathBuf],

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use ncc_driver::job::given::{Given, decimal};
+use ncc_driver::job::initial_variables::{InitialVariables, decimal};
 use ncc_driver::problem::Problem;
 use ncc_driver::render::Loudness;
 use ncc_ir::expr::num::Nanos;
@@ -26,7 +26,7 @@ pub struct Reading {
 
 /// Where a program begins. What is taken for granted without, a verb adds to the help.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Standing {
+pub struct StartPosition {
     /// Where the tool stands before the first block, in program coordinates, mm and degrees:
     /// `X-9,Y15.588,Z3`
     #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
@@ -35,19 +35,20 @@ pub struct Standing {
 
 /// What variables hold before a program that is executed once.
 #[derive(Clone, Debug, Args)]
-pub struct Holding {
+pub struct VariablesArg {
     /// What variables hold before the program begins, one value each: a TOML file
     #[arg(long, value_name = "FILE")]
     pub args: Option<PathBuf>,
 }
 
-impl Holding {
+impl VariablesArg {
     /// Reads the file.
     ///
     /// # Errors
-    /// It cannot be read; as of [`Given::one_of_file`].
-    pub(crate) fn read(&self) -> Result<Given, Problem> {
-        let read = |path| files::text(path).and_then(|(name, text)| Given::one_of_file(&name, &text));
+    /// It cannot be read; as of [`InitialVariables::one_of_file`].
+    pub(crate) fn read(&self) -> Result<InitialVariables, Problem> {
+        let read =
+            |path| files::text(path).and_then(|(name, text)| InitialVariables::one_of_file(&name, &text));
         Ok(self.args.as_deref().map(read).transpose()?.unwrap_or_default())
     }
 }
@@ -74,7 +75,7 @@ impl Switches {
 
 /// What counts as the same.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Nearness {
+pub struct Tolerance {
     /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
     #[arg(long, value_name = "MM", value_parser = millimetres)]
     pub tolerance: Option<Nanos>,
@@ -97,14 +98,14 @@ pub struct Lines {
 pub struct Setting {
     /// Where it begins.
     #[command(flatten, next_help_heading = "What is executed")]
-    pub standing: Standing,
+    pub standing: StartPosition,
     /// Which of its blocks are skipped.
     #[command(flatten, next_help_heading = "What is executed")]
     pub switches: Switches,
 
     /// What its variables hold.
     #[command(flatten, next_help_heading = "What is executed")]
-    pub holding: Holding,
+    pub holding: VariablesArg,
 
     /// The machine: a profile's name or file
     #[arg(short, long, value_name = "MACHINE", help_heading = "How it is timed")]
@@ -137,7 +138,7 @@ pub struct Setting {
 
 /// How much is told.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Telling {
+pub struct Verbosity {
     /// Say everything with its place, assumptions too, not only the summary
     #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
     pub verbose: bool,
@@ -146,7 +147,7 @@ pub struct Telling {
     pub quiet: bool,
 }
 
-impl Telling {
+impl Verbosity {
     /// Which diagnostics are told.
     pub fn loudness(self) -> Loudness {
         match (self.quiet, self.verbose) {

@@ -18,7 +18,7 @@ use crate::render::messages::message::Help;
 
 /// What variables may be given, by their names without signs.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Given(BTreeMap<String, Values>);
+pub struct InitialVariables(BTreeMap<String, Values>);
 
 /// The values that one may be given.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,7 +126,7 @@ pub fn decimal(text: &str) -> Option<Nanos> {
     num.nanos(false)
 }
 
-impl Given {
+impl InitialVariables {
     /// Takes what the command line says of a variable.
     pub fn put(&mut self, name: &str, value: Num) {
         let number = value.mantissa as f64 / 10_f64.powi(value.scale.into());
@@ -137,8 +137,8 @@ impl Given {
     ///
     /// # Errors
     /// It is not of this form.
-    pub fn of_file(name: &str, text: &str) -> Result<Given, Problem> {
-        Given::parse(text).map_err(|reason| {
+    pub fn of_file(name: &str, text: &str) -> Result<InitialVariables, Problem> {
+        InitialVariables::parse(text).map_err(|reason| {
             let message = problem("variables").text("file", name).text("reason", reason);
             Problem::of(Exit::File, &message, Some(vec![Help::new("help"), Help::new("help-or")]))
         })
@@ -148,7 +148,7 @@ impl Given {
     ///
     /// # Errors
     /// It is not of this form, in words.
-    pub fn parse(text: &str) -> Result<Given, String> {
+    pub fn parse(text: &str) -> Result<InitialVariables, String> {
         let file: File = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
         let rows = file.variables.into_iter().map(|(name, row)| {
             let wrong = |reason: &str| {
@@ -179,11 +179,11 @@ impl Given {
             }
             Ok((plain(&name), Values { kind, vacant }))
         });
-        rows.collect::<Result<_, String>>().map(Given)
+        rows.collect::<Result<_, String>>().map(InitialVariables)
     }
 
     /// All but one of them.
-    pub(crate) fn without(mut self, name: &str) -> Given {
+    pub(crate) fn without(mut self, name: &str) -> InitialVariables {
         self.0.remove(&plain(name));
         self
     }
@@ -217,9 +217,9 @@ impl Given {
     /// Reads a file that says one value of each variable, for a program that is executed once.
     ///
     /// # Errors
-    /// As of [`Given::of_file`], and of a variable with several values.
-    pub fn one_of_file(name: &str, text: &str) -> Result<Given, Problem> {
-        let given = Given::of_file(name, text)?;
+    /// As of [`InitialVariables::of_file`], and of a variable with several values.
+    pub fn one_of_file(name: &str, text: &str) -> Result<InitialVariables, Problem> {
+        let given = InitialVariables::of_file(name, text)?;
         match given.0.iter().find(|(_, values)| values.only().is_none()) {
             Some((variable, _)) => {
                 let message = problem("several-values").text("file", name).text("variable", variable);
@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn values_are_of_the_file() {
-        let given = Given::parse(FILE).unwrap();
+        let given = InitialVariables::parse(FILE).unwrap();
         for set in 0..50 {
             for chance in 0..50 {
                 let value = |name| given.value(name, set, chance);
@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn values_are_of_the_command_line() {
-        let mut given = Given::default();
+        let mut given = InitialVariables::default();
         for (text, name, value) in
             [("#500=-1.25", "500", -1.25), ("#<_td>=.5", "_td", 0.5), ("R5=3", "r5", 3.0)]
         {
@@ -320,7 +320,7 @@ mod tests {
             "[variables]\n\"#1\" = nan\n",
             "[other]\n",
         ] {
-            assert!(Given::parse(wrong).is_err(), "{wrong}");
+            assert!(InitialVariables::parse(wrong).is_err(), "{wrong}");
         }
     }
 }

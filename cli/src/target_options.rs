@@ -10,7 +10,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_driver::job::Job;
-use ncc_driver::job::given::{self, Given};
+use ncc_driver::job::initial_variables::{self, InitialVariables};
 use ncc_driver::job::options::{choose, state_units};
 use ncc_driver::job::start;
 use ncc_driver::machines::pair::Machines;
@@ -23,21 +23,21 @@ use ncc_machines::reading::Side;
 
 use crate::args::Translate;
 use crate::args::typed::Eol;
-use crate::known::Known;
 use crate::machines::agreed;
 use crate::project::{InForce, Settled, Sides, Stated, settle};
 use crate::recognised::INTO_WHAT;
+use crate::registry::DialectRegistry;
 use crate::{files, m_codes};
 
 /// What all programs of a command have in common.
 #[derive(Debug)]
-pub(crate) struct Order {
+pub(crate) struct TargetOptions {
     /// The machines of both sides.
     pub(crate) machines: Machines,
     /// The target, with what was chosen of it.
     pub(crate) to: Settings,
     /// What variables may be given.
-    given: Given,
+    given: InitialVariables,
     /// Their values at the start, from the command line and the profile.
     values: Vec<(String, Num)>,
     /// The dialect of the sources; `None` if it is to be recognised.
@@ -45,12 +45,12 @@ pub(crate) struct Order {
     /// The same with what was chosen of it. What a profile states is put in once: it is kept for good.
     from: Option<Settings>,
     /// What is known of all sources.
-    known: Known,
+    known: DialectRegistry,
     /// The row of a project file that counts for the sources.
     pub(crate) settled: Option<Settled>,
 }
 
-impl Order {
+impl TargetOptions {
     /// What the command line says. Faults of profiles are told.
     ///
     /// # Errors
@@ -58,10 +58,10 @@ impl Order {
     /// dialect's.
     pub(crate) fn find(
         args: &Translate,
-        known: &Known,
+        known: &DialectRegistry,
         row: Option<&InForce>,
         told: &mut dyn WriteColor,
-    ) -> Result<Order, Problem> {
+    ) -> Result<TargetOptions, Problem> {
         let settled = row.map(|row| settle(row, Sides::Written, &stated(args), None, known)).transpose()?;
         let mut machines = crate::machines::find_both(
             args.machine_from.as_deref(),
@@ -100,17 +100,17 @@ impl Order {
             state_units(from, known.units())?;
             m_codes::state(from, Side::From, known)?;
         }
-        let read = |path| files::text(path).and_then(|(name, text)| Given::of_file(&name, &text));
+        let read = |path| files::text(path).and_then(|(name, text)| InitialVariables::of_file(&name, &text));
         let mut given = args.args.as_deref().map(read).transpose()?.unwrap_or_default();
         let mut stated = args.value.clone();
         for (name, holds) in machines.from.iter().flat_map(|profile| profile.values()) {
-            let own = given::value(&format!("{name}={holds}")).ok();
+            let own = initial_variables::value(&format!("{name}={holds}")).ok();
             stated.extend(own.filter(|(name, _)| !args.value.iter().any(|(own, _)| own == name)));
         }
         let values: Vec<(String, Num)> =
             stated.into_iter().filter_map(|(name, holds)| Some((name, holds?))).collect();
         values.iter().for_each(|(name, value)| given.put(name, *value));
-        Ok(Order { from, machines, to, given, values, named, known: known.clone(), settled })
+        Ok(TargetOptions { from, machines, to, given, values, named, known: known.clone(), settled })
     }
 
     /// The folder of outputs, where a project file names it and the command line nothing.
