@@ -7,7 +7,7 @@ use crate::history::{History, STRIDE};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
 use crate::stock::{Fixture, Stock};
-use crate::sweep::{Cells, sweep};
+use crate::sweep::{Cells, Surface, sweep};
 use crate::tool::{Cutter, Tool};
 
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
@@ -309,7 +309,7 @@ impl Cells for Cutting<'_> {
     }
 
     #[inline(always)]
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Fn(f32) -> f32) {
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
         let cut = &mut self.cut;
         cut.columns = cut.columns.start.min(columns.start)..cut.columns.end.max(columns.end);
         cut.rows = cut.rows.start.min(row)..cut.rows.end.max(row + 1);
@@ -318,31 +318,38 @@ impl Cells for Cutting<'_> {
         let last = &mut self.map.last[start + columns.start..start + columns.end];
         let number = self.number;
         let (mut sums, mut depths) = ([0.0_f32; LANES], [0.0_f32; LANES]);
-        let mut lower = |lane: usize, i: f32, height: &mut f32, last: &mut u32| {
-            let (old, new) = (*height, surface(i));
-            let is_lower = new < old;
-            let depth = if is_lower { old - new } else { 0.0 };
-            *height = if is_lower { new } else { old };
-            *last = if is_lower { number } else { *last };
-            sums[lane] += depth;
-            depths[lane] = if depth > depths[lane] { depth } else { depths[lane] };
-        };
         let (heights_by, heights_rest) = heights.as_chunks_mut::<LANES>();
         let (last_by, last_rest) = last.as_chunks_mut::<LANES>();
         let whole = heights_by.len() * LANES;
         for (n, (heights, last)) in heights_by.iter_mut().zip(last_by).enumerate() {
+            let first = (n * LANES) as f32;
             for lane in 0..LANES {
-                lower(lane, (n * LANES + lane) as f32, &mut heights[lane], &mut last[lane]);
+                let new = surface.at(first + lane as f32);
+                let depth = lower(&mut heights[lane], &mut last[lane], new, number);
+                sums[lane] += depth;
+                depths[lane] = if depth > depths[lane] { depth } else { depths[lane] };
             }
         }
-        for (lane, (height, last)) in heights_rest.iter_mut().zip(last_rest).enumerate() {
-            lower(lane, (whole + lane) as f32, height, last);
+        for (i, (height, last)) in heights_rest.iter_mut().zip(last_rest).enumerate() {
+            let depth = lower(height, last, surface.at((whole + i) as f32), number);
+            sums[i] += depth;
+            depths[i] = if depth > depths[i] { depth } else { depths[i] };
         }
         for lane in 0..LANES {
             self.cut.removed.volume += sums[lane];
             self.cut.removed.depth = self.cut.removed.depth.max(depths[lane]);
         }
     }
+}
+
+/// Lowers a cell to a surface, where that is lower; gives by how much.
+#[inline(always)]
+fn lower(height: &mut f32, last: &mut u32, new: f32, number: u32) -> f32 {
+    let old = *height;
+    let is_lower = new < old;
+    *height = if is_lower { new } else { old };
+    *last = if is_lower { number } else { *last };
+    if is_lower { old - new } else { 0.0 }
 }
 
 /// Where something is in the way.
@@ -370,10 +377,10 @@ impl Cells for Probing<'_> {
         self.map.grid
     }
 
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Fn(f32) -> f32) {
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
         let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
         for (i, column) in columns.enumerate() {
-            let (height, tool) = (self.map.heights[start + column], surface(i as f32));
+            let (height, tool) = (self.map.heights[start + column], surface.at(i as f32));
             let depth = height - tool;
             if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
                 let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];

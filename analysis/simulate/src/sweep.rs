@@ -31,9 +31,14 @@ pub(crate) trait Cells {
     /// Where the cells are.
     fn grid(&self) -> Grid;
 
-    /// The surface over some cells of a row; it is asked for the number of the cell from the first of these. A height that
-    /// is infinite is no surface.
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Fn(f32) -> f32);
+    /// The surface over some cells of a row.
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface);
+}
+
+/// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
+pub(crate) trait Surface {
+    /// Its height over a cell, counted from the first one of these; an infinite one is no surface.
+    fn at(&self, i: f32) -> f32;
 }
 
 /// Goes along a move of the tip.
@@ -176,65 +181,170 @@ impl Line {
 
     /// The surface of a band over some cells of a row.
     fn band(&self, cells: &mut impl Cells, band: &Band, row: usize, columns: Range<usize>, at: Across) {
-        let floor = (self.from[2] + band.base) as f32;
-        let rise = self.rise as f32;
-        let (inner, outer) = (band.inner as f32, (band.outer * band.outer) as f32);
-        let level = rise == 0.0;
+        let own = Sloped {
+            at,
+            floor: (self.from[2] + band.base) as f32,
+            rise: self.rise as f32,
+            outer: (band.outer * band.outer) as f32,
+        };
+        let inner = band.inner as f32;
         match band.form {
-            Form::Flat if level => cells.row(row, columns, |_| floor),
-            // The lowest end of what touches.
-            Form::Flat => cells.row(row, columns, |i| {
-                let (s, d) = at.of(i);
-                let half = not_below_zero(outer - d * d).sqrt();
-                floor + rise * at.clamped(if rise < 0.0 { s + half } else { s - half })
-            }),
-            Form::Round(radius) if inner == 0.0 => {
-                let (radius, square) = (radius as f32, (radius * radius) as f32);
-                let ahead = rise / (1.0 + rise * rise).sqrt();
-                cells.row(row, columns, |i| {
-                    let (s, d) = at.of(i);
-                    let most = not_below_zero(outer - d * d).sqrt();
-                    let free = not_below_zero(square - d * d).sqrt() * ahead;
-                    let t = at.clamped(s - between(free, -most, most));
-                    let e = s - t;
-                    floor + rise * t + radius - not_below_zero(square - d * d - e * e).sqrt()
-                });
+            Form::Flat if self.rise == 0.0 => cells.row(row, columns, &Level(own.floor)),
+            Form::Flat => cells.row(row, columns, &Flat(own)),
+            Form::Round(radius) if band.inner == 0.0 => {
+                let ahead = own.rise / (1.0 + own.rise * own.rise).sqrt();
+                cells.row(
+                    row,
+                    columns,
+                    &Ball { own, radius: radius as f32, square: (radius * radius) as f32, ahead },
+                );
             }
             Form::Round(radius) => {
                 let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
-                match level {
-                    true => cells.row(row, columns, |i| {
-                        let (s, d) = at.of(i);
-                        let e = s - at.clamped(s);
-                        floor + round.height(d * d + e * e)
-                    }),
-                    false => cells.row(row, columns, |i| {
-                        let (s, d) = at.of(i);
-                        let t = at.clamped(s - round.touch(d, rise));
-                        let e = s - t;
-                        floor + rise * t + round.height(d * d + e * e)
-                    }),
+                match self.rise == 0.0 {
+                    true => cells.row(row, columns, &LevelRound { own, round }),
+                    false => cells.row(row, columns, &SlopedRound { own, round }),
                 }
             }
             Form::Cone(slope) => {
-                let slope = slope as f32;
+                let (slope, rise) = (slope as f32, own.rise);
                 let steep = rise.abs() >= slope;
                 let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
-                let sense = if level { 0.0 } else { rise.signum() };
-                let level_end = inner * inner;
-                cells.row(row, columns, |i| {
-                    let (s, d) = at.of(i);
-                    let most = not_below_zero(outer - d * d).sqrt();
-                    let free = if steep { sense * most } else { d.abs() * ahead };
-                    // Within the level part, its edge is the lowest.
-                    let edge = sense * not_below_zero(level_end - d * d).sqrt();
-                    let free = if d * d + free * free < level_end { edge } else { free };
-                    let t = at.clamped(s - between(free, -most, most));
-                    let e = s - t;
-                    floor + rise * t + slope * not_below_zero((d * d + e * e).sqrt() - inner)
-                });
+                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
+                cells.row(
+                    row,
+                    columns,
+                    &Cone { own, slope, inner, ahead, beside: if steep { sense } else { 0.0 }, sense },
+                );
             }
         }
+    }
+}
+
+/// What all surfaces along a straight way have.
+#[derive(Clone, Copy)]
+struct Sloped {
+    at: Across,
+    /// Height of the band's lowest point at the start, mm.
+    floor: f32,
+    /// By how much that rises, a mm.
+    rise: f32,
+    /// Square of the band's radius.
+    outer: f32,
+}
+
+impl Sloped {
+    /// How far along the way the band touches what is so far from it.
+    #[inline(always)]
+    fn half(&self, d: f32) -> f32 {
+        not_below_zero(self.outer - d * d).sqrt()
+    }
+}
+
+/// A level bottom on a level way.
+struct Level(f32);
+
+impl Surface for Level {
+    #[inline(always)]
+    fn at(&self, _i: f32) -> f32 {
+        self.0
+    }
+}
+
+/// A level bottom: the lowest end of what touches.
+struct Flat(Sloped);
+
+impl Surface for Flat {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.0;
+        let (s, d) = own.at.of(i);
+        let half = own.half(d);
+        let half = if own.rise < 0.0 { half } else { -half };
+        own.floor + own.rise * own.at.clamped(s + half)
+    }
+}
+
+/// A ball.
+struct Ball {
+    own: Sloped,
+    radius: f32,
+    square: f32,
+    /// How far ahead of a cell its tip is when it comes lowest there, in parts of its radius there.
+    ahead: f32,
+}
+
+impl Surface for Ball {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let most = own.half(d);
+        let free = not_below_zero(self.square - d * d).sqrt() * self.ahead;
+        let t = own.at.clamped(s - between(free, -most, most));
+        let e = s - t;
+        own.floor + own.rise * t + self.radius - not_below_zero(self.square - d * d - e * e).sqrt()
+    }
+}
+
+/// Round corners on a level way.
+struct LevelRound {
+    own: Sloped,
+    round: Round,
+}
+
+impl Surface for LevelRound {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let (s, d) = self.own.at.of(i);
+        let e = s - self.own.at.clamped(s);
+        self.own.floor + self.round.height(d * d + e * e)
+    }
+}
+
+/// Round corners on a slope.
+struct SlopedRound {
+    own: Sloped,
+    round: Round,
+}
+
+impl Surface for SlopedRound {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let t = own.at.clamped(s - self.round.touch(d, own.rise));
+        let e = s - t;
+        own.floor + own.rise * t + self.round.height(d * d + e * e)
+    }
+}
+
+/// A cone that is level within.
+struct Cone {
+    own: Sloped,
+    slope: f32,
+    inner: f32,
+    /// How far ahead of a cell its tip is when it comes lowest there, in parts of their distance across.
+    ahead: f32,
+    /// On a way that is steeper than the cone, the sense in which it is steep: its rim comes lowest. Else 0.
+    beside: f32,
+    /// 1 uphill, -1 downhill.
+    sense: f32,
+}
+
+impl Surface for Cone {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let (most, level) = (own.half(d), self.inner * self.inner - d * d);
+        let free = d.abs() * self.ahead + self.beside * most;
+        // Within the level part, its edge is the lowest.
+        let edge = self.sense * not_below_zero(level).sqrt();
+        let free = if free * free < level { edge } else { free };
+        let t = own.at.clamped(s - between(free, -most, most));
+        let e = s - t;
+        own.floor + own.rise * t + self.slope * not_below_zero((d * d + e * e).sqrt() - self.inner)
     }
 }
 
@@ -335,11 +445,33 @@ fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], centre: [f64; 
                 continue;
             }
             let x0 = grid.centre(0, columns.start) - centre[0];
-            cells.row(row, columns, |i| {
-                let at = [x0 + f64::from(i) * grid.cell, y];
-                let distance = sector.distance(at, radius);
-                if distance <= outer { (from[2] + band.height(distance)) as f32 } else { f32::INFINITY }
-            });
+            let surface =
+                Ring { sector: &sector, band, radius, floor: from[2], from: [x0, y], cell: grid.cell };
+            cells.row(row, columns, &surface);
+        }
+    }
+}
+
+/// A band along a level arc, over cells of a row.
+struct Ring<'r> {
+    sector: &'r Sector,
+    band: &'r Band,
+    /// Radius of the arc.
+    radius: f64,
+    floor: f64,
+    /// The first cell, from the centre of the arc.
+    from: [f64; 2],
+    cell: f64,
+}
+
+impl Surface for Ring<'_> {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
+        let distance = self.sector.distance(at, self.radius);
+        match distance <= self.band.outer {
+            true => (self.floor + self.band.height(distance)) as f32,
+            false => f32::INFINITY,
         }
     }
 }
