@@ -33,9 +33,13 @@ impl Grid {
     /// The cells of which the centre lies between two places of an axis; empty where none does.
     #[inline]
     pub(crate) fn between(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
-        let place = |at: f64| (at - self.low[axis]) / self.cell - 0.5;
-        let first = place(low).ceil().max(0.0) as usize;
-        let behind = (place(high).floor() + 1.0).clamp(0.0, self.cells[axis] as f64) as usize;
+        // Integers round down: `f64::floor` is a call on some machines. One cell more, so that none is below zero.
+        let most = self.cells[axis] as f64 + 1.0;
+        let place = |at: f64| ((at - self.low[axis]) / self.cell + 0.5).clamp(0.0, most);
+        let (low, high) = (place(low), place(high));
+        let first = low as usize;
+        let first = if (first as f64) < low { first + 1 } else { first }.max(1) - 1;
+        let behind = (high as usize).min(self.cells[axis]);
         first.min(behind)..behind
     }
 

@@ -299,8 +299,32 @@ struct Cutting<'m> {
     cut: Cut,
 }
 
-/// Cells that are worked on together.
+/// Cells that are worked on together: compilers make one instruction of what is done to four.
 const LANES: usize = 4;
+
+/// What was removed in some cells, in as many sums.
+#[derive(Default)]
+struct Sums {
+    volumes: [f32; LANES],
+    depths: [f32; LANES],
+}
+
+impl Sums {
+    /// Lowers cells to a surface, where that is lower. Without a branch, which the next cells could not be waited for.
+    #[inline(always)]
+    fn lower(&mut self, heights: &mut [f32; LANES], last: &mut [u32; LANES], new: [f32; LANES], number: u32) {
+        for lane in 0..LANES {
+            let old = heights[lane];
+            let mask = if new[lane] < old { u32::MAX } else { 0 };
+            // Nothing less nothing is no number; it is masked out.
+            let depth = f32::from_bits((old - new[lane]).to_bits() & mask);
+            heights[lane] = if new[lane] < old { new[lane] } else { old };
+            last[lane] = last[lane] & !mask | number & mask;
+            self.volumes[lane] += depth;
+            self.depths[lane] = if depth > self.depths[lane] { depth } else { self.depths[lane] };
+        }
+    }
+}
 
 impl Cells for Cutting<'_> {
     #[inline]
@@ -317,39 +341,30 @@ impl Cells for Cutting<'_> {
         let heights = &mut self.map.heights[start + columns.start..start + columns.end];
         let last = &mut self.map.last[start + columns.start..start + columns.end];
         let number = self.number;
-        let (mut sums, mut depths) = ([0.0_f32; LANES], [0.0_f32; LANES]);
+        let mut sums = Sums::default();
         let (heights_by, heights_rest) = heights.as_chunks_mut::<LANES>();
         let (last_by, last_rest) = last.as_chunks_mut::<LANES>();
         let whole = heights_by.len() * LANES;
         for (n, (heights, last)) in heights_by.iter_mut().zip(last_by).enumerate() {
             let first = (n * LANES) as f32;
-            for lane in 0..LANES {
-                let new = surface.at(first + lane as f32);
-                let depth = lower(&mut heights[lane], &mut last[lane], new, number);
-                sums[lane] += depth;
-                depths[lane] = if depth > depths[lane] { depth } else { depths[lane] };
-            }
+            let new: [f32; LANES] = std::array::from_fn(|lane| surface.at(first + lane as f32));
+            sums.lower(heights, last, new, number);
         }
-        for (i, (height, last)) in heights_rest.iter_mut().zip(last_rest).enumerate() {
-            let depth = lower(height, last, surface.at((whole + i) as f32), number);
-            sums[i] += depth;
-            depths[i] = if depth > depths[i] { depth } else { depths[i] };
+        if !heights_rest.is_empty() {
+            let rest = heights_rest.len();
+            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
+            few[..rest].copy_from_slice(heights_rest);
+            of[..rest].copy_from_slice(last_rest);
+            let new: [f32; LANES] = std::array::from_fn(|lane| surface.at((whole + lane) as f32));
+            sums.lower(&mut few, &mut of, new, number);
+            heights_rest.copy_from_slice(&few[..rest]);
+            last_rest.copy_from_slice(&of[..rest]);
         }
         for lane in 0..LANES {
-            self.cut.removed.volume += sums[lane];
-            self.cut.removed.depth = self.cut.removed.depth.max(depths[lane]);
+            self.cut.removed.volume += sums.volumes[lane];
+            self.cut.removed.depth = self.cut.removed.depth.max(sums.depths[lane]);
         }
     }
-}
-
-/// Lowers a cell to a surface, where that is lower; gives by how much.
-#[inline(always)]
-fn lower(height: &mut f32, last: &mut u32, new: f32, number: u32) -> f32 {
-    let old = *height;
-    let is_lower = new < old;
-    *height = if is_lower { new } else { old };
-    *last = if is_lower { number } else { *last };
-    if is_lower { old - new } else { 0.0 }
 }
 
 /// Where something is in the way.
