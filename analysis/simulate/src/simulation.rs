@@ -171,8 +171,7 @@ impl Simulation {
         if lowest(from, own) >= f64::from(self.highest) {
             return Cut::default();
         }
-        let nowhere = Cut { removed: Removed::default(), columns: usize::MAX..0, rows: usize::MAX..0 };
-        let mut cutting = Cutting { map: &mut self.map, number: number as u32 + 1, cut: nowhere };
+        let mut cutting = Cutting { map: &mut self.map, number: number as u32 + 1, cut: Cut::default() };
         sweep(&mut cutting, &tool.cutter, from, own.end, &own.way);
         let mut cut = cutting.cut;
         cut.removed.volume *= (self.map.grid.cell * self.map.grid.cell) as f32;
@@ -292,6 +291,17 @@ struct Cut {
     rows: Range<usize>,
 }
 
+impl Cut {
+    fn reaches(&mut self, row: usize, columns: &Range<usize>) {
+        let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
+            true => other.clone(),
+            false => own.start.min(other.start)..own.end.max(other.end),
+        };
+        self.columns = with(&self.columns, columns);
+        self.rows = with(&self.rows, &(row..row + 1));
+    }
+}
+
 /// Lowers a map.
 struct Cutting<'m> {
     map: &'m mut HeightMap,
@@ -334,9 +344,7 @@ impl Cells for Cutting<'_> {
 
     #[inline(always)]
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
-        let cut = &mut self.cut;
-        cut.columns = cut.columns.start.min(columns.start)..cut.columns.end.max(columns.end);
-        cut.rows = cut.rows.start.min(row)..cut.rows.end.max(row + 1);
+        self.cut.reaches(row, &columns);
         let start = row * self.map.grid.cells[0];
         let heights = &mut self.map.heights[start + columns.start..start + columns.end];
         let last = &mut self.map.last[start + columns.start..start + columns.end];
