@@ -84,7 +84,7 @@ fn a_slot_across_the_grid_and_longer_than_a_piece() {
         let part = ((x - from[0]) * along[0] + (y - from[1]) * along[1]).clamp(0.0, length);
         let distance = (x - from[0] - part * along[0]).hypot(y - from[1] - part * along[1]);
         // At its rim a ball stands upright.
-        (distance < 2.99 || distance > 3.0).then(|| match distance < 3.0 {
+        (!(2.99..=3.0).contains(&distance)).then(|| match distance < 3.0 {
             true => (-1.0 + 3.0 - (9.0 - distance * distance).sqrt()).min(0.0),
             false => 0.0,
         })
@@ -161,7 +161,7 @@ fn ramps() {
     holds(ball.map(), |x, y| {
         let off = y - 15.0;
         let across = (16.0 - off * off).max(0.0).sqrt();
-        let middle = x + across * tilt.sin() * -1.0;
+        let middle = x - across * tilt.sin();
         (off.abs() < 3.9 && (10.0..=30.0).contains(&middle))
             .then(|| (4.0 + (x - 8.0) * slope - across / tilt.cos()).min(0.0))
     });
@@ -208,7 +208,7 @@ fn an_arc_in_each_plane() {
         let [x, y] = [x - 20.0, y - 15.0];
         let end = |at: f64| (x - at).hypot(y);
         let distance = if y >= 0.0 { (x.hypot(y) - 8.0).abs() } else { end(8.0).min(end(-8.0)) };
-        (distance < 1.99 || distance > 2.0).then(|| match distance < 2.0 {
+        (!(1.99..=2.0).contains(&distance)).then(|| match distance < 2.0 {
             true => (-1.5 + 2.0 - (4.0 - distance * distance).sqrt()).min(0.0),
             false => 0.0,
         })
