@@ -1,0 +1,65 @@
+//! Moves a second on a map of 1024 × 1024 cells: 20,000 short moves of surfacing, each 2.6 cells long, in rows that
+//! overlap, by the radius of the tool in cells. `cargo bench -p ncc-simulate`.
+
+use divan::{Bencher, counter::ItemsCount};
+use ncc_simulate::{Cutter, Move, Setup, Shape, Simulation, Stock, Tool, Way};
+
+/// Moves of a run.
+const MOVES: usize = 20_000;
+
+/// A tool of so many cells in radius, on cells of 0.1 mm.
+fn simulation(shape: &Shape, cells: f64) -> Simulation {
+    let cutter = Cutter::new(shape, 2.0 * cells * 0.1, 30.0).expect("a tool");
+    Simulation::new(Setup {
+        stock: Stock::Block { low: [0.0, 0.0, -20.0], high: [102.4, 102.4, 0.0] },
+        guessed: false,
+        cells: 1024,
+        tools: vec![Tool { number: 1, cutter, flute: None, shank: None, holder: None, guessed: false }],
+        fixtures: Vec::new(),
+        table: None,
+        start: [0.0, 0.0, 5.0],
+    })
+}
+
+/// Rows along X, which rise and fall.
+fn moves() -> Vec<Move> {
+    let mut rng = fastrand::Rng::with_seed(3);
+    let (mut x, mut y, mut sense) = (5.0, 5.0, 1.0);
+    (0..MOVES)
+        .map(|_| {
+            x += sense * 0.26;
+            if !(5.0..97.0).contains(&x) {
+                (sense, y) = (-sense, y + 0.8);
+            }
+            let end = [x, y, -4.0 + rng.f64() * 0.1];
+            Move { way: Way::Feed, end, tool: 0, turns: true, time: 0.0, line: 0 }
+        })
+        .collect()
+}
+
+fn run(bencher: Bencher, shape: &Shape, cells: f64) {
+    let moves = moves();
+    bencher
+        .counter(ItemsCount::new(MOVES))
+        .with_inputs(|| simulation(shape, cells))
+        .bench_refs(|simulation| moves.iter().for_each(|own| simulation.push(*own)));
+}
+
+#[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
+fn flat(bencher: Bencher, cells: f64) {
+    run(bencher, &Shape::Flat, cells);
+}
+
+#[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
+fn ball(bencher: Bencher, cells: f64) {
+    run(bencher, &Shape::Ball, cells);
+}
+
+#[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
+fn bull_nose(bencher: Bencher, cells: f64) {
+    run(bencher, &Shape::BullNose { corner: cells * 0.02 }, cells);
+}
+
+fn main() {
+    divan::main();
+}

@@ -1,0 +1,34 @@
+//! ncc-simulate: stock removal.
+//!
+//! A [`Simulation`] takes the moves of a program one by one, in workpiece coordinates, and keeps how high the material
+//! stands in every cell of a grid ([`HeightMap`]), which move was the last to cut there, what each move removed, and what
+//! went wrong ([`Alarm`]). It can go to the state after any move, in both directions.
+//!
+//! ```text
+//! a block 100 × 60 × 20 mm, a flat end mill of 10 mm, G1 X50. at Z-2.    a slot, 2 mm deep; 500 mm³ a length of 25 mm
+//! ```
+//!
+//! A height map has one height a cell: the tool stands along Z, and cuts nothing from below. Tools that are wider higher up
+//! than lower down cut as they are; undercuts (T-slot cutters, lollipops) have no height and are refused by
+//! [`Cutter::new`].
+//!
+//! Not here: reading programs, executing and timing them, files, pictures, any dialect's name.
+
+mod alarm;
+mod band;
+mod history;
+mod map;
+mod mesh;
+mod moves;
+mod simulation;
+mod stock;
+mod sweep;
+mod tool;
+
+pub use alarm::{Alarm, AlarmKind};
+pub use map::{Grid, HeightMap};
+pub use mesh::{Triangle, mesh, rasterise};
+pub use moves::{Move, Way};
+pub use simulation::{Removed, Setup, Simulation};
+pub use stock::{Fixture, Stock};
+pub use tool::{Cutter, CutterFault, Shape, Tool};

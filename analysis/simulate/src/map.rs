@@ -1,0 +1,106 @@
+//! Heights of material over a grid of square cells.
+
+/// Where the cells of a map are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// The corner with the least X and Y, mm.
+    pub low: [f64; 2],
+    /// Side of a cell, mm; above zero.
+    pub cell: f64,
+    /// Cells along X and along Y.
+    pub cells: [usize; 2],
+}
+
+impl Grid {
+    /// Square cells over a rectangle, so many along its longer side at most.
+    ///
+    /// ```text
+    /// 100 × 60 mm, 1024 cells    cells of 0.0977 mm, 1024 × 615
+    /// ```
+    pub fn over(low: [f64; 2], high: [f64; 2], most: usize) -> Grid {
+        let sides = [0, 1].map(|axis| (high[axis] - low[axis]).max(1e-6));
+        let cell = sides[0].max(sides[1]) / most.max(1) as f64;
+        let cells = sides.map(|side| ((side / cell - 1e-9).ceil() as usize).clamp(1, most.max(1)));
+        Grid { low, cell, cells }
+    }
+
+    /// Centre of a cell along an axis, mm.
+    #[inline]
+    pub fn centre(&self, axis: usize, n: usize) -> f64 {
+        self.low[axis] + (n as f64 + 0.5) * self.cell
+    }
+
+    /// The cells of which the centre lies between two places of an axis; empty where none does.
+    #[inline]
+    pub(crate) fn between(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
+        // Integers round down: `f64::floor` is a call on some machines. One cell more, so that none is below zero.
+        let most = self.cells[axis] as f64 + 1.0;
+        let place = |at: f64| ((at - self.low[axis]) / self.cell + 0.5).clamp(0.0, most);
+        let (low, high) = (place(low), place(high));
+        let first = low as usize;
+        let first = if (first as f64) < low { first + 1 } else { first }.max(1) - 1;
+        let behind = (high as usize).min(self.cells[axis]);
+        first.min(behind)..behind
+    }
+
+    /// The cell in which a place lies.
+    pub fn cell_at(&self, x: f64, y: f64) -> Option<[usize; 2]> {
+        let cell = |axis: usize, at: f64| {
+            let n = ((at - self.low[axis]) / self.cell).floor();
+            (n >= 0.0 && n < self.cells[axis] as f64).then_some(n as usize)
+        };
+        Some([cell(0, x)?, cell(1, y)?])
+    }
+
+    /// How many cells there are.
+    pub fn len(&self) -> usize {
+        self.cells[0] * self.cells[1]
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Side of the tiles of a map by which changes are noted, cells.
+pub(crate) const TILE: usize = 64;
+
+/// How high material stands in each cell, and which move was the last to cut there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightMap {
+    /// Where its cells are.
+    pub grid: Grid,
+    /// Heights, mm, in workpiece coordinates: rows of one Y, the least Y first. [`HeightMap::NOTHING`] where there is no
+    /// material.
+    pub heights: Vec<f32>,
+    /// Number of the move that made the height, counted from 1; 0 where none did.
+    pub last: Vec<u32>,
+}
+
+impl HeightMap {
+    /// The height where there is no material at all.
+    pub const NOTHING: f32 = f32::NEG_INFINITY;
+
+    /// A map with one height.
+    pub fn flat(grid: Grid, height: f32) -> HeightMap {
+        HeightMap { grid, heights: vec![height; grid.len()], last: vec![0; grid.len()] }
+    }
+
+    /// The height at a place; `None` outside.
+    pub fn height_at(&self, x: f64, y: f64) -> Option<f32> {
+        let [column, row] = self.grid.cell_at(x, y)?;
+        self.heights.get(row * self.grid.cells[0] + column).copied()
+    }
+
+    /// The greatest height; [`HeightMap::NOTHING`] of a map without material.
+    pub fn highest(&self) -> f32 {
+        self.heights.iter().copied().fold(HeightMap::NOTHING, f32::max)
+    }
+
+    /// Volume of the material above a level, mm³.
+    pub fn volume_above(&self, level: f64) -> f64 {
+        let area = self.grid.cell * self.grid.cell;
+        self.heights.iter().map(|height| (f64::from(*height) - level).max(0.0)).sum::<f64>() * area
+    }
+}

@@ -1,0 +1,414 @@
+//! A program's moves on a part.
+
+use std::ops::Range;
+
+use crate::alarm::{Alarm, AlarmKind};
+use crate::history::{History, STRIDE};
+use crate::map::{Grid, HeightMap};
+use crate::moves::{Move, Way};
+use crate::stock::{Fixture, Stock};
+use crate::sweep::{Cells, Surface, sweep};
+use crate::tool::{Cutter, Tool};
+
+/// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
+const TOUCH: f32 = 0.001;
+
+/// What is set up before the first move.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The raw part.
+    pub stock: Stock,
+    /// Whether the raw part is a guess.
+    pub guessed: bool,
+    /// Cells along its longer side.
+    pub cells: usize,
+    /// The tools.
+    pub tools: Vec<Tool>,
+    /// What holds the part.
+    pub fixtures: Vec<Fixture>,
+    /// Z of the table, mm; `None` where not known.
+    pub table: Option<f64>,
+    /// Where the tip is before the first move, X Y Z in mm.
+    pub start: [f64; 3],
+}
+
+/// What a move has removed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Removed {
+    /// Volume, mm³.
+    pub volume: f32,
+    /// Greatest depth at a place, mm.
+    pub depth: f32,
+}
+
+/// What of a tool may not touch anything, above its cutter.
+#[derive(Clone, Debug)]
+struct Body {
+    shank: Option<Cutter>,
+    holder: Option<Cutter>,
+}
+
+/// A part that is cut move by move.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    setup: Setup,
+    bodies: Vec<Body>,
+    fixtures: Option<HeightMap>,
+    map: HeightMap,
+    /// No material is higher.
+    highest: f32,
+    moves: Vec<Move>,
+    removed: Vec<Removed>,
+    alarms: Vec<Alarm>,
+    history: History,
+    /// How many moves the map shows.
+    shown: usize,
+}
+
+impl Simulation {
+    /// A part that nobody has cut.
+    pub fn new(setup: Setup) -> Simulation {
+        let map = setup.stock.map(setup.cells);
+        let bodies = setup.tools.iter().map(|tool| Body {
+            shank: tool.shank.zip(tool.flute).map(|(radius, base)| Cutter::cylinder(radius, base)),
+            holder: tool.holder.map(|[radius, base]| Cutter::cylinder(radius, base)),
+        });
+        Simulation {
+            bodies: bodies.collect(),
+            fixtures: Fixture::map(&setup.fixtures, map.grid.cell),
+            highest: map.highest(),
+            history: History::new(&map),
+            moves: Vec::new(),
+            removed: Vec::new(),
+            alarms: Vec::new(),
+            shown: 0,
+            setup,
+            map,
+        }
+    }
+
+    /// What was set up.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// The part, after [`Simulation::shown`] moves.
+    pub fn map(&self) -> &HeightMap {
+        &self.map
+    }
+
+    /// How many moves the map shows.
+    pub fn shown(&self) -> usize {
+        self.shown
+    }
+
+    /// All moves.
+    pub fn moves(&self) -> &[Move] {
+        &self.moves
+    }
+
+    /// What each of them has removed.
+    pub fn removed(&self) -> &[Removed] {
+        &self.removed
+    }
+
+    /// What went wrong, in order.
+    pub fn alarms(&self) -> &[Alarm] {
+        &self.alarms
+    }
+
+    /// Bytes that it takes besides the map.
+    pub fn bytes(&self) -> usize {
+        self.history.bytes() + self.moves.len() * (size_of::<Move>() + size_of::<Removed>())
+    }
+
+    /// Where the tip is before a move, counted from 0.
+    pub fn before(&self, at: usize) -> [f64; 3] {
+        at.checked_sub(1).and_then(|at| self.moves.get(at)).map_or(self.setup.start, |last| last.end)
+    }
+
+    /// Makes the next move.
+    ///
+    /// # Panics
+    /// Where its tool is none of the set-up.
+    pub fn push(&mut self, own: Move) {
+        assert!(own.tool < self.setup.tools.len(), "a move with a tool that is not set up");
+        self.seek(self.moves.len());
+        let from = self.before(self.moves.len());
+        self.look(from, &own);
+        let removed = self.cut(from, &own, self.moves.len());
+        self.moves.push(own);
+        self.removed.push(removed.removed);
+        self.shown = self.moves.len();
+        self.judge(&own, &removed);
+        if self.moves.len().is_multiple_of(STRIDE) {
+            self.history.keep(&self.map);
+        }
+    }
+
+    /// Shows the part after so many moves, or after all of them where there are fewer.
+    pub fn seek(&mut self, moves: usize) {
+        let moves = moves.min(self.moves.len());
+        if moves == self.shown {
+            return;
+        }
+        let stride = (moves / STRIDE).min(self.history.len());
+        // What has been made of a stride is gone on with.
+        if !(stride == self.history.at() && moves > self.shown) {
+            self.history.show(&mut self.map, stride);
+            self.shown = stride * STRIDE;
+        }
+        while self.shown < moves {
+            let (from, own) = (self.before(self.shown), self.moves[self.shown]);
+            self.cut(from, &own, self.shown);
+            self.shown += 1;
+        }
+    }
+
+    /// Cuts; `number` counts from 0.
+    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+        let tool = &self.setup.tools[own.tool];
+        if lowest(from, own) >= f64::from(self.highest) {
+            return Cut::default();
+        }
+        let mut cutting = Cutting { map: &mut self.map, number: number as u32 + 1, cut: Cut::default() };
+        sweep(&mut cutting, &tool.cutter, from, own.end, &own.way);
+        let mut cut = cutting.cut;
+        cut.removed.volume *= (self.map.grid.cell * self.map.grid.cell) as f32;
+        self.history.touch(&cut.columns, &cut.rows);
+        cut
+    }
+
+    /// What must be asked before a move cuts: what is in its way.
+    fn look(&mut self, from: [f64; 3], own: &Move) {
+        let (tool, body) = (&self.setup.tools[own.tool], &self.bodies[own.tool]);
+        let low = lowest(from, own);
+        let mut found = Vec::new();
+        if own.way == Way::Rapid && low < f64::from(self.highest) {
+            found.extend(probe(&self.map, &tool.cutter, from, own).map(|hit| (AlarmKind::Rapid, hit)));
+        }
+        if let Some(fixtures) = &self.fixtures {
+            let parts = [Some(&tool.cutter), body.shank.as_ref(), body.holder.as_ref()];
+            let hits = parts.into_iter().flatten().filter_map(|part| probe(fixtures, part, from, own));
+            let worst = hits.max_by(|one, other| one.depth.total_cmp(&other.depth));
+            found.extend(worst.map(|hit| (AlarmKind::Fixture, hit)));
+        }
+        if let Some(table) = self.setup.table.filter(|table| low < *table - f64::from(TOUCH)) {
+            let place = if own.end[2] <= from[2] { own.end } else { from };
+            found.push((AlarmKind::Table, Hit { place, depth: (table - low) as f32 }));
+        }
+        for (kind, hit) in found {
+            self.alarm(kind, own, self.moves.len() as u32 + 1, hit);
+        }
+    }
+
+    /// What is known of a move when it has cut.
+    fn judge(&mut self, own: &Move, cut: &Cut) {
+        let number = self.moves.len() as u32;
+        let from = self.before(self.moves.len() - 1);
+        if cut.removed.depth > TOUCH {
+            let place = self.where_cut(number, cut).unwrap_or(own.end);
+            if !own.turns {
+                self.alarm(AlarmKind::Stopped, own, number, Hit { place, depth: cut.removed.depth });
+            }
+            let flute = self.setup.tools[own.tool].flute;
+            let over = flute.map(|flute| cut.removed.depth - flute as f32);
+            if let Some(over) = over.filter(|over| *over > TOUCH) {
+                self.alarm(AlarmKind::Flute, own, number, Hit { place, depth: over });
+            }
+        }
+        let body = &self.bodies[own.tool];
+        let hits = [(AlarmKind::Shank, &body.shank), (AlarmKind::Holder, &body.holder)];
+        let hits: Vec<_> = hits
+            .into_iter()
+            .filter_map(|(kind, part)| Some((kind, probe(&self.map, part.as_ref()?, from, own)?)))
+            .collect();
+        for (kind, hit) in hits {
+            self.alarm(kind, own, number, hit);
+        }
+    }
+
+    /// A place that a move has cut.
+    fn where_cut(&self, number: u32, cut: &Cut) -> Option<[f64; 3]> {
+        let (grid, width) = (self.map.grid, self.map.grid.cells[0]);
+        cut.rows.clone().find_map(|row| {
+            let column = cut.columns.clone().find(|column| self.map.last[row * width + column] == number)?;
+            let height = f64::from(self.map.heights[row * width + column]);
+            Some([grid.centre(0, column), grid.centre(1, row), height])
+        })
+    }
+
+    /// Adds an alarm, to the last one where that goes on.
+    fn alarm(&mut self, kind: AlarmKind, own: &Move, number: u32, hit: Hit) {
+        let depth = f64::from(hit.depth);
+        let before = self
+            .alarms
+            .iter_mut()
+            .rev()
+            .take(AlarmKind::ALL.len())
+            .find(|alarm| alarm.kind == kind && alarm.tool == own.tool && alarm.last + 1 >= number);
+        match before {
+            Some(alarm) => {
+                alarm.last = number;
+                if depth > alarm.depth {
+                    (alarm.depth, alarm.place) = (depth, hit.place);
+                }
+            }
+            None => self.alarms.push(Alarm {
+                kind,
+                first: number,
+                last: number,
+                tool: own.tool,
+                line: own.line,
+                time: own.time,
+                place: hit.place,
+                depth,
+                guessed: self.setup.guessed && !matches!(kind, AlarmKind::Fixture | AlarmKind::Table)
+                    || self.setup.tools[own.tool].guessed,
+            }),
+        }
+    }
+}
+
+/// The least Z of a move.
+fn lowest(from: [f64; 3], own: &Move) -> f64 {
+    let ends = from[2].min(own.end[2]);
+    match own.way {
+        // An arc in another plane may go below both of its ends.
+        Way::Arc { plane: [f, s, _], centre, .. } if f == 2 || s == 2 => {
+            let radius = (from[f] - centre[0]).hypot(from[s] - centre[1]);
+            ends.min(centre[usize::from(s == 2)] - radius)
+        }
+        Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
+    }
+}
+
+/// What a move did to a map, and in which cells.
+#[derive(Clone, Debug, Default)]
+struct Cut {
+    removed: Removed,
+    columns: Range<usize>,
+    rows: Range<usize>,
+}
+
+impl Cut {
+    fn reaches(&mut self, row: usize, columns: &Range<usize>) {
+        let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
+            true => other.clone(),
+            false => own.start.min(other.start)..own.end.max(other.end),
+        };
+        self.columns = with(&self.columns, columns);
+        self.rows = with(&self.rows, &(row..row + 1));
+    }
+}
+
+/// Lowers a map.
+struct Cutting<'m> {
+    map: &'m mut HeightMap,
+    number: u32,
+    cut: Cut,
+}
+
+/// Cells that are worked on together: compilers make one instruction of what is done to four.
+const LANES: usize = 4;
+
+/// What was removed in some cells, in as many sums.
+#[derive(Default)]
+struct Sums {
+    volumes: [f32; LANES],
+    depths: [f32; LANES],
+}
+
+impl Sums {
+    /// Lowers cells to a surface, where that is lower. Without a branch, which the next cells could not be waited for.
+    #[inline(always)]
+    fn lower(&mut self, heights: &mut [f32; LANES], last: &mut [u32; LANES], new: [f32; LANES], number: u32) {
+        for lane in 0..LANES {
+            let old = heights[lane];
+            let mask = if new[lane] < old { u32::MAX } else { 0 };
+            // Nothing less nothing is no number; it is masked out.
+            let depth = f32::from_bits((old - new[lane]).to_bits() & mask);
+            heights[lane] = if new[lane] < old { new[lane] } else { old };
+            last[lane] = last[lane] & !mask | number & mask;
+            self.volumes[lane] += depth;
+            self.depths[lane] = if depth > self.depths[lane] { depth } else { self.depths[lane] };
+        }
+    }
+}
+
+impl Cells for Cutting<'_> {
+    #[inline]
+    fn grid(&self) -> Grid {
+        self.map.grid
+    }
+
+    #[inline(always)]
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+        self.cut.reaches(row, &columns);
+        let start = row * self.map.grid.cells[0];
+        let heights = &mut self.map.heights[start + columns.start..start + columns.end];
+        let last = &mut self.map.last[start + columns.start..start + columns.end];
+        let number = self.number;
+        let mut sums = Sums::default();
+        let (heights_by, heights_rest) = heights.as_chunks_mut::<LANES>();
+        let (last_by, last_rest) = last.as_chunks_mut::<LANES>();
+        let whole = heights_by.len() * LANES;
+        for (n, (heights, last)) in heights_by.iter_mut().zip(last_by).enumerate() {
+            let first = (n * LANES) as f32;
+            let new: [f32; LANES] = std::array::from_fn(|lane| surface.at(first + lane as f32));
+            sums.lower(heights, last, new, number);
+        }
+        if !heights_rest.is_empty() {
+            let rest = heights_rest.len();
+            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
+            few[..rest].copy_from_slice(heights_rest);
+            of[..rest].copy_from_slice(last_rest);
+            let new: [f32; LANES] = std::array::from_fn(|lane| surface.at((whole + lane) as f32));
+            sums.lower(&mut few, &mut of, new, number);
+            heights_rest.copy_from_slice(&few[..rest]);
+            last_rest.copy_from_slice(&of[..rest]);
+        }
+        for lane in 0..LANES {
+            self.cut.removed.volume += sums.volumes[lane];
+            self.cut.removed.depth = self.cut.removed.depth.max(sums.depths[lane]);
+        }
+    }
+}
+
+/// Where something is in the way.
+#[derive(Clone, Copy, Debug)]
+struct Hit {
+    place: [f64; 3],
+    depth: f32,
+}
+
+/// How deep a part of a tool goes into a map along a move, where it does.
+fn probe(map: &HeightMap, part: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
+    let mut probing = Probing { map, worst: None };
+    sweep(&mut probing, part, from, own.end, &own.way);
+    probing.worst
+}
+
+/// Looks at a map.
+struct Probing<'m> {
+    map: &'m HeightMap,
+    worst: Option<Hit>,
+}
+
+impl Cells for Probing<'_> {
+    fn grid(&self) -> Grid {
+        self.map.grid
+    }
+
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+        let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
+        for (i, column) in columns.enumerate() {
+            let (height, tool) = (self.map.heights[start + column], surface.at(i as f32));
+            let depth = height - tool;
+            if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
+                let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];
+                self.worst = Some(Hit { place, depth });
+            }
+        }
+    }
+}

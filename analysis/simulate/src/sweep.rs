@@ -1,0 +1,520 @@
+//! The surface that a tool leaves where it goes along: for each cell, the lowest that any part of the tool comes there.
+//!
+//! Along a straight line that rises by `m` a mm, a tool whose surface is f(r) above its tip comes to
+//!
+//! ```text
+//! z0 + m·t + f(√(d² + (s − t)²))      t, 0 to the length: where the tip is; s, d: along and across the line, of the cell
+//! ```
+//!
+//! over a cell. For each form of a band the lowest of these is known in closed form (flat, cone, ball), or as the root of a
+//! polynomial (round corners of a flat tool). Arcs that stay level are as exact: the nearest place of the arc counts. Others,
+//! and helices, are cut into chords that leave them by less than [`CHORD`].
+
+use std::ops::Range;
+
+use crate::band::{Band, Form};
+use crate::map::Grid;
+use crate::moves::Way;
+use crate::tool::Cutter;
+
+/// How far chords leave an arc, mm.
+const CHORD: f64 = 0.000_25;
+
+/// Longest piece of a line that is worked on at once, mm: single precision is fine enough for such.
+const PIECE: f64 = 32.0;
+
+/// Steps by which the place is found where a round corner touches: each halves what is not known.
+const HALVINGS: usize = 16;
+
+/// What takes the surface, row by row.
+pub(crate) trait Cells {
+    /// Where the cells are.
+    fn grid(&self) -> Grid;
+
+    /// The surface over some cells of a row.
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface);
+}
+
+/// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
+pub(crate) trait Surface {
+    /// Its height over a cell, counted from the first one of these; an infinite one is no surface.
+    fn at(&self, i: f32) -> f32;
+}
+
+/// Goes along a move of the tip.
+pub(crate) fn sweep(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3], way: &Way) {
+    match way {
+        Way::Rapid | Way::Feed => straight(cells, cutter, from, to),
+        Way::Arc { plane: [0, 1, 2], centre, sweep } if from[2] == to[2] => {
+            for band in cutter.bands() {
+                level_arc(cells, band, from, *centre, *sweep);
+            }
+        }
+        Way::Arc { plane, centre, sweep } => {
+            let mut last = from;
+            for at in chords(from, to, *plane, *centre, *sweep) {
+                straight(cells, cutter, last, at);
+                last = at;
+            }
+        }
+    }
+}
+
+/// Ends of chords of an arc; the last is its end.
+pub(crate) fn chords(
+    from: [f64; 3],
+    to: [f64; 3],
+    [f, s, n]: [usize; 3],
+    centre: [f64; 2],
+    sweep: f64,
+) -> impl Iterator<Item = [f64; 3]> {
+    let arm = [from[f] - centre[0], from[s] - centre[1]];
+    let radius = arm[0].hypot(arm[1]);
+    let end_radius = (to[f] - centre[0]).hypot(to[s] - centre[1]);
+    let widest = 2.0 * (1.0 - CHORD / radius.max(end_radius).max(CHORD)).acos();
+    let count = (sweep.abs() / widest.max(1e-4)).ceil().clamp(1.0, 1e6) as usize;
+    (1..=count).map(move |i| {
+        if i == count {
+            return to;
+        }
+        let part = i as f64 / count as f64;
+        let (sin, cos) = (sweep * part).sin_cos();
+        // The end may be off the circle; what it is off is spread over the arc.
+        let grown = if radius > 0.0 { 1.0 + part * (end_radius / radius - 1.0) } else { 1.0 };
+        let mut at = from;
+        at[f] = centre[0] + (arm[0] * cos - arm[1] * sin) * grown;
+        at[s] = centre[1] + (arm[0] * sin + arm[1] * cos) * grown;
+        at[n] = from[n] + part * (to[n] - from[n]);
+        at
+    })
+}
+
+fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3]) {
+    let pieces = ((to[0] - from[0]).hypot(to[1] - from[1]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
+    let point = |i: usize| match i == pieces {
+        true => to,
+        false => {
+            std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * (i as f64 / pieces as f64))
+        }
+    };
+    for i in 0..pieces {
+        let line = Line::new(point(i), point(i + 1));
+        for band in cutter.bands() {
+            line.sweep(cells, band);
+        }
+    }
+}
+
+/// A straight way of the tip, seen from above.
+struct Line {
+    from: [f64; 3],
+    to: [f64; 3],
+    /// Its direction.
+    along: [f64; 2],
+    length: f64,
+    /// How much it rises a mm.
+    rise: f64,
+}
+
+impl Line {
+    fn new(from: [f64; 3], to: [f64; 3]) -> Line {
+        let [x, y] = [to[0] - from[0], to[1] - from[1]];
+        let length = x.hypot(y);
+        if length < 1e-9 {
+            // Straight down or up: what counts is the lower end.
+            let low = [from[0], from[1], from[2].min(to[2])];
+            return Line { from: low, to: low, along: [1.0, 0.0], length: 0.0, rise: 0.0 };
+        }
+        Line { from, to, along: [x / length, y / length], length, rise: (to[2] - from[2]) / length }
+    }
+
+    /// Where a row is within a distance of the line.
+    fn within(&self, y: f64, radius: f64) -> Option<[f64; 2]> {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for end in [&self.from, &self.to] {
+            let off = y - end[1];
+            let half = radius * radius - off * off;
+            if half >= 0.0 {
+                let half = half.sqrt();
+                low = low.min(end[0] - half);
+                high = high.max(end[0] + half);
+            }
+        }
+        let [ux, uy] = self.along;
+        if self.length > 0.0 && uy != 0.0 {
+            for side in [radius, -radius] {
+                // The parallel through (from + side · normal).
+                let part = (y - self.from[1] - side * ux) / uy;
+                if (0.0..=self.length).contains(&part) {
+                    let x = self.from[0] - side * uy + part * ux;
+                    low = low.min(x);
+                    high = high.max(x);
+                }
+            }
+        }
+        (low <= high).then_some([low, high])
+    }
+
+    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
+        let grid = cells.grid();
+        let radius = band.outer;
+        let [low, high] = [self.from[1].min(self.to[1]) - radius, self.from[1].max(self.to[1]) + radius];
+        for row in grid.between(1, low, high) {
+            let y = grid.centre(1, row);
+            let Some([left, right]) = self.within(y, radius) else { continue };
+            let columns = grid.between(0, left, right);
+            if columns.is_empty() {
+                continue;
+            }
+            let off = [grid.centre(0, columns.start) - self.from[0], y - self.from[1]];
+            let [ux, uy] = self.along;
+            let at = Across {
+                s: (off[0] * ux + off[1] * uy) as f32,
+                d: (off[1] * ux - off[0] * uy) as f32,
+                ds: (grid.cell * ux) as f32,
+                dd: (-grid.cell * uy) as f32,
+                length: self.length as f32,
+            };
+            self.band(cells, band, row, columns, at);
+        }
+    }
+
+    /// The surface of a band over some cells of a row.
+    fn band(&self, cells: &mut impl Cells, band: &Band, row: usize, columns: Range<usize>, at: Across) {
+        let own = Sloped {
+            at,
+            floor: (self.from[2] + band.base) as f32,
+            rise: self.rise as f32,
+            outer: (band.outer * band.outer) as f32,
+        };
+        let inner = band.inner as f32;
+        match band.form {
+            Form::Flat if self.rise == 0.0 => cells.row(row, columns, &Level(own.floor)),
+            Form::Flat => cells.row(row, columns, &Flat(own)),
+            Form::Round(radius) if band.inner == 0.0 => {
+                let ahead = own.rise / (1.0 + own.rise * own.rise).sqrt();
+                cells.row(
+                    row,
+                    columns,
+                    &Ball { own, radius: radius as f32, square: (radius * radius) as f32, ahead },
+                );
+            }
+            Form::Round(radius) => {
+                let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
+                match self.rise == 0.0 {
+                    true => cells.row(row, columns, &LevelRound { own, round }),
+                    false => cells.row(row, columns, &SlopedRound { own, round }),
+                }
+            }
+            Form::Cone(slope) => {
+                let (slope, rise) = (slope as f32, own.rise);
+                let steep = rise.abs() >= slope;
+                let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
+                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
+                cells.row(
+                    row,
+                    columns,
+                    &Cone { own, slope, inner, ahead, beside: if steep { sense } else { 0.0 }, sense },
+                );
+            }
+        }
+    }
+}
+
+/// What all surfaces along a straight way have.
+#[derive(Clone, Copy)]
+struct Sloped {
+    at: Across,
+    /// Height of the band's lowest point at the start, mm.
+    floor: f32,
+    /// By how much that rises, a mm.
+    rise: f32,
+    /// Square of the band's radius.
+    outer: f32,
+}
+
+impl Sloped {
+    /// How far along the way the band touches what is so far from it.
+    #[inline(always)]
+    fn half(&self, d: f32) -> f32 {
+        not_below_zero(self.outer - d * d).sqrt()
+    }
+}
+
+/// A level bottom on a level way.
+struct Level(f32);
+
+impl Surface for Level {
+    #[inline(always)]
+    fn at(&self, _i: f32) -> f32 {
+        self.0
+    }
+}
+
+/// A level bottom: the lowest end of what touches.
+struct Flat(Sloped);
+
+impl Surface for Flat {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.0;
+        let (s, d) = own.at.of(i);
+        let half = own.half(d);
+        let half = if own.rise < 0.0 { half } else { -half };
+        own.floor + own.rise * own.at.clamped(s + half)
+    }
+}
+
+/// A ball.
+struct Ball {
+    own: Sloped,
+    radius: f32,
+    square: f32,
+    /// How far ahead of a cell its tip is when it comes lowest there, in parts of its radius there.
+    ahead: f32,
+}
+
+impl Surface for Ball {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let most = own.half(d);
+        let free = not_below_zero(self.square - d * d).sqrt() * self.ahead;
+        let t = own.at.clamped(s - between(free, -most, most));
+        let e = s - t;
+        own.floor + own.rise * t + self.radius - not_below_zero(self.square - d * d - e * e).sqrt()
+    }
+}
+
+/// Round corners on a level way.
+struct LevelRound {
+    own: Sloped,
+    round: Round,
+}
+
+impl Surface for LevelRound {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let (s, d) = self.own.at.of(i);
+        let e = s - self.own.at.clamped(s);
+        self.own.floor + self.round.height(d * d + e * e)
+    }
+}
+
+/// Round corners on a slope.
+struct SlopedRound {
+    own: Sloped,
+    round: Round,
+}
+
+impl Surface for SlopedRound {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let t = own.at.clamped(s - self.round.touch(d, own.rise));
+        let e = s - t;
+        own.floor + own.rise * t + self.round.height(d * d + e * e)
+    }
+}
+
+/// A cone that is level within.
+struct Cone {
+    own: Sloped,
+    slope: f32,
+    inner: f32,
+    /// How far ahead of a cell its tip is when it comes lowest there, in parts of their distance across.
+    ahead: f32,
+    /// On a way that is steeper than the cone, the sense in which it is steep: its rim comes lowest. Else 0.
+    beside: f32,
+    /// 1 uphill, -1 downhill.
+    sense: f32,
+}
+
+impl Surface for Cone {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let (most, level) = (own.half(d), self.inner * self.inner - d * d);
+        let free = d.abs() * self.ahead + self.beside * most;
+        // Within the level part, its edge is the lowest.
+        let edge = self.sense * not_below_zero(level).sqrt();
+        let free = if free * free < level { edge } else { free };
+        let t = own.at.clamped(s - between(free, -most, most));
+        let e = s - t;
+        own.floor + own.rise * t + self.slope * not_below_zero((d * d + e * e).sqrt() - self.inner)
+    }
+}
+
+/// Where the cells of a row are, along and across a line.
+#[derive(Clone, Copy)]
+struct Across {
+    s: f32,
+    d: f32,
+    ds: f32,
+    dd: f32,
+    length: f32,
+}
+
+impl Across {
+    #[inline(always)]
+    fn of(&self, i: f32) -> (f32, f32) {
+        (self.s + i * self.ds, self.d + i * self.dd)
+    }
+
+    #[inline(always)]
+    fn clamped(&self, t: f32) -> f32 {
+        between(t, 0.0, self.length)
+    }
+}
+
+/// As `f32::clamp`, in a form that compilers make one instruction for several cells of.
+#[inline(always)]
+fn between(value: f32, low: f32, high: f32) -> f32 {
+    let value = if value > low { value } else { low };
+    if value < high { value } else { high }
+}
+
+#[inline(always)]
+fn not_below_zero(value: f32) -> f32 {
+    if value > 0.0 { value } else { 0.0 }
+}
+
+/// Round corners of a tool that is flat within.
+#[derive(Clone, Copy)]
+struct Round {
+    inner: f32,
+    radius: f32,
+    outer: f32,
+}
+
+impl Round {
+    #[inline(always)]
+    fn height(&self, square: f32) -> f32 {
+        let beyond = not_below_zero(square.sqrt() - self.inner);
+        self.radius - not_below_zero(self.radius * self.radius - beyond * beyond).sqrt()
+    }
+
+    /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There
+    ///
+    /// ```text
+    /// q / √(ρ² − q²) · √(r² − d²) / r = m,   r = inner + q
+    /// ```
+    #[inline(always)]
+    fn touch(&self, d: f32, rise: f32) -> f32 {
+        let (d2, m2, p2) = (d * d, rise * rise, self.radius * self.radius);
+        let mut low = not_below_zero(d.abs() - self.inner);
+        let mut high = self.outer - self.inner;
+        for _ in 0..HALVINGS {
+            let q = (low + high) * 0.5;
+            let (r, q2) = (self.inner + q, q * q);
+            let r2 = r * r;
+            let beyond = q2 * (r2 - d2) > m2 * r2 * (p2 - q2);
+            high = if beyond { q } else { high };
+            low = if beyond { low } else { q };
+        }
+        let r = self.inner + (low + high) * 0.5;
+        let u = not_below_zero(r * r - d2).sqrt();
+        if rise < 0.0 { -u } else { u }
+    }
+}
+
+/// A level arc: over each cell, the nearest place of the tip counts.
+fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], centre: [f64; 2], sweep: f64) {
+    let grid = cells.grid();
+    let start = [from[0] - centre[0], from[1] - centre[1]];
+    let radius = start[0].hypot(start[1]);
+    let (sin, cos) = sweep.sin_cos();
+    let end = [start[0] * cos - start[1] * sin, start[0] * sin + start[1] * cos];
+    let sector = Sector { start, end, sweep };
+    let outer = band.outer;
+    let [low, high] = sector.box_around(radius);
+    let hole = radius - outer;
+    for row in grid.between(1, centre[1] + low[1] - outer, centre[1] + high[1] + outer) {
+        let y = grid.centre(1, row) - centre[1];
+        let half = ((radius + outer).powi(2) - y * y).max(0.0).sqrt();
+        let left = (low[0] - outer).max(-half);
+        let right = (high[0] + outer).min(half);
+        // Nothing is cut around the centre of a wide arc.
+        let gap = if hole > y.abs() { (hole * hole - y * y).sqrt() } else { 0.0 };
+        for [left, right] in [[left, right.min(-gap)], [left.max(gap), right]] {
+            let columns = grid.between(0, centre[0] + left, centre[0] + right);
+            if left > right || columns.is_empty() {
+                continue;
+            }
+            let x0 = grid.centre(0, columns.start) - centre[0];
+            let surface =
+                Ring { sector: &sector, band, radius, floor: from[2], from: [x0, y], cell: grid.cell };
+            cells.row(row, columns, &surface);
+        }
+    }
+}
+
+/// A band along a level arc, over cells of a row.
+struct Ring<'r> {
+    sector: &'r Sector,
+    band: &'r Band,
+    /// Radius of the arc.
+    radius: f64,
+    floor: f64,
+    /// The first cell, from the centre of the arc.
+    from: [f64; 2],
+    cell: f64,
+}
+
+impl Surface for Ring<'_> {
+    #[inline(always)]
+    fn at(&self, i: f32) -> f32 {
+        let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
+        let distance = self.sector.distance(at, self.radius);
+        match distance <= self.band.outer {
+            true => (self.floor + self.band.height(distance)) as f32,
+            false => f32::INFINITY,
+        }
+    }
+}
+
+/// An arc about the origin.
+struct Sector {
+    start: [f64; 2],
+    end: [f64; 2],
+    sweep: f64,
+}
+
+impl Sector {
+    /// Whether a direction is one of the arc.
+    #[inline]
+    fn has(&self, at: [f64; 2]) -> bool {
+        let cross = |a: [f64; 2], b: [f64; 2]| (a[0] * b[1] - a[1] * b[0]) * self.sweep.signum();
+        let behind_start = cross(self.start, at) >= 0.0;
+        let before_end = cross(at, self.end) >= 0.0;
+        match self.sweep.abs() {
+            // Chords of an arc that ends where it begins would be no arc.
+            sweep if sweep >= std::f64::consts::TAU - 1e-9 => true,
+            sweep if sweep <= std::f64::consts::PI => behind_start && before_end,
+            _ => behind_start || before_end,
+        }
+    }
+
+    /// Distance of a place from the arc.
+    #[inline]
+    fn distance(&self, at: [f64; 2], radius: f64) -> f64 {
+        if self.has(at) {
+            return (at[0].hypot(at[1]) - radius).abs();
+        }
+        let from = |end: [f64; 2]| (at[0] - end[0]).hypot(at[1] - end[1]);
+        from(self.start).min(from(self.end))
+    }
+
+    /// The box around the arc.
+    fn box_around(&self, radius: f64) -> [[f64; 2]; 2] {
+        let ends = [self.start, self.end];
+        let tops = [[radius, 0.0], [0.0, radius], [-radius, 0.0], [0.0, -radius]];
+        let all = ends.into_iter().chain(tops.into_iter().filter(|top| self.has(*top)));
+        all.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
+            [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
+        })
+    }
+}
