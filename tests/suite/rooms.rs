@@ -22,6 +22,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("analysis/check", &["ncc-exec", "ncc-ir"]),
     ("analysis/diff", &["ncc-exec", "ncc-ir"]),
     ("analysis/plot", &["ncc-exec", "ncc-ir", "ncc-time"]),
+    ("analysis/simulate", &[]),
     ("analysis/time", &["ncc-exec", "ncc-ir"]),
     (
         "driver",

@@ -1,7 +1,6 @@
 //! Tools: the shape that cuts, the shank, the holder.
 
 use std::f64::consts::FRAC_PI_2;
-use std::fmt;
 
 use crate::band::{Band, Form};
 
@@ -62,20 +61,6 @@ pub enum CutterFault {
     /// It is wider below than above: it cuts under what stays, which one height a cell cannot hold.
     Undercut,
 }
-
-impl fmt::Display for CutterFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            CutterFault::Value(name, value) => write!(f, "{name} = {value} is out of range"),
-            CutterFault::Corner { corner, radius } => {
-                write!(f, "corner = {corner} is more than the radius {radius}")
-            }
-            CutterFault::Undercut => write!(f, "it cuts under material that stays"),
-        }
-    }
-}
-
-impl std::error::Error for CutterFault {}
 
 /// The surface that a turning tool has below.
 #[derive(Clone, Debug, PartialEq)]
