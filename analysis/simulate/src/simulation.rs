@@ -206,16 +206,12 @@ impl Simulation {
     fn judge(&mut self, own: &Move, cut: &Cut) {
         let number = self.moves.len() as u32;
         let from = self.before(self.moves.len() - 1);
-        if cut.removed.depth > TOUCH {
+        let depth = cut.removed.depth;
+        let over = self.setup.tools[own.tool].flute.map_or(0.0, |flute| depth - flute as f32);
+        let faults = [(AlarmKind::Stopped, if own.turns { 0.0 } else { depth }), (AlarmKind::Flute, over)];
+        for (kind, depth) in faults.into_iter().filter(|(_, depth)| *depth > TOUCH) {
             let place = self.where_cut(number, cut).unwrap_or(own.end);
-            if !own.turns {
-                self.alarm(AlarmKind::Stopped, own, number, Hit { place, depth: cut.removed.depth });
-            }
-            let flute = self.setup.tools[own.tool].flute;
-            let over = flute.map(|flute| cut.removed.depth - flute as f32);
-            if let Some(over) = over.filter(|over| *over > TOUCH) {
-                self.alarm(AlarmKind::Flute, own, number, Hit { place, depth: over });
-            }
+            self.alarm(kind, own, number, Hit { place, depth });
         }
         let body = &self.bodies[own.tool];
         let hits = [(AlarmKind::Shank, &body.shank), (AlarmKind::Holder, &body.holder)];
