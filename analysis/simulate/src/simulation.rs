@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use wide::f32x4;
+
 use crate::alarm::{Alarm, AlarmKind};
 use crate::history::{History, STRIDE};
 use crate::map::{Grid, HeightMap};
@@ -308,6 +310,9 @@ struct Cutting<'m> {
 /// Cells that are worked on together: compilers make one instruction of what is done to four.
 const LANES: usize = 4;
 
+/// Their places, from the first of them.
+const COUNT: f32x4 = f32x4::new([0.0, 1.0, 2.0, 3.0]);
+
 /// What was removed in some cells, in as many sums.
 #[derive(Default)]
 struct Sums {
@@ -351,16 +356,16 @@ impl Cells for Cutting<'_> {
         let whole = heights_by.len() * LANES;
         for (n, (heights, last)) in heights_by.iter_mut().zip(last_by).enumerate() {
             let first = (n * LANES) as f32;
-            let new: [f32; LANES] = std::array::from_fn(|lane| surface.at(first + lane as f32));
-            sums.lower(heights, last, new, number);
+            let new = surface.at(f32x4::splat(first) + COUNT);
+            sums.lower(heights, last, new.to_array(), number);
         }
         if !heights_rest.is_empty() {
             let rest = heights_rest.len();
             let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
             few[..rest].copy_from_slice(heights_rest);
             of[..rest].copy_from_slice(last_rest);
-            let new: [f32; LANES] = std::array::from_fn(|lane| surface.at((whole + lane) as f32));
-            sums.lower(&mut few, &mut of, new, number);
+            let new = surface.at(f32x4::splat(whole as f32) + COUNT);
+            sums.lower(&mut few, &mut of, new.to_array(), number);
             heights_rest.copy_from_slice(&few[..rest]);
             last_rest.copy_from_slice(&of[..rest]);
         }
@@ -398,12 +403,14 @@ impl Cells for Probing<'_> {
 
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
         let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
-        for (i, column) in columns.enumerate() {
-            let (height, tool) = (self.map.heights[start + column], surface.at(i as f32));
-            let depth = height - tool;
-            if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
-                let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];
-                self.worst = Some(Hit { place, depth });
+        for first in columns.clone().step_by(LANES) {
+            let tools = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
+            for (column, tool) in (first..columns.end).zip(tools) {
+                let depth = self.map.heights[start + column] - tool;
+                if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
+                    let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];
+                    self.worst = Some(Hit { place, depth });
+                }
             }
         }
     }

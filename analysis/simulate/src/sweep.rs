@@ -12,6 +12,8 @@
 
 use std::ops::Range;
 
+use wide::{CmpGt, CmpLt, f32x4};
+
 use crate::band::{Band, Form};
 use crate::map::Grid;
 use crate::moves::Way;
@@ -37,8 +39,8 @@ pub(crate) trait Cells {
 
 /// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
 pub(crate) trait Surface {
-    /// Its height over a cell, counted from the first one of these; an infinite one is no surface.
-    fn at(&self, i: f32) -> f32;
+    /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
+    fn at(&self, i: f32x4) -> f32x4;
 }
 
 /// Goes along a move of the tip.
@@ -236,8 +238,8 @@ struct Sloped {
 impl Sloped {
     /// How far along the way the band touches what is so far from it.
     #[inline(always)]
-    fn half(&self, d: f32) -> f32 {
-        not_below_zero(self.outer - d * d).sqrt()
+    fn half(&self, d: f32x4) -> f32x4 {
+        not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
     }
 }
 
@@ -246,8 +248,8 @@ struct Level(f32);
 
 impl Surface for Level {
     #[inline(always)]
-    fn at(&self, _i: f32) -> f32 {
-        self.0
+    fn at(&self, _i: f32x4) -> f32x4 {
+        f32x4::splat(self.0)
     }
 }
 
@@ -256,12 +258,12 @@ struct Flat(Sloped);
 
 impl Surface for Flat {
     #[inline(always)]
-    fn at(&self, i: f32) -> f32 {
+    fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.0;
         let (s, d) = own.at.of(i);
         let half = own.half(d);
         let half = if own.rise < 0.0 { half } else { -half };
-        own.floor + own.rise * own.at.clamped(s + half)
+        own.at.clamped(s + half) * own.rise + own.floor
     }
 }
 
@@ -276,14 +278,15 @@ struct Ball {
 
 impl Surface for Ball {
     #[inline(always)]
-    fn at(&self, i: f32) -> f32 {
+    fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.own;
         let (s, d) = own.at.of(i);
         let most = own.half(d);
-        let free = not_below_zero(self.square - d * d).sqrt() * self.ahead;
+        let free = not_below_zero(f32x4::splat(self.square) - d * d).sqrt() * self.ahead;
         let t = own.at.clamped(s - between(free, -most, most));
         let e = s - t;
-        own.floor + own.rise * t + self.radius - not_below_zero(self.square - d * d - e * e).sqrt()
+        t * own.rise + (own.floor + self.radius)
+            - not_below_zero(f32x4::splat(self.square) - d * d - e * e).sqrt()
     }
 }
 
@@ -295,10 +298,10 @@ struct LevelRound {
 
 impl Surface for LevelRound {
     #[inline(always)]
-    fn at(&self, i: f32) -> f32 {
+    fn at(&self, i: f32x4) -> f32x4 {
         let (s, d) = self.own.at.of(i);
         let e = s - self.own.at.clamped(s);
-        self.own.floor + self.round.height(d * d + e * e)
+        self.round.height(d * d + e * e) + self.own.floor
     }
 }
 
@@ -310,12 +313,12 @@ struct SlopedRound {
 
 impl Surface for SlopedRound {
     #[inline(always)]
-    fn at(&self, i: f32) -> f32 {
+    fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.own;
         let (s, d) = own.at.of(i);
         let t = own.at.clamped(s - self.round.touch(d, own.rise));
         let e = s - t;
-        own.floor + own.rise * t + self.round.height(d * d + e * e)
+        t * own.rise + self.round.height(d * d + e * e) + own.floor
     }
 }
 
@@ -334,17 +337,17 @@ struct Cone {
 
 impl Surface for Cone {
     #[inline(always)]
-    fn at(&self, i: f32) -> f32 {
+    fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.own;
         let (s, d) = own.at.of(i);
-        let (most, level) = (own.half(d), self.inner * self.inner - d * d);
-        let free = d.abs() * self.ahead + self.beside * most;
+        let (most, level) = (own.half(d), f32x4::splat(self.inner * self.inner) - d * d);
+        let free = d.abs() * self.ahead + most * self.beside;
         // Within the level part, its edge is the lowest.
-        let edge = self.sense * not_below_zero(level).sqrt();
-        let free = if free * free < level { edge } else { free };
+        let edge = not_below_zero(level).sqrt() * self.sense;
+        let free = (free * free).cmp_lt(level).blend(edge, free);
         let t = own.at.clamped(s - between(free, -most, most));
         let e = s - t;
-        own.floor + own.rise * t + self.slope * not_below_zero((d * d + e * e).sqrt() - self.inner)
+        t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
     }
 }
 
@@ -360,26 +363,24 @@ struct Across {
 
 impl Across {
     #[inline(always)]
-    fn of(&self, i: f32) -> (f32, f32) {
-        (self.s + i * self.ds, self.d + i * self.dd)
+    fn of(&self, i: f32x4) -> (f32x4, f32x4) {
+        (i * self.ds + self.s, i * self.dd + self.d)
     }
 
     #[inline(always)]
-    fn clamped(&self, t: f32) -> f32 {
-        between(t, 0.0, self.length)
+    fn clamped(&self, t: f32x4) -> f32x4 {
+        between(t, f32x4::ZERO, f32x4::splat(self.length))
     }
 }
 
-/// As `f32::clamp`, in a form that compilers make one instruction for several cells of.
 #[inline(always)]
-fn between(value: f32, low: f32, high: f32) -> f32 {
-    let value = if value > low { value } else { low };
-    if value < high { value } else { high }
+fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
+    value.fast_max(low).fast_min(high)
 }
 
 #[inline(always)]
-fn not_below_zero(value: f32) -> f32 {
-    if value > 0.0 { value } else { 0.0 }
+fn not_below_zero(value: f32x4) -> f32x4 {
+    value.fast_max(f32x4::ZERO)
 }
 
 /// Round corners of a tool that is flat within.
@@ -392,9 +393,10 @@ struct Round {
 
 impl Round {
     #[inline(always)]
-    fn height(&self, square: f32) -> f32 {
+    fn height(&self, square: f32x4) -> f32x4 {
         let beyond = not_below_zero(square.sqrt() - self.inner);
-        self.radius - not_below_zero(self.radius * self.radius - beyond * beyond).sqrt()
+        let all = f32x4::splat(self.radius * self.radius);
+        f32x4::splat(self.radius) - not_below_zero(all - beyond * beyond).sqrt()
     }
 
     /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There
@@ -403,21 +405,21 @@ impl Round {
     /// q / √(ρ² − q²) · √(r² − d²) / r = m,   r = inner + q
     /// ```
     #[inline(always)]
-    fn touch(&self, d: f32, rise: f32) -> f32 {
-        let (d2, m2, p2) = (d * d, rise * rise, self.radius * self.radius);
-        let mut low = not_below_zero(d.abs() - self.inner);
-        let mut high = self.outer - self.inner;
+    fn touch(&self, d: f32x4, rise: f32) -> f32x4 {
+        let (d2, m2, p2) = (d * d, f32x4::splat(rise * rise), f32x4::splat(self.radius * self.radius));
+        let inner = f32x4::splat(self.inner);
+        let mut low = not_below_zero(d.abs() - inner);
+        let mut high = f32x4::splat(self.outer - self.inner);
         for _ in 0..HALVINGS {
             let q = (low + high) * 0.5;
-            let (r, q2) = (self.inner + q, q * q);
+            let (r, q2) = (inner + q, q * q);
             let r2 = r * r;
-            let beyond = q2 * (r2 - d2) > m2 * r2 * (p2 - q2);
-            high = if beyond { q } else { high };
-            low = if beyond { low } else { q };
+            let beyond = (q2 * (r2 - d2)).cmp_gt(m2 * r2 * (p2 - q2));
+            high = beyond.blend(q, high);
+            low = beyond.blend(low, q);
         }
-        let r = self.inner + (low + high) * 0.5;
-        let u = not_below_zero(r * r - d2).sqrt();
-        if rise < 0.0 { -u } else { u }
+        let r = inner + (low + high) * 0.5;
+        not_below_zero(r * r - d2).sqrt() * if rise < 0.0 { -1.0 } else { 1.0 }
     }
 }
 
@@ -466,13 +468,15 @@ struct Ring<'r> {
 
 impl Surface for Ring<'_> {
     #[inline(always)]
-    fn at(&self, i: f32) -> f32 {
-        let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
-        let distance = self.sector.distance(at, self.radius);
-        match distance <= self.band.outer {
-            true => (self.floor + self.band.height(distance)) as f32,
-            false => f32::INFINITY,
-        }
+    fn at(&self, i: f32x4) -> f32x4 {
+        f32x4::new(i.to_array().map(|i| {
+            let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
+            let distance = self.sector.distance(at, self.radius);
+            match distance <= self.band.outer {
+                true => (self.floor + self.band.height(distance)) as f32,
+                false => f32::INFINITY,
+            }
+        }))
     }
 }
 
