@@ -9,6 +9,8 @@ pub struct Grid {
     pub cell: f64,
     /// Cells along X and along Y.
     pub cells: [usize; 2],
+    /// Cells a mm.
+    per_mm: f64,
 }
 
 impl Grid {
@@ -21,7 +23,7 @@ impl Grid {
         let sides = [0, 1].map(|axis| (high[axis] - low[axis]).max(1e-6));
         let cell = sides[0].max(sides[1]) / most.max(1) as f64;
         let cells = sides.map(|side| ((side / cell - 1e-9).ceil() as usize).clamp(1, most.max(1)));
-        Grid { low, cell, cells }
+        Grid { low, cell, cells, per_mm: 1.0 / cell }
     }
 
     /// Centre of a cell along an axis, mm.
@@ -35,7 +37,7 @@ impl Grid {
     pub(crate) fn between(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
         // Integers round down: `f64::floor` is a call on some machines. One cell more, so that none is below zero.
         let most = self.cells[axis] as f64 + 1.0;
-        let place = |at: f64| ((at - self.low[axis]) / self.cell + 0.5).clamp(0.0, most);
+        let place = |at: f64| ((at - self.low[axis]) * self.per_mm + 0.5).clamp(0.0, most);
         let (low, high) = (place(low), place(high));
         let first = low as usize;
         let first = if (first as f64) < low { first + 1 } else { first }.max(1) - 1;

@@ -173,10 +173,17 @@ impl Simulation {
         if lowest(from, own) >= f64::from(self.highest) {
             return Cut::default();
         }
-        let mut cutting = Cutting { map: &mut self.map, number: number as u32 + 1, cut: Cut::default() };
+        let mut cutting = Cutting {
+            map: &mut self.map,
+            number: number as u32 + 1,
+            cut: Cut::default(),
+            cells: 0.0,
+            sums: Sums::default(),
+        };
         sweep(&mut cutting, &tool.cutter, from, own.end, &own.way);
-        let mut cut = cutting.cut;
-        cut.removed.volume *= (self.map.grid.cell * self.map.grid.cell) as f32;
+        cutting.add_up();
+        let Cutting { mut cut, cells, .. } = cutting;
+        cut.removed.volume = (cells * self.map.grid.cell * self.map.grid.cell) as f32;
         self.history.touch(&cut.columns, &cut.rows);
         cut
     }
@@ -290,13 +297,13 @@ struct Cut {
 }
 
 impl Cut {
-    fn reaches(&mut self, row: usize, columns: &Range<usize>) {
+    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
         let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
             true => other.clone(),
             false => own.start.min(other.start)..own.end.max(other.end),
         };
         self.columns = with(&self.columns, columns);
-        self.rows = with(&self.rows, &(row..row + 1));
+        self.rows = with(&self.rows, rows);
     }
 }
 
@@ -305,6 +312,18 @@ struct Cutting<'m> {
     map: &'m mut HeightMap,
     number: u32,
     cut: Cut,
+    /// What was removed, in heights of cells.
+    cells: f64,
+    sums: Sums,
+}
+
+impl Cutting<'_> {
+    /// Adds what was removed since the last time: single precision is fine enough for so much.
+    fn add_up(&mut self) {
+        let Sums { volumes, depths } = std::mem::take(&mut self.sums);
+        self.cells += f64::from(volumes.into_iter().sum::<f32>());
+        self.cut.removed.depth = depths.into_iter().fold(self.cut.removed.depth, f32::max);
+    }
 }
 
 /// Cells that are worked on together: compilers make one instruction of what is done to four.
@@ -314,7 +333,7 @@ const LANES: usize = 4;
 const COUNT: f32x4 = f32x4::new([0.0, 1.0, 2.0, 3.0]);
 
 /// What was removed in some cells, in as many sums.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Sums {
     volumes: [f32; LANES],
     depths: [f32; LANES],
@@ -343,14 +362,18 @@ impl Cells for Cutting<'_> {
         self.map.grid
     }
 
+    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
+        self.cut.reaches(rows, columns);
+        self.add_up();
+    }
+
     #[inline(always)]
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
-        self.cut.reaches(row, &columns);
         let start = row * self.map.grid.cells[0];
         let heights = &mut self.map.heights[start + columns.start..start + columns.end];
         let last = &mut self.map.last[start + columns.start..start + columns.end];
         let number = self.number;
-        let mut sums = Sums::default();
+        let mut sums = self.sums;
         let (heights_by, heights_rest) = heights.as_chunks_mut::<LANES>();
         let (last_by, last_rest) = last.as_chunks_mut::<LANES>();
         let whole = heights_by.len() * LANES;
@@ -369,10 +392,7 @@ impl Cells for Cutting<'_> {
             heights_rest.copy_from_slice(&few[..rest]);
             last_rest.copy_from_slice(&of[..rest]);
         }
-        for lane in 0..LANES {
-            self.cut.removed.volume += sums.volumes[lane];
-            self.cut.removed.depth = self.cut.removed.depth.max(sums.depths[lane]);
-        }
+        self.sums = sums;
     }
 }
 
@@ -400,6 +420,8 @@ impl Cells for Probing<'_> {
     fn grid(&self) -> Grid {
         self.map.grid
     }
+
+    fn reaches(&mut self, _rows: &Range<usize>, _columns: &Range<usize>) {}
 
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
         let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);

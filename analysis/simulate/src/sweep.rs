@@ -33,6 +33,9 @@ pub(crate) trait Cells {
     /// Where the cells are.
     fn grid(&self) -> Grid;
 
+    /// Rows of these columns come.
+    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>);
+
     /// The surface over some cells of a row.
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface);
 }
@@ -160,8 +163,15 @@ impl Line {
     fn sweep(&self, cells: &mut impl Cells, band: &Band) {
         let grid = cells.grid();
         let radius = band.outer;
-        let [low, high] = [self.from[1].min(self.to[1]) - radius, self.from[1].max(self.to[1]) + radius];
-        for row in grid.between(1, low, high) {
+        let [columns, rows] = [0, 1].map(|axis| {
+            let [one, other] = [self.from[axis], self.to[axis]];
+            grid.between(axis, one.min(other) - radius, one.max(other) + radius)
+        });
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        cells.reaches(&rows, &columns);
+        for row in rows {
             let y = grid.centre(1, row);
             let Some([left, right]) = self.within(y, radius) else { continue };
             let columns = grid.between(0, left, right);
@@ -434,7 +444,13 @@ fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], centre: [f64; 
     let outer = band.outer;
     let [low, high] = sector.box_around(radius);
     let hole = radius - outer;
-    for row in grid.between(1, centre[1] + low[1] - outer, centre[1] + high[1] + outer) {
+    let [columns, rows] = [0, 1]
+        .map(|axis| grid.between(axis, centre[axis] + low[axis] - outer, centre[axis] + high[axis] + outer));
+    if columns.is_empty() || rows.is_empty() {
+        return;
+    }
+    cells.reaches(&rows, &columns);
+    for row in rows {
         let y = grid.centre(1, row) - centre[1];
         let half = ((radius + outer).powi(2) - y * y).max(0.0).sqrt();
         let left = (low[0] - outer).max(-half);
