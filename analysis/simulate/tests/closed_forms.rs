@@ -227,7 +227,7 @@ fn any_state_can_be_shown_again() {
             states.push((n, simulation.map().clone()));
         }
     }
-    for _ in 0..60 {
+    for _ in 0..30 {
         let (moves, map) = &states[rng.usize(0..states.len())];
         simulation.seek(*moves);
         assert!(simulation.map() == map, "after {moves} moves");
