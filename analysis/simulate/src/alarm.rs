@@ -1,6 +1,6 @@
-//! What must not happen at the machine.
+//! Alarms: collisions, and cuts that the tool cannot make.
 
-/// What went wrong.
+/// Kinds of alarms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AlarmKind {
     /// The tool goes through material in rapid.
@@ -60,7 +60,7 @@ pub struct Alarm {
     pub line: u32,
     /// When the first move is over, seconds.
     pub time: f64,
-    /// Where it is worst, X Y Z in mm.
+    /// X Y Z in mm: the deepest place of a collision; of a cut without spindle or above the flutes, one cell of it.
     pub place: [f64; 3],
     /// How deep there, mm.
     pub depth: f64,

@@ -22,9 +22,9 @@ pub(crate) enum Form {
 /// A ring of a tool's lower surface. Lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Band {
-    /// Where it begins to rise.
+    /// The radius from which its surface rises.
     pub(crate) inner: f64,
-    /// Where it ends.
+    /// Its outer radius.
     pub(crate) outer: f64,
     /// Its least height above the tip.
     pub(crate) base: f64,

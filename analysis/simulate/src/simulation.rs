@@ -9,7 +9,7 @@ use crate::history::{History, STRIDE};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
 use crate::stock::{Fixture, Stock};
-use crate::sweep::{Cells, Surface, sweep};
+use crate::sweep::{Cells, Surface, chords, sweep};
 use crate::tool::{Cutter, Tool};
 
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
@@ -280,9 +280,8 @@ fn lowest(from: [f64; 3], own: &Move) -> f64 {
     let ends = from[2].min(own.end[2]);
     match own.way {
         // An arc in another plane may go below both of its ends.
-        Way::Arc { plane: [f, s, _], centre, .. } if f == 2 || s == 2 => {
-            let radius = (from[f] - centre[0]).hypot(from[s] - centre[1]);
-            ends.min(centre[usize::from(s == 2)] - radius)
+        Way::Arc { plane, centre, sweep } if plane[2] != 2 => {
+            chords(from, own.end, plane, centre, sweep).map(|at| at[2]).fold(ends, f64::min)
         }
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
     }

@@ -189,7 +189,7 @@ pub struct Tool {
     pub cutter: Cutter,
     /// Length of what cuts, from the tip, mm; `None` where not known.
     pub flute: Option<f64>,
-    /// Radius of the shank above the flutes, mm; `None` where not known.
+    /// Radius of the shank above the flutes, mm; `None` where not known. Not looked at where `flute` is not known.
     pub shank: Option<f64>,
     /// Radius of the holder, and how high above the tip it begins, mm; `None` where not known.
     pub holder: Option<[f64; 2]>,

@@ -269,6 +269,15 @@ fn alarms() {
     assert!((found[0].3 - 4.0).abs() < MICRON && (found[1].3 - 8.0).abs() < MICRON);
     assert!((found[2].3 - 1.0).abs() < MICRON);
 
+    // The upper half of a circle in X and Z stays above the table; the lower half goes 2 mm below it.
+    let half = |sweep| Way::Arc { plane: [2, 0, 1], centre: [3.0, 70.0], sweep };
+    let mut above = Simulation::new(Setup { table: Some(0.0), start: [65.0, 70.0, 3.0], ..setup(flat()) });
+    above.push(go(half(PI), [75.0, 70.0, 3.0]));
+    assert_eq!(kinds(&above), []);
+    above.push(go(half(PI), [65.0, 70.0, 3.0]));
+    let found = kinds(&above);
+    assert!(found[0].0 == AlarmKind::Table && (found[0].3 - 2.0).abs() < MICRON, "{found:?}");
+
     let clamp = Stock::Block { low: [-10.0, 10.0, -20.0], high: [0.0, 20.0, 5.0] };
     let fixtures = vec![Fixture { name: "clamp".to_owned(), shape: clamp }];
     let mut held = Simulation::new(Setup { fixtures, table: Some(-20.5), ..setup(flat()) });
