@@ -36,7 +36,8 @@ use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 use ncc_time::Model;
 
-use crate::request::{self, Explain, One, Request, Translate, Two};
+use crate::colours;
+use crate::request::{self, Colours, Explain, One, Request, Translate, Two};
 
 /// Outputs by their names.
 pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
@@ -70,6 +71,15 @@ fn verb(request: &Request, files: &Files, messages: &mut Buffer) -> Result<(Exit
             Some(page) => Ok((Exit::Done, vec![("output", page.as_bytes().to_vec())])),
             None => Err(RequestFault::NoMessage(code.clone()).into()),
         },
+        Request::Colours(asked) => coloured(asked, files),
+        Request::Machines(_) => {
+            let machine = |profile: &Profile| {
+                let title = &profile.schema.title;
+                serde_json::json!({ "id": profile.id(), "title": title, "dialect": profile.dialect.id })
+            };
+            let all: Vec<_> = ncc_machines::shipped().iter().map(machine).collect();
+            Ok((Exit::Done, vec![("document", serde_json::to_vec_pretty(&all).unwrap_or_default())]))
+        }
         Request::Dialects(_) => {
             let all: Vec<_> = ncc_dialects::builtins()
                 .map(|dialect| serde_json::json!({ "id": dialect.id, "title": dialect.title }))
@@ -239,6 +249,22 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         outputs.insert(0, ("output", outcome.output.to_vec().map_err(cannot)?));
     }
     Ok((outcome.exit(), outputs))
+}
+
+fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("read", &asked.file, &e);
+    let mut source = open(&asked.file, true, files, &mut Buffer::no_color())?;
+    let dialect = match named(asked.from.as_deref())? {
+        Some(dialect) => dialect,
+        None => {
+            let all: Vec<_> = ncc_dialects::builtins().collect();
+            let found = recognise(&mut source, &all).ok().map(|found| found.dialect).or_else(colours::any);
+            found.ok_or(RequestFault::NoTarget)?
+        }
+    };
+    let document =
+        colours::document(Settings::new(dialect), &mut source, asked.first, asked.lines).map_err(cannot)?;
+    Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }
 
 /// A program that is executed.

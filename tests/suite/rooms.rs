@@ -40,7 +40,18 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ncc-time",
         ],
     ),
-    ("engine", &["ncc-backends", "ncc-dialects", "ncc-driver", "ncc-ir", "ncc-machines", "ncc-time"]),
+    (
+        "engine",
+        &[
+            "ncc-backends",
+            "ncc-dialects",
+            "ncc-driver",
+            "ncc-frontends",
+            "ncc-ir",
+            "ncc-machines",
+            "ncc-time",
+        ],
+    ),
 ];
 
 /// Rooms of the crates that read and write: each, and what it may name of its neighbours.
