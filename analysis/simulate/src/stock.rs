@@ -44,12 +44,12 @@ impl Stock {
         let [low, high] = self.extent();
         let grid = Grid::over([low[0], low[1]], [high[0], high[1]], cells);
         let mut map = HeightMap::flat(grid, HeightMap::NOTHING);
-        self.raise(&mut map);
+        self.put_on(&mut map);
         map
     }
 
-    /// Puts it on a map.
-    fn raise(&self, map: &mut HeightMap) {
+    /// Raises a map to its upper surface.
+    pub fn put_on(&self, map: &mut HeightMap) {
         let grid = map.grid;
         match self {
             Stock::Block { low, high } => {
@@ -112,7 +112,7 @@ impl Fixture {
         let grid =
             Grid::over([low[0], low[1]], [high[0], high[1]], ((side / cell).ceil() as usize).clamp(1, 4096));
         let mut map = HeightMap::flat(grid, HeightMap::NOTHING);
-        all.iter().for_each(|fixture| fixture.shape.raise(&mut map));
+        all.iter().for_each(|fixture| fixture.shape.put_on(&mut map));
         Some(map)
     }
 }
