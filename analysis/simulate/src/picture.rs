@@ -67,17 +67,30 @@ fn colour(map: &HeightMap, cell: usize, tool: &dyn Fn(u32) -> usize) -> [u8; 3] 
     }
 }
 
-/// How steeply the surface rises over a cell along both axes. Neighbours without material count as the level.
+/// How many cells around a cell tell how steep the surface is there: walls of a grid are stairs, and are lit as what they
+/// stand for.
+const AROUND: usize = 2;
+
+/// How steeply the surface rises over a cell along both axes. What is below the level counts as the level.
 fn rise(map: &HeightMap, level: f32, column: usize, row: usize) -> [f64; 2] {
     let [width, height] = map.grid.cells;
-    let at = |column: usize, row: usize| f64::from(map.heights[row * width + column].max(level));
-    let between = |low: f64, high: f64, cells: usize| (high - low) / (cells.max(1) as f64 * map.grid.cell);
-    let [left, right] = [column.saturating_sub(1), (column + 1).min(width - 1)];
-    let [front, back] = [row.saturating_sub(1), (row + 1).min(height - 1)];
-    [
-        between(at(left, row), at(right, row), right - left),
-        between(at(column, front), at(column, back), back - front),
-    ]
+    let near = |at: usize, cells: usize| at.saturating_sub(AROUND)..(at + AROUND + 1).min(cells);
+    let (columns, rows) = (near(column, width), near(row, height));
+    // The slope of the plane that fits best.
+    let (mut weights, mut sums) = ([0.0; 2], [0.0; 2]);
+    let middle = |range: &std::ops::Range<usize>| (range.start + range.end - 1) as f64 / 2.0;
+    let [cx, cy] = [middle(&columns), middle(&rows)];
+    for j in rows {
+        for i in columns.clone() {
+            let z = f64::from(map.heights[j * width + i].max(level));
+            let off = [i as f64 - cx, j as f64 - cy];
+            for axis in 0..2 {
+                weights[axis] += off[axis] * off[axis];
+                sums[axis] += off[axis] * z;
+            }
+        }
+    }
+    [0, 1].map(|axis| if weights[axis] > 0.0 { sums[axis] / (weights[axis] * map.grid.cell) } else { 0.0 })
 }
 
 fn plan(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -> Picture {

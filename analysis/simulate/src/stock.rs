@@ -39,6 +39,17 @@ impl Stock {
         }
     }
 
+    /// Its volume, mm³; of triangles, what stands on a grid of so many cells along the longer side.
+    pub fn volume(&self, cells: usize) -> f64 {
+        match self {
+            Stock::Block { low, high } => (0..3).map(|axis| high[axis] - low[axis]).product(),
+            Stock::Cylinder { radius, between, .. } => {
+                std::f64::consts::PI * radius * radius * (between[1] - between[0])
+            }
+            Stock::Body(triangles) => self.map(cells).volume_above(extent(triangles)[0][2]),
+        }
+    }
+
     /// Its heights, over a grid of so many cells along its longer side.
     pub fn map(&self, cells: usize) -> HeightMap {
         let [low, high] = self.extent();

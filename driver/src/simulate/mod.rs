@@ -10,6 +10,7 @@
 //! A tool or a raw part that nobody has stated is guessed, which is marked wherever something rests on it. Not here: stock
 //! removal itself, pictures, files.
 
+pub mod columns;
 pub mod comments;
 pub mod compare;
 pub mod cut;

@@ -307,7 +307,7 @@ pub fn write_account(
         (words("time").headline(), duration::hms(cut.path.end)),
     ];
     rows.extend(tool_rows(cut));
-    let all = setup.stock.map(setup.cells).volume_above(setup.stock.extent()[0][2]);
+    let all = setup.stock.volume(setup.cells);
     let removed = words("of-raw").text("volume", decimal(cut.volume())).text("all", decimal(all));
     rows.push((words("removed").headline(), removed.headline()));
     let grid = cut.simulation.map().grid;
@@ -343,13 +343,9 @@ pub fn write_between(
         .text("more", decimal(between.more))
         .text("less", decimal(between.less));
     writeln!(out, "{name}: {}", differs.headline())?;
-    let [above, below] = [between.highest, between.deepest].map(|most| {
-        most.map_or_else(|| ("0".to_owned(), "-".to_owned()), |(at, by)| (decimal(by), place(&at)))
-    });
-    let gouge = words("gouge")
-        .text("above", above.0)
-        .text("above-place", above.1)
-        .text("below", below.0)
-        .text("below-place", below.1);
-    writeln!(out, "  {}", gouge.headline())
+    for (form, most) in [("above", between.highest), ("below", between.deepest)] {
+        let Some((at, by)) = most else { continue };
+        writeln!(out, "  {}", words(form).text("by", decimal(by)).text("place", place(&at)).headline())?;
+    }
+    Ok(())
 }
