@@ -30,5 +30,6 @@ pub mod registry;
 mod report;
 pub mod review;
 pub mod run;
+pub mod simulate;
 mod target_options;
 pub mod time;

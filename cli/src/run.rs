@@ -33,7 +33,9 @@ use crate::registry::{self, DialectRegistry};
 use crate::report::tell;
 use crate::target_options::TargetOptions;
 use crate::time::running::Running;
-use crate::{batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, time};
+use crate::{
+    batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, simulate, time,
+};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -101,6 +103,7 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         Verb::Check(args) => return ended(check::run(args, &known, cli.color, &mut err), &mut err),
         Verb::Fmt(args) => return ended(fmt::run(args, &known, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
+        Verb::Simulate(args) => return ended(simulate::run(args, &known, &mut err), &mut err),
         Verb::Verify(args) => return ended(review::verify::run(args, &known, &mut err), &mut err),
         Verb::Diff(args) => return ended(review::diff::run(args, &known, &mut err), &mut err),
         Verb::GitDiff(args) => return ended(review::diff::git::run(args, &known, &mut err), &mut err),

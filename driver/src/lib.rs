@@ -52,6 +52,7 @@ pub mod render;
 pub mod review;
 pub mod side;
 mod side_by_side;
+pub mod simulate;
 pub mod source;
 mod stretches;
 pub mod time;

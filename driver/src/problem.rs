@@ -73,6 +73,12 @@ pub enum RequestFault {
     SeveralFiles,
     /// The tolerance is no length.
     NoTolerance,
+    /// A body is not of the form.
+    Body(String),
+    /// A tool is not of the form.
+    Tool(String),
+    /// There is no program that was cut.
+    NothingCut,
 }
 
 impl From<RequestFault> for Problem {
@@ -95,6 +101,9 @@ impl From<RequestFault> for Problem {
             RequestFault::NoPass(name) => problem("no-pass").text("name", name),
             RequestFault::SeveralFiles => problem("several-files"),
             RequestFault::NoTolerance => problem("no-tolerance"),
+            RequestFault::Body(text) => problem("body").text("text", text),
+            RequestFault::Tool(text) => problem("tool").text("text", text),
+            RequestFault::NothingCut => problem("nothing-cut"),
         };
         Problem::of(Exit::Usage, &message, help)
     }

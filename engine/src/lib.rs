@@ -19,6 +19,7 @@ mod colours;
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
 pub mod request;
+mod simulate;
 mod verbs;
 
 use std::collections::BTreeMap;
@@ -28,6 +29,8 @@ use std::collections::BTreeMap;
 pub struct Engine {
     files: BTreeMap<String, Vec<u8>>,
     outputs: Vec<(&'static str, Vec<u8>)>,
+    /// The program that was cut last.
+    kept: simulate::Kept,
 }
 
 impl Engine {
@@ -39,12 +42,12 @@ impl Engine {
     /// Does a request, which is JSON ([`request::Request`]); its outputs take the place of those of the one before. The
     /// code is an exit code of the command line: 0 is done.
     pub fn run(&mut self, request: &str) -> u8 {
-        let (code, outputs) = verbs::run(request, &self.files);
+        let (code, outputs) = verbs::run(request, &self.files, &mut self.kept);
         self.outputs = outputs;
         code
     }
 
-    /// An output of the last request: `output`, `messages`, `report`, `findings`, `times`, `document`.
+    /// An output of the last request: its names are those of [`request::Request`].
     pub fn output(&self, name: &str) -> Option<&[u8]> {
         self.outputs.iter().find(|(own, _)| *own == name).map(|(_, bytes)| bytes.as_slice())
     }

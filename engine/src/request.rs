@@ -31,6 +31,16 @@ pub enum Request {
     Colours(Colours),
     /// Lists the machines that come with ncc. Output: `document`, a list of objects with `id`, `title` and `dialect`.
     Machines(Nothing),
+    /// Executes a program. Outputs: `path`, its moves as columns of numbers (`ncc_driver::simulate::columns`), `messages`.
+    Path(One),
+    /// Cuts a program. Outputs: `document` (as of `ncc simulate --json`), `path`, and of the part at the end `heights` and
+    /// `last`: of each cell, rows of one Y, the height in mm (f32) and the move that cut last there (u32), little-endian;
+    /// `messages`.
+    Simulate(Simulate),
+    /// Shows the part that was cut last after so many moves. Outputs: `heights`, `last`.
+    Seek(Seek),
+    /// The part as it is shown, as triangles. Output: `stl`.
+    Stl(Nothing),
     /// Lists the dialects. Output: `document`, a list of objects with `id` and `title`.
     Dialects(Nothing),
 }
@@ -84,6 +94,70 @@ pub struct One {
     /// Whether it is for a mill, whatever it looks like.
     #[serde(default)]
     pub assume_milling: bool,
+}
+
+/// A program on a part. Bodies and tools are stated as on the command line.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Simulate {
+    /// As of [`One`].
+    pub file: String,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub machine: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub units: Option<Units>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub assume_milling: bool,
+    /// The raw part: `X0:100 Y0:60 Z-20:0`; without, it is guessed.
+    #[serde(default)]
+    pub stock: Option<String>,
+    /// What holds it.
+    #[serde(default)]
+    pub fixtures: Vec<String>,
+    /// Z of the table, mm.
+    #[serde(default)]
+    pub table: Option<f64>,
+    /// Tools: `4=drill,6.8,angle=118`.
+    #[serde(default)]
+    pub tools: Vec<String>,
+    /// Cells along the longer side of the part, 16 to 8192.
+    #[serde(default = "cells")]
+    pub cells: usize,
+}
+
+fn cells() -> usize {
+    1024
+}
+
+impl Simulate {
+    /// The program alone.
+    pub(crate) fn one(&self) -> One {
+        One {
+            file: self.file.clone(),
+            from: self.from.clone(),
+            machine: self.machine.clone(),
+            from_option: self.from_option.clone(),
+            units: self.units,
+            assume_milling: self.assume_milling,
+        }
+    }
+}
+
+/// A moment of the program that was cut last.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Seek {
+    /// How many moves are over.
+    pub moves: usize,
 }
 
 /// Two programs.

@@ -38,17 +38,19 @@ use ncc_time::Model;
 
 use crate::colours;
 use crate::request::{self, Colours, Explain, One, Request, Translate, Two};
+use crate::simulate::{self, Kept};
 
 /// Outputs by their names.
 pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
 
-type Files = BTreeMap<String, Vec<u8>>;
+/// Files by their names.
+pub(crate) type Files = BTreeMap<String, Vec<u8>>;
 
 /// Does a request.
-pub(crate) fn run(request: &str, files: &Files) -> (u8, Outputs) {
+pub(crate) fn run(request: &str, files: &Files, kept: &mut Kept) -> (u8, Outputs) {
     let mut messages = Buffer::no_color();
     let done = match serde_json::from_str(request) {
-        Ok(request) => verb(&request, files, &mut messages),
+        Ok(request) => verb(&request, files, kept, &mut messages),
         Err(error) => Err(RequestFault::Unread(error.to_string()).into()),
     };
     let (exit, mut outputs) = done.unwrap_or_else(|problem| {
@@ -60,7 +62,12 @@ pub(crate) fn run(request: &str, files: &Files) -> (u8, Outputs) {
     (exit as u8, outputs)
 }
 
-fn verb(request: &Request, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+fn verb(
+    request: &Request,
+    files: &Files,
+    kept: &mut Kept,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
     match request {
         Request::Translate(asked) => translated(asked, files, messages),
         Request::Check(one) => checked(one, files, messages),
@@ -80,6 +87,10 @@ fn verb(request: &Request, files: &Files, messages: &mut Buffer) -> Result<(Exit
             let all: Vec<_> = ncc_machines::shipped().iter().map(machine).collect();
             Ok((Exit::Done, vec![("document", serde_json::to_vec_pretty(&all).unwrap_or_default())]))
         }
+        Request::Path(one) => simulate::path(one, files, messages),
+        Request::Simulate(asked) => simulate::simulate(asked, files, kept, messages),
+        Request::Seek(asked) => simulate::seek(*asked, kept),
+        Request::Stl(_) => simulate::stl(kept),
         Request::Dialects(_) => {
             let all: Vec<_> = ncc_dialects::builtins()
                 .map(|dialect| serde_json::json!({ "id": dialect.id, "title": dialect.title }))
@@ -118,7 +129,7 @@ fn open(name: &str, milling: bool, files: &Files, messages: &mut Buffer) -> Resu
 }
 
 /// A machine's profile by the name of one that comes with ncc, or of a file.
-fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Profile>>, Problem> {
+pub(crate) fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Profile>>, Problem> {
     let Some(name) = name else { return Ok(None) };
     if let Some(profile) = ncc_machines::find(name) {
         return Ok(Some(Arc::new(profile.clone())));
@@ -268,7 +279,7 @@ fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> 
 }
 
 /// A program that is executed.
-fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
+pub(crate) fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
     let mut source = open(&one.file, one.assume_milling, files, messages)?;
     let profile = profile(one.machine.as_deref(), files)?;
     let machines = Machines { from: profile.clone(), to: profile };

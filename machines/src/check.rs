@@ -139,6 +139,13 @@ fn numbers(schema: &Schema, found: &mut Found) {
     for tool in schema.tool.iter().map(toml::Spanned::get_ref) {
         found.number::<ToolRow>(&tool.length, "length", length);
         found.number::<ToolRow>(&tool.diameter, "diameter", from_zero);
+        found.number::<ToolRow>(&tool.corner, "corner", from_zero);
+        found.number::<ToolRow>(&tool.angle, "angle", above_zero);
+        found.number::<ToolRow>(&tool.end_diameter, "end_diameter", from_zero);
+        found.number::<ToolRow>(&tool.flute, "flute", above_zero);
+        found.number::<ToolRow>(&tool.shank, "shank", above_zero);
+        found.number::<ToolRow>(&tool.holder, "holder", above_zero);
+        found.number::<ToolRow>(&tool.holder_from, "holder_from", above_zero);
     }
     for offset in schema.work_offset.iter().map(toml::Spanned::get_ref) {
         let all = [&offset.x, &offset.y, &offset.z, &offset.a, &offset.b, &offset.c];

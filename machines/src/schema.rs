@@ -169,6 +169,21 @@ words! {
         /// All.
         Utf8
     }
+    /// The shape of what cuts.
+    ShapeName {
+        /// A flat end.
+        Flat,
+        /// A ball.
+        Ball,
+        /// A flat end with round corners.
+        BullNose,
+        /// A point.
+        Drill,
+        /// A cone.
+        Chamfer,
+        /// A cone that grows upwards from an end with or without round corners.
+        Taper
+    }
     /// What an M code does to the cut.
     Effect {
         /// Nothing.
@@ -304,6 +319,22 @@ table! {
         radius_entry: u32 = Takes::WholeAboveZero;
         /// Its diameter, mm.
         diameter: f64 = Takes::FromZero;
+        /// The shape of what cuts: of end mills, face mills, reamers and taps `flat`, `ball` or `bull-nose`; of drills, spot drills and countersinks `drill`; `chamfer` of a cone that ends flat or in a point; `taper` of an end mill that grows upwards. Where not stated, a simulation guesses it.
+        shape: ShapeName = Takes::OneOf(&["flat", "ball", "bull-nose", "drill", "chamfer", "taper"]);
+        /// Radius of the corners of a bull nose or a taper, mm.
+        corner: f64 = Takes::FromZero;
+        /// Full angle of the point of a drill or of a chamfer mill; of a taper the angle between axis and side. Degrees.
+        angle: f64 = Takes::AboveZero;
+        /// Diameter of the end of a chamfer mill, mm; where not stated, it ends in a point.
+        end_diameter: f64 = Takes::FromZero;
+        /// Length of what cuts, from the tip, mm.
+        flute: f64 = Takes::AboveZero;
+        /// Diameter of the shank above the flutes, mm.
+        shank: f64 = Takes::AboveZero;
+        /// Diameter of the holder, mm.
+        holder: f64 = Takes::AboveZero;
+        /// How high above the tip the holder begins, mm.
+        holder_from: f64 = Takes::AboveZero;
         /// Its place in the magazine.
         pocket: u32 = Takes::Whole;
     }

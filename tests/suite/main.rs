@@ -50,6 +50,7 @@ mod shop_stops;
 mod shop_tools;
 mod siemens_peer;
 mod siemens_second;
+mod simulate;
 mod spliced;
 mod stable;
 mod structure;

@@ -3,6 +3,8 @@
 /// How the tool goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
+    /// Where it does not matter: it cuts nothing, and nothing is looked at.
+    Away,
     /// Straight, in rapid.
     Rapid,
     /// Straight, at feed.

@@ -137,12 +137,16 @@ impl Simulation {
         assert!(own.tool < self.setup.tools.len(), "a move with a tool that is not set up");
         self.seek(self.moves.len());
         let from = self.before(self.moves.len());
-        self.look(from, &own);
+        if own.way != Way::Away {
+            self.look(from, &own);
+        }
         let removed = self.cut(from, &own, self.moves.len());
         self.moves.push(own);
         self.removed.push(removed.removed);
         self.shown = self.moves.len();
-        self.judge(&own, &removed);
+        if own.way != Way::Away {
+            self.judge(&own, &removed);
+        }
         if self.moves.len().is_multiple_of(STRIDE) {
             self.history.keep(&self.map);
         }
@@ -283,6 +287,7 @@ fn lowest(from: [f64; 3], own: &Move) -> f64 {
         Way::Arc { plane, centre, sweep } if plane[2] != 2 => {
             chords(from, own.end, plane, centre, sweep).map(|at| at[2]).fold(ends, f64::min)
         }
+        Way::Away => f64::INFINITY,
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
     }
 }

@@ -39,17 +39,28 @@ impl Stock {
         }
     }
 
+    /// Its volume, mm³; of triangles, what stands on a grid of so many cells along the longer side.
+    pub fn volume(&self, cells: usize) -> f64 {
+        match self {
+            Stock::Block { low, high } => (0..3).map(|axis| high[axis] - low[axis]).product(),
+            Stock::Cylinder { radius, between, .. } => {
+                std::f64::consts::PI * radius * radius * (between[1] - between[0])
+            }
+            Stock::Body(triangles) => self.map(cells).volume_above(extent(triangles)[0][2]),
+        }
+    }
+
     /// Its heights, over a grid of so many cells along its longer side.
     pub fn map(&self, cells: usize) -> HeightMap {
         let [low, high] = self.extent();
         let grid = Grid::over([low[0], low[1]], [high[0], high[1]], cells);
         let mut map = HeightMap::flat(grid, HeightMap::NOTHING);
-        self.raise(&mut map);
+        self.put_on(&mut map);
         map
     }
 
-    /// Puts it on a map.
-    fn raise(&self, map: &mut HeightMap) {
+    /// Raises a map to its upper surface.
+    pub fn put_on(&self, map: &mut HeightMap) {
         let grid = map.grid;
         match self {
             Stock::Block { low, high } => {
@@ -112,7 +123,7 @@ impl Fixture {
         let grid =
             Grid::over([low[0], low[1]], [high[0], high[1]], ((side / cell).ceil() as usize).clamp(1, 4096));
         let mut map = HeightMap::flat(grid, HeightMap::NOTHING);
-        all.iter().for_each(|fixture| fixture.shape.raise(&mut map));
+        all.iter().for_each(|fixture| fixture.shape.put_on(&mut map));
         Some(map)
     }
 }

@@ -49,6 +49,7 @@ pub(crate) trait Surface {
 /// Goes along a move of the tip.
 pub(crate) fn sweep(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3], way: &Way) {
     match way {
+        Way::Away => {}
         Way::Rapid | Way::Feed => straight(cells, cutter, from, to),
         Way::Arc { plane: [0, 1, 2], centre, sweep } if from[2] == to[2] => {
             for band in cutter.bands() {

@@ -136,6 +136,8 @@ pub enum Verb {
     Fmt(Box<crate::fmt::args::Fmt>),
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
+    /// Cut the part: what each tool removes, collisions, pictures, the part as a body
+    Simulate(Box<crate::simulate::args::Simulate>),
     /// Do two programs make the same cut? As strictly as a translation is verified; certificates
     Verify(Box<crate::review::args::Verify>),
     /// Do two programs make the same cut? If not, what differs?

@@ -80,6 +80,11 @@ impl Shop {
         Ok(Shop { profile, machine, assumed })
     }
 
+    /// Its profile, where it has one.
+    pub(crate) fn profile(&self) -> Option<&Profile> {
+        self.profile.as_ref()
+    }
+
     pub(crate) fn title(&self) -> &str {
         self.profile.as_ref().map_or("", |p| &p.schema.title)
     }

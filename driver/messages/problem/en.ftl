@@ -69,3 +69,9 @@ problem-several-files = `tool_change=file-per-tool` writes several files: a requ
     .help = ask for `manual`, one file that stops for each tool
 problem-no-tolerance = the tolerance is no length in mm
     .help = "tolerance": "0.01"
+problem-body = `{ $text }` is no body
+    .help = a block is `X0:100 Y0:60 Z-20:0`, a cylinder `D50 Z-30:0`, triangles `part.stl`
+problem-tool = `{ $text }` is no tool
+    .help = number, shape, diameter: `4=drill,6.8,angle=118`
+problem-nothing-cut = no program was cut
+    .help = ask for `simulate` first

@@ -104,6 +104,19 @@ pub struct Said {
     pub reach: Option<Box<Reach>>,
     /// How frames turn the plane of an arc, if the sink wants it and they do.
     pub turned: Option<Box<Turned>>,
+    /// Where its tip is, if the sink wants it.
+    pub tip: Tip,
+}
+
+/// What leads from where the machine is to where the tip of the tool is on the part.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tip {
+    /// What the tool adds: X Y Z in nanos of a millimetre.
+    pub tool: [Nanos; 3],
+    /// Work offset in force; 1 is the first.
+    pub offset: u16,
+    /// Which of X, Y and Z end at a place of the machine, which has nothing to do with the part.
+    pub of_machine: [bool; 3],
 }
 
 /// What takes the functions.
@@ -120,6 +133,11 @@ pub trait Sink {
 
     /// Whether it wants to know how frames turn arcs.
     fn wants_turns(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants to know where the tip is.
+    fn wants_tip(&self) -> bool {
         false
     }
 
@@ -247,6 +265,7 @@ struct Drive<'d> {
     wants_blocks: bool,
     wants_reach: bool,
     wants_turns: bool,
+    wants_tip: bool,
     wants_bounds: bool,
     reader: Reader,
     batch: Batch,
@@ -270,6 +289,8 @@ struct Drive<'d> {
     line: Option<Event>,
     /// Memory for lines of tables.
     along: Vec<lines::Made>,
+    /// Whether the words of the next straight move are of the machine.
+    of_machine: bool,
     /// The text of blocks that nobody asks for.
     nothing: Rc<str>,
     /// Blocks whose events may wait for the next ones: a contour's end is not known before.
@@ -294,6 +315,7 @@ impl<'d> Drive<'d> {
             wants_blocks: sink.wants_blocks(),
             wants_reach: sink.wants_reach(),
             wants_turns: sink.wants_turns(),
+            wants_tip: sink.wants_tip(),
             plan,
             sink,
             reader: plan.job.reader(true),
@@ -311,6 +333,7 @@ impl<'d> Drive<'d> {
             said: VecDeque::new(),
             line: None,
             along: Vec::new(),
+            of_machine: false,
             nothing: Rc::from(""),
             held: VecDeque::new(),
             course: Course {
@@ -440,6 +463,7 @@ impl<'d> Drive<'d> {
         let exact = self.plan.job.from.dialect.can.cycles_in_exact_path && self.is_call(&stmt.op);
         let contour = self.plan.centre && self.exec.is_on_contour();
         let before = self.exec.offset_in_force();
+        let of_machine = if self.wants_tip { self.goes_to_machine(&stmt.op) } else { [false; 3] };
         if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
             return Ok(Err(refusal));
         }
@@ -454,6 +478,7 @@ impl<'d> Drive<'d> {
         if let Op::Comment(remark) = &stmt.op {
             said.remark = Some(Rc::from(&**remark));
         }
+        said.tip.of_machine = of_machine;
         if contour {
             self.note_contour(stmt.span, place, &said);
         }
@@ -476,9 +501,15 @@ impl<'d> Drive<'d> {
             [event] if !contour => Some(event.clone()),
             _ => None,
         };
-        for event in events.drain(..) {
+        let last = events.len();
+        for (n, event) in events.drain(..).enumerate() {
             let held = self.held.iter().rev().find(|(span, ..)| contour && *span == event.span);
-            let (place, said) = held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
+            let (place, mut said) =
+                held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
+            if n + 1 < last {
+                // By way of a point of the part.
+                said.tip.of_machine = [false; 3];
+            }
             self.event(event, place, said);
         }
         self.events = events;
@@ -489,7 +520,7 @@ impl<'d> Drive<'d> {
         let line = self.blocks.number_of(text, span.start).unwrap_or(0);
         let block = if self.wants_blocks { self.blocks.text_of(text, span.start) } else { None };
         let block = block.unwrap_or_else(|| Rc::clone(&self.nothing));
-        (Place { line, span }, Said { block, remark: None, reach: None, turned: None })
+        (Place { line, span }, Said { block, ..Said::default() })
     }
 
     /// Whether a statement belongs to a cycle.

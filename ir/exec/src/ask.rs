@@ -23,6 +23,12 @@ impl Exec {
         self.unplace(machine)
     }
 
+    /// What the tool adds to where its tip is, for where the machine is: X Y Z in nanos of a millimetre.
+    pub fn tool_adds(&self) -> [Nanos; 3] {
+        let [x, y, z, ..] = self.tool_offset();
+        [x, y, z]
+    }
+
     /// Entry of the tool-length table in force; `None` is an edge of a tool.
     pub fn length_entry(&self) -> Option<u32> {
         match self.waiting.unwrap_or(self.modes.length) {

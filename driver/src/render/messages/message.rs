@@ -66,6 +66,8 @@ pub(crate) enum Part {
     Machine,
     /// Files for one tool each.
     PerTool,
+    /// The account of a simulation.
+    Simulate,
     /// Values in words.
     Spelled,
     /// The account of a translation.
@@ -96,6 +98,7 @@ impl Part {
             Part::Renumber => "renumber",
             Part::Machine => "machine",
             Part::PerTool => "per-tool",
+            Part::Simulate => "simulate",
             Part::Spelled => "spelled",
             Part::Summary => "summary",
             Part::Time => "time",
@@ -121,6 +124,7 @@ impl Part {
             Part::Renumber => include_str!("../../../messages/renumber/en.ftl"),
             Part::Machine => include_str!("../../../messages/machine/en.ftl"),
             Part::PerTool => include_str!("../../../messages/per-tool/en.ftl"),
+            Part::Simulate => include_str!("../../../messages/simulate/en.ftl"),
             Part::Spelled => include_str!("../../../messages/spelled/en.ftl"),
             Part::Summary => include_str!("../../../messages/summary/en.ftl"),
             Part::Time => include_str!("../../../messages/time/en.ftl"),

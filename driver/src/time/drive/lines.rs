@@ -17,7 +17,7 @@ use ncc_ir::source::Span;
 use ncc_time::{Act, Place};
 
 use super::super::reach::{reach, turned};
-use super::{Drive, Said};
+use super::{Drive, Said, Tip};
 
 impl<'d> Drive<'d> {
     /// Executes lines, which have nothing of what is noted of statements but that they are blocks.
@@ -74,7 +74,11 @@ impl<'d> Drive<'d> {
         let reach = if arc && self.wants_reach { reach(&act, &self.exec) } else { None };
         let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
         let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
-        self.said.push_back(Said { reach, turned, ..said });
+        let tip = match self.wants_tip {
+            true => Tip { tool: self.exec.tool_adds(), offset: self.exec.offset_in_force(), ..said.tip },
+            false => said.tip,
+        };
+        self.said.push_back(Said { reach, turned, tip, ..said });
         if let Some(longest) = &mut self.beside {
             longest.push(&act);
         }

@@ -54,6 +54,22 @@ impl<'d> Drive<'d> {
         }
     }
 
+    /// Which of X, Y and Z a statement brings to a place of the machine.
+    pub(super) fn goes_to_machine(&mut self, op: &Op) -> [bool; 3] {
+        match op.unwrapped() {
+            Op::UseMachineCoordinates { .. } => {
+                self.of_machine = true;
+                [false; 3]
+            }
+            Op::GoToReference(reference) => [0, 1, 2].map(|axis| reference.axes[axis]),
+            Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) => {
+                let by_machine = std::mem::take(&mut self.of_machine);
+                [0, 1, 2].map(|axis| by_machine && to.to.axes[axis].is_some())
+            }
+            _ => [false; 3],
+        }
+    }
+
     /// Looks through statements for what is to be told, or known before they are executed.
     pub(super) fn look(&mut self, stmts: &[Stmt]) {
         for stmt in stmts {

@@ -1,0 +1,7 @@
+NC0906 = the tool runs into a fixture
+    .label = { $tool }, { $depth } mm deep at { $place }{ $more ->
+        [0] {""}
+        [one] ; one more move
+       *[other] ; { $more } more moves
+    }
+    .help = go around the fixture, or check its place and the work offset

@@ -1,0 +1,116 @@
+//! A program cut: its moves through the kernel, and what each tool did.
+
+use ncc_ir::source::Span;
+use ncc_simulate::{Alarm, Fixture, Setup, Simulation, Stock, Way};
+
+use super::path::{Path, Unsimulated};
+use super::raw;
+use super::tooling::Fitted;
+
+/// What is set up on the machine.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    /// The raw part, where it is stated.
+    pub stock: Option<Stock>,
+    /// What holds it.
+    pub fixtures: Vec<Fixture>,
+    /// Z of the table, mm.
+    pub table: Option<f64>,
+    /// Cells along the longer side of the part.
+    pub cells: usize,
+}
+
+/// Why a program is not cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncut {
+    /// The kernel cannot do what it does here.
+    Unsimulated(Unsimulated, Span),
+    /// It cuts nothing, so that no raw part can be guessed.
+    NoCut,
+}
+
+/// What a tool did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Worked {
+    /// What it removed, mm³.
+    pub volume: f64,
+    /// Seconds of moves at feed.
+    pub cutting: f64,
+    /// Greatest depth that a move of it removed at a place, mm.
+    pub depth: f64,
+}
+
+/// A program that was cut.
+#[derive(Debug)]
+pub struct CutProgram {
+    /// The part, its moves, its alarms.
+    pub simulation: Simulation,
+    /// The rest of what is known of the moves.
+    pub path: Path,
+    /// The tools, by their places.
+    pub tools: Vec<Fitted>,
+    /// What each did.
+    pub worked: Vec<Worked>,
+}
+
+/// Cuts a program.
+///
+/// # Errors
+/// As [`Uncut`] says.
+pub fn cut(path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgram, Uncut> {
+    if let Some((why, span)) = path.unsimulated {
+        return Err(Uncut::Unsimulated(why, span));
+    }
+    let guessed = bench.stock.is_none();
+    let stock = bench.stock.or_else(|| raw::guess(&path, &tools)).ok_or(Uncut::NoCut)?;
+    let mut simulation = Simulation::new(Setup {
+        stock,
+        guessed,
+        cells: bench.cells,
+        tools: tools.iter().map(|tool| tool.tool.clone()).collect(),
+        fixtures: bench.fixtures,
+        table: bench.table,
+        start: path.start,
+    });
+    let mut worked = vec![Worked::default(); tools.len()];
+    for (own, begin) in path.moves.iter().zip(&path.begins) {
+        simulation.push(*own);
+        let removed = simulation.removed()[simulation.shown() - 1];
+        let work = &mut worked[own.tool];
+        work.volume += f64::from(removed.volume);
+        work.depth = work.depth.max(f64::from(removed.depth));
+        if matches!(own.way, Way::Feed | Way::Arc { .. }) {
+            work.cutting += own.time - begin;
+        }
+    }
+    Ok(CutProgram { simulation, path, tools, worked })
+}
+
+impl CutProgram {
+    /// What was removed in all, mm³.
+    pub fn volume(&self) -> f64 {
+        self.worked.iter().map(|own| own.volume).sum()
+    }
+
+    /// The alarms.
+    pub fn alarms(&self) -> &[Alarm] {
+        self.simulation.alarms()
+    }
+
+    /// Whether there is an alarm that does not rest on a guess.
+    pub fn has_sure_alarms(&self) -> bool {
+        self.alarms().iter().any(|alarm| !alarm.guessed)
+    }
+
+    /// How many moves are over at a moment, seconds on the clock.
+    pub fn moves_at(&self, time: f64) -> usize {
+        self.path.moves.partition_point(|own| own.time <= time)
+    }
+
+    /// How many moves are over when a line of the source has been carried out for the first time.
+    pub fn moves_behind_line(&self, line: u32) -> usize {
+        let first = self.path.moves.iter().position(|own| own.line >= line).unwrap_or(self.path.moves.len());
+        let end = self.path.moves[first..].iter().position(|own| own.line != line);
+        first + end.unwrap_or(self.path.moves.len() - first)
+    }
+}

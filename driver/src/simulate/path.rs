@@ -1,0 +1,285 @@
+//! The moves of a program, in coordinates of the part: where the tip of the tool is, from the zero of the work offset in
+//! which the program cuts first.
+//!
+//! A work offset that no profile states lies at the machine's zero, so that a place of the machine says nothing of the part:
+//! after a move to one (`G28`, `G53`) nobody knows how high the tool is, as at the start. Until the next move along Z it
+//! stands as high as the program ever goes, and cuts nothing.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use ncc_exec::world::Tables;
+use ncc_exec::{Kind, Movement};
+use ncc_ir::canon::{AXES, Spindle, Turn};
+use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_ir::source::Span;
+use ncc_simulate::{Move, Way};
+use ncc_time::{Timed, path};
+
+use super::comments;
+use super::tooling::Described;
+use crate::time::drive::{Said, Sink};
+
+const Z: usize = 2;
+
+/// Why a program cannot be simulated, by its first move of that kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unsimulated {
+    /// It cuts while a rotary axis moves, or with the part turned by one.
+    Rotary,
+    /// It cuts on a tilted plane.
+    Tilted,
+}
+
+/// What a program does with a tool.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Used {
+    /// Its number; -1 is the one in the spindle at the start, less than that one with a name.
+    pub number: i64,
+    /// Moves at feed across Z.
+    pub across: u64,
+    /// Moves at feed along Z alone.
+    pub along: u64,
+    /// Whether it cuts threads.
+    pub threads: bool,
+}
+
+/// The moves of a program.
+#[derive(Clone, Debug, Default)]
+pub struct Path {
+    /// Where the tip is before the first one, X Y Z in mm.
+    pub start: [f64; 3],
+    /// The moves; their tools are places in [`Path::tools`].
+    pub moves: Vec<Move>,
+    /// When each begins, seconds.
+    pub begins: Vec<f64>,
+    /// Feed of each, mm/min; 0 in rapids.
+    pub feeds: Vec<f32>,
+    /// Speed of the spindle in each, rev/min; 0 while it stands.
+    pub speeds: Vec<f32>,
+    /// Block of each.
+    pub spans: Vec<Span>,
+    /// The tools, in the order in which they come.
+    pub tools: Vec<Used>,
+    /// What comments say of tools, by their numbers, in mm, and the line.
+    pub described: BTreeMap<i64, (Described, u32)>,
+    /// The work offsets in which it moves.
+    pub offsets: Vec<u16>,
+    /// Seconds on the clock at the end.
+    pub end: f64,
+    /// Why it cannot be simulated, and where.
+    pub unsimulated: Option<(Unsimulated, Span)>,
+}
+
+/// Takes the functions of a program.
+#[derive(Debug)]
+pub struct Recorder<'t> {
+    tables: &'t Tables,
+    path: Path,
+    /// Where the tip was last, machine coordinates.
+    at: [f64; 3],
+    /// Whether it is not known how high it is.
+    high: bool,
+    /// Moves that end at a height that is not known.
+    highs: Vec<usize>,
+    /// The greatest height that is known.
+    top: f64,
+    /// The offset in force at the first cut, or else at the first move.
+    offset: Option<u16>,
+    has_cut: bool,
+    /// Where the rotary axes stood in the first cut.
+    turned: Option<[Nanos; 3]>,
+    inch: bool,
+    /// What comments say, in the program's unit.
+    said: BTreeMap<i64, (Described, u32)>,
+}
+
+impl<'t> Recorder<'t> {
+    /// One that has nothing yet. `start` says whether it is stated how high the tool is at the start.
+    pub fn new(tables: &'t Tables, start: bool) -> Recorder<'t> {
+        Recorder {
+            tables,
+            path: Path::default(),
+            at: [0.0; 3],
+            high: !start,
+            highs: Vec::new(),
+            top: f64::NEG_INFINITY,
+            offset: None,
+            has_cut: false,
+            turned: None,
+            inch: false,
+            said: BTreeMap::new(),
+        }
+    }
+
+    /// All moves, in coordinates of the part.
+    pub fn finish(self) -> Path {
+        let Recorder { mut path, tables, highs, top, offset, inch, said, .. } = self;
+        let top = if top.is_finite() { top } else { 0.0 };
+        for n in highs {
+            path.moves[n].end[Z] = top;
+        }
+        let zero = offset.and_then(|offset| tables.work_offsets.get(&offset)).copied().unwrap_or_default();
+        let zero = [0, 1, 2].map(|axis| mm(zero[axis].unwrap_or(0)));
+        if !path.start[Z].is_finite() {
+            path.start[Z] = top;
+        }
+        for (axis, zero) in zero.into_iter().enumerate() {
+            path.start[axis] -= zero;
+        }
+        for own in &mut path.moves {
+            for (axis, zero) in zero.into_iter().enumerate() {
+                own.end[axis] -= zero;
+            }
+            if let Way::Arc { plane, centre, .. } = &mut own.way {
+                centre[0] -= zero[plane[0]];
+                centre[1] -= zero[plane[1]];
+            }
+        }
+        let unit = if inch { 25.4 } else { 1.0 };
+        path.described =
+            said.into_iter().map(|(tool, (own, line))| (tool, (own.times(unit), line))).collect();
+        path
+    }
+
+    fn tool(&mut self, number: i64) -> usize {
+        let known = self.path.tools.iter().rposition(|tool| tool.number == number);
+        known.unwrap_or_else(|| {
+            self.path.tools.push(Used { number, ..Used::default() });
+            self.path.tools.len() - 1
+        })
+    }
+
+    /// What a tool adds to where its tip is, for where the machine is.
+    fn adds(&self, said: &Said, tool: i64) -> [Nanos; 3] {
+        let mut adds = said.tip.tool;
+        if adds[Z] == 0 {
+            // Nobody measures with its length now, and it is as long all the same.
+            let length = u32::try_from(tool).ok().and_then(|tool| self.tables.lengths.get(&tool));
+            adds[Z] = length.copied().unwrap_or(0);
+        }
+        adds
+    }
+
+    /// Whether a place of the machine along an axis is one of the part, too.
+    fn is_placed(&self, offset: u16, axis: usize) -> bool {
+        self.tables.work_offsets.get(&offset).is_some_and(|zero| zero[axis].is_some())
+    }
+
+    /// Notes what only a cut tells.
+    fn cuts(&mut self, timed: &Timed, said: &Said, tool: usize) {
+        let event = &timed.act.event;
+        if !self.has_cut {
+            (self.has_cut, self.offset) = (true, Some(said.tip.offset));
+        }
+        self.inch |= event.inch;
+        let rotary = [event.end[3], event.end[4], event.end[5]];
+        let before = [timed.act.from[3], timed.act.from[4], timed.act.from[5]];
+        let turned = *self.turned.get_or_insert(before);
+        let why = if event.state.tilted {
+            Some(Unsimulated::Tilted)
+        } else if rotary != turned || before != turned {
+            Some(Unsimulated::Rotary)
+        } else {
+            None
+        };
+        if let (Some(why), None) = (why, self.path.unsimulated) {
+            self.path.unsimulated = Some((why, event.span));
+        }
+        let used = &mut self.path.tools[tool];
+        used.threads |= matches!(event.kind, Kind::Synchronised { .. });
+        match (0..2).any(|axis| timed.act.from[axis] != event.end[axis])
+            || matches!(event.kind, Kind::Arc { .. })
+        {
+            true => used.across += 1,
+            false => used.along += 1,
+        }
+    }
+}
+
+impl Sink for Recorder<'_> {
+    fn wants_tip(&self) -> bool {
+        true
+    }
+
+    fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
+        let (act, event) = (&timed.act, &timed.act.event);
+        self.path.end = self.path.end.max(timed.end());
+        if let Some(remark) = &said.remark
+            && let Some((tool, described)) = comments::read(remark)
+        {
+            self.said.entry(tool).or_insert((described, act.place.line));
+        }
+        let Some(movement) = event.kind.moves() else { return Ok(()) };
+        let way = path(event, &act.from);
+        if way.change == [0.0; AXES] && way.sweep == 0.0 {
+            return Ok(());
+        }
+        let offset = *self.offset.get_or_insert(said.tip.offset);
+        if !self.path.offsets.contains(&said.tip.offset) {
+            self.path.offsets.push(said.tip.offset);
+        }
+        let tool = self.tool(event.state.tool);
+        let feeds = movement != Movement::Rapid && !matches!(event.kind, Kind::Probe { .. });
+        if feeds {
+            self.cuts(timed, said, tool);
+        }
+        let adds = self.adds(said, event.state.tool);
+        let tip = |machine: &[Nanos; AXES]| [0, 1, 2].map(|axis| mm(machine[axis] - adds[axis]));
+        let mut end = tip(&event.end);
+        if self.path.moves.is_empty() {
+            self.at = tip(&act.from);
+            self.path.start = self.at;
+            if self.high {
+                self.path.start[Z] = f64::NEG_INFINITY;
+            }
+        }
+        let was_high = self.high;
+        if said.tip.of_machine[Z] && !self.is_placed(offset, Z) {
+            self.high = true;
+        } else if feeds || act.from[Z] != event.end[Z] {
+            self.high = false;
+        }
+        let taken = match movement {
+            Movement::Rapid if was_high && self.high => Way::Away,
+            Movement::Rapid => Way::Rapid,
+            Movement::Feed | Movement::Arc { .. } if !feeds => Way::Away,
+            Movement::Feed => Way::Feed,
+            Movement::Arc { plane, turn, centre, .. } => {
+                let (first, second, normal) = plane.axes();
+                let plane = [first, second, normal].map(|axis| axis as usize);
+                let sense = if turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
+                let centre = [0, 1].map(|n| mm(centre[n] - adds[plane[n]]));
+                Way::Arc { plane, centre, sweep: sense * way.sweep }
+            }
+        };
+        match self.high {
+            true => self.highs.push(self.path.moves.len()),
+            false => self.top = self.top.max(end[Z]),
+        }
+        if self.high {
+            end[Z] = self.at[Z];
+        }
+        self.path.moves.push(Move {
+            way: taken,
+            end,
+            tool,
+            turns: event.state.spindle != Spindle::Stopped,
+            time: timed.end(),
+            line: act.place.line,
+        });
+        let turns = event.state.turns(event.end[0]);
+        let speed = if event.state.spindle == Spindle::Stopped { 0.0 } else { turns as f64 / ONE as f64 };
+        let rate = if timed.duration > 0.0 { way.length / timed.duration * 60.0 } else { 0.0 };
+        self.path.begins.push(timed.start);
+        self.path.feeds.push(if feeds { rate as f32 } else { 0.0 });
+        self.path.speeds.push(speed as f32);
+        self.path.spans.push(event.span);
+        self.at = end;
+        Ok(())
+    }
+}
+
+fn mm(nanos: Nanos) -> f64 {
+    nanos as f64 / ONE as f64
+}

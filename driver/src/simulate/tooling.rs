@@ -1,0 +1,253 @@
+//! The tools of a program: what a user or a profile states, what comments say, and guesses for the rest.
+
+use std::collections::BTreeMap;
+
+use ncc_machines::Profile;
+use ncc_machines::schema::ShapeName;
+use ncc_simulate::{Cutter, CutterFault, Shape, Tool};
+
+use super::path::{Path, Used};
+
+/// Diameter of a mill of which nothing is known, mm.
+const MILL: f64 = 10.0;
+/// Diameter of a drill of which nothing is known, mm.
+const DRILL: f64 = 6.0;
+/// Angle of a drill's point of which nothing is known, degrees: the usual one of twist drills (DIN 1897).
+const POINT: f64 = 118.0;
+/// Full angle of a chamfer mill of which nothing is known, degrees.
+const CHAMFER: f64 = 90.0;
+/// Angle between axis and side of a taper of which nothing is known, degrees.
+const TAPER: f64 = 5.0;
+/// Length of what cuts for a taper without one, mm: it bounds how wide it is above.
+const LONG: f64 = 100.0;
+
+/// A shape, as far as it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shaped {
+    /// Its name.
+    pub name: ShapeName,
+    /// Radius of corners, mm.
+    pub corner: Option<f64>,
+    /// Angle, degrees, as the profile has it.
+    pub angle: Option<f64>,
+    /// Diameter of the end, mm.
+    pub end_diameter: Option<f64>,
+}
+
+/// A tool, as far as somebody describes it. Lengths in mm.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Described {
+    /// Its shape.
+    pub shape: Option<Shaped>,
+    /// Its diameter.
+    pub diameter: Option<f64>,
+    /// Length of what cuts.
+    pub flute: Option<f64>,
+    /// Diameter of the shank.
+    pub shank: Option<f64>,
+    /// Diameter of the holder.
+    pub holder: Option<f64>,
+    /// How high above the tip the holder begins.
+    pub holder_from: Option<f64>,
+}
+
+impl Described {
+    /// The same with lengths in another unit.
+    #[must_use]
+    pub(crate) fn times(mut self, unit: f64) -> Described {
+        let shape = self.shape.as_mut();
+        let (corner, end) =
+            shape.map_or((None, None), |own| (own.corner.as_mut(), own.end_diameter.as_mut()));
+        let others =
+            [&mut self.diameter, &mut self.flute, &mut self.shank, &mut self.holder, &mut self.holder_from];
+        let others = others.into_iter().filter_map(Option::as_mut);
+        others.chain(corner).chain(end).for_each(|length| *length *= unit);
+        self
+    }
+
+    /// What this does not say, by another one.
+    #[must_use]
+    fn or(self, other: &Described) -> Described {
+        Described {
+            shape: self.shape.or_else(|| other.shape.clone()),
+            diameter: self.diameter.or(other.diameter),
+            flute: self.flute.or(other.flute),
+            shank: self.shank.or(other.shank),
+            holder: self.holder.or(other.holder),
+            holder_from: self.holder_from.or(other.holder_from),
+        }
+    }
+}
+
+/// Where a tool's diameter comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// The user states it.
+    Stated,
+    /// The machine's profile does.
+    Profile,
+    /// A comment in this line says it.
+    Comment(u32),
+    /// It is a guess.
+    Guess,
+}
+
+/// A tool of a program.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// Its shape, as the kernel has it.
+    pub shape: Shape,
+    /// Its diameter, mm.
+    pub diameter: f64,
+    /// Where its diameter comes from.
+    pub known: Known,
+    /// Whether its shape or a part of that is a guess.
+    pub shape_guessed: bool,
+    /// The tool for the kernel.
+    pub tool: Tool,
+}
+
+/// A tool that has no cutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoCutter {
+    /// Its number.
+    pub number: i64,
+    /// Why.
+    pub fault: CutterFault,
+}
+
+/// The tools of a program, in the order of [`Path::tools`]. `stated` are the user's.
+///
+/// # Errors
+/// A description that is no tool.
+pub fn tools(
+    path: &Path,
+    stated: &BTreeMap<i64, Described>,
+    profile: Option<&Profile>,
+) -> Result<Vec<Fitted>, NoCutter> {
+    path.tools.iter().map(|used| fit(used, path, stated.get(&used.number), profile)).collect()
+}
+
+fn fit(
+    used: &Used,
+    path: &Path,
+    stated: Option<&Described>,
+    profile: Option<&Profile>,
+) -> Result<Fitted, NoCutter> {
+    let rows = [
+        stated.cloned().map(|own| (own, Known::Stated)),
+        profile.and_then(|profile| of_profile(profile, used.number)).map(|own| (own, Known::Profile)),
+        path.described.get(&used.number).map(|(own, line)| (own.clone(), Known::Comment(*line))),
+    ];
+    let rows: Vec<_> = rows.into_iter().flatten().collect();
+    let known = rows.iter().find(|(own, _)| own.diameter.is_some()).map_or(Known::Guess, |(_, known)| *known);
+    let own = rows.iter().fold(Described::default(), |own, (other, _)| own.or(other));
+    let holes = used.across == 0 && used.along > 0 && !used.threads;
+    let guess = if holes { ShapeName::Drill } else { ShapeName::Flat };
+    let said = own.shape.clone();
+    let shaped =
+        said.clone().unwrap_or(Shaped { name: guess, corner: None, angle: None, end_diameter: None });
+    let diameter = own.diameter.filter(|diameter| *diameter > 0.0);
+    let diameter = diameter.unwrap_or(if holes { DRILL } else { MILL });
+    let (shape, sure) = shape(&shaped, diameter);
+    let no_cutter = |fault| NoCutter { number: used.number, fault };
+    let cutter = Cutter::new(&shape, diameter, own.flute.unwrap_or(LONG)).map_err(no_cutter)?;
+    let shape_guessed = said.is_none() || !sure;
+    Ok(Fitted {
+        tool: Tool {
+            number: used.number,
+            cutter,
+            flute: own.flute,
+            shank: own.shank.map(|diameter| diameter / 2.0),
+            holder: own.holder.zip(own.holder_from).map(|(diameter, from)| [diameter / 2.0, from]),
+            guessed: shape_guessed || known == Known::Guess,
+        },
+        shape,
+        diameter,
+        known,
+        shape_guessed,
+    })
+}
+
+/// The kernel's shape, and whether nothing of it is a guess.
+fn shape(own: &Shaped, diameter: f64) -> (Shape, bool) {
+    match own.name {
+        ShapeName::Flat => (Shape::Flat, true),
+        ShapeName::Ball => (Shape::Ball, true),
+        ShapeName::BullNose => {
+            (Shape::BullNose { corner: own.corner.unwrap_or(diameter / 10.0) }, own.corner.is_some())
+        }
+        ShapeName::Drill => (Shape::Drill { point: own.angle.unwrap_or(POINT) }, own.angle.is_some()),
+        ShapeName::Chamfer => (
+            Shape::Chamfer { tip: own.end_diameter.unwrap_or(0.0), angle: own.angle.unwrap_or(CHAMFER) },
+            own.angle.is_some(),
+        ),
+        ShapeName::Taper => (
+            Shape::Taper { corner: own.corner.unwrap_or(0.0), angle: own.angle.unwrap_or(TAPER) },
+            own.angle.is_some(),
+        ),
+    }
+}
+
+/// What a machine's profile says of a tool.
+fn of_profile(profile: &Profile, number: i64) -> Option<Described> {
+    let number = u32::try_from(number).ok()?;
+    let row = profile
+        .schema
+        .tool
+        .iter()
+        .map(toml::Spanned::get_ref)
+        .find(|row| row.number.get() == Some(number))?;
+    Some(Described {
+        shape: row.shape.get().map(|name| Shaped {
+            name,
+            corner: row.corner.get(),
+            angle: row.angle.get(),
+            end_diameter: row.end_diameter.get(),
+        }),
+        diameter: row.diameter.get(),
+        flute: row.flute.get(),
+        shank: row.shank.get(),
+        holder: row.holder.get(),
+        holder_from: row.holder_from.get(),
+    })
+}
+
+/// Reads how a user states a tool: its number, its shape, its diameter in mm, and what a profile's row may have.
+///
+/// ```text
+/// 4=drill,10,angle=118,flute=60
+/// ```
+pub fn stated(text: &str) -> Option<(i64, Described)> {
+    let (number, rest) = text.split_once('=')?;
+    let number = number.trim().trim_start_matches(['T', 't']).parse().ok()?;
+    let mut parts = rest.split(',').map(str::trim);
+    let name = match parts.next()? {
+        "flat" => ShapeName::Flat,
+        "ball" => ShapeName::Ball,
+        "bull-nose" => ShapeName::BullNose,
+        "drill" => ShapeName::Drill,
+        "chamfer" => ShapeName::Chamfer,
+        "taper" => ShapeName::Taper,
+        _ => return None,
+    };
+    let above_zero = |text: &str| text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    let mut shaped = Shaped { name, corner: None, angle: None, end_diameter: None };
+    let mut own = Described { diameter: Some(above_zero(parts.next()?)?), ..Described::default() };
+    for part in parts {
+        let (key, value) = part.split_once('=')?;
+        let place = match key.trim() {
+            "corner" => &mut shaped.corner,
+            "angle" => &mut shaped.angle,
+            "end_diameter" => &mut shaped.end_diameter,
+            "flute" => &mut own.flute,
+            "shank" => &mut own.shank,
+            "holder" => &mut own.holder,
+            "holder_from" => &mut own.holder_from,
+            _ => return None,
+        };
+        *place = Some(above_zero(value.trim())?);
+    }
+    own.shape = Some(shaped);
+    Some((number, own))
+}

@@ -1,0 +1,170 @@
+//! Requests about the part: the moves of a program, the part that it cuts, and that part after any move.
+//!
+//! The program that was cut last is kept, so that going to another moment is no new work.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use codespan_reporting::term::termcolor::Buffer;
+use ncc_driver::problem::{Exit, Problem, RequestFault};
+use ncc_driver::render::{About, Loudness, human};
+use ncc_driver::side::Side;
+use ncc_driver::simulate::cut::{Bench, CutProgram, cut};
+use ncc_driver::simulate::path::{Path, Recorder};
+use ncc_driver::simulate::{columns, document, files as parts, raw, told, tooling};
+use ncc_driver::source::Source;
+use ncc_driver::time::assumed;
+use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
+use ncc_machines::Profile;
+use ncc_simulate::{Fixture, HeightMap, Stock};
+use ncc_time::Model;
+
+use crate::request::{One, Seek, Simulate};
+use crate::verbs::{Files, Outputs, profile, side};
+
+/// The program that was cut last.
+pub(crate) type Kept = Option<Box<CutProgram>>;
+
+/// A program that was executed.
+struct Executed {
+    path: Path,
+    source: Source,
+    dialect: String,
+    profile: Option<std::sync::Arc<Profile>>,
+    assumed: Vec<String>,
+}
+
+/// Executes a program; `None` where it was refused, which has been told.
+fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Executed>, Problem> {
+    let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
+    let profile = profile(one.machine.as_deref(), files)?;
+    let Side { mut source, job } = side(one, files, messages)?;
+    let model = Model::default();
+    let (machine, unstated) = profile.as_deref().map(Profile::machine).unwrap_or_default().assumed(model);
+    let plan = Plan {
+        job: &job,
+        machine,
+        tables: profile.as_deref().map(Profile::tables).unwrap_or_default(),
+        parameters: [None; 2],
+        model,
+        skip: 0,
+        start_time: 0.0,
+        stage: Stage::After,
+        centre: true,
+    };
+    let mut recorder = Recorder::new(&plan.tables, false);
+    let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).map_err(cannot)?;
+    let shown = source.shown.clone();
+    let mut about = About { job: &job, name: &shown, source: &mut source.file };
+    human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
+    if course.refused {
+        return Ok(None);
+    }
+    let path = recorder.finish();
+    let mut assumed: Vec<String> = profile.as_deref().map(assumed::of_profile).unwrap_or_default();
+    assumed.extend(assumed::of_machine(&plan, &unstated, &course));
+    assumed.extend(assumed::of_run(&plan, &course));
+    assumed.extend(assumed::of_program(&job, &course.diagnostics));
+    assumed.extend(told::unplaced(&path, &plan.tables));
+    let dialect = job.from.dialect.id.clone();
+    Ok(Some(Executed { path, source, dialect, profile, assumed }))
+}
+
+fn moves(path: &Path) -> Result<Vec<u8>, Problem> {
+    let mut bytes = Vec::new();
+    columns::write(&mut bytes, path).map_err(|e| Problem::file("write", "the moves", &e))?;
+    Ok(bytes)
+}
+
+/// The moves of a program.
+pub(crate) fn path(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let Some(executed) = execute(one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
+    Ok((Exit::Done, vec![("path", moves(&executed.path)?)]))
+}
+
+/// A body as it is stated; a file is one of the engine's.
+fn body(text: &str, files: &Files) -> Result<Stock, Problem> {
+    let wrong = || Problem::from(RequestFault::Body(text.to_owned()));
+    match raw::stated(text).map_err(|_| wrong())? {
+        raw::Stated::Shape(stock) => Ok(stock),
+        raw::Stated::File(name) => {
+            let bytes = files
+                .get(&name)
+                .ok_or_else(|| Problem::file("read", &name, &io::ErrorKind::NotFound.into()))?;
+            let read = parts::read_stl(bytes).map_err(|e| Problem::file("read", &name, &e))?;
+            raw::body(read).ok_or_else(wrong)
+        }
+    }
+}
+
+/// Cuts a program.
+pub(crate) fn simulate(
+    asked: &Simulate,
+    files: &Files,
+    kept: &mut Kept,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    *kept = None;
+    let stated: Option<BTreeMap<_, _>> = asked.tools.iter().map(|text| tooling::stated(text)).collect();
+    let stated = stated.ok_or_else(|| RequestFault::Tool(asked.tools.join(" ")))?;
+    let bench = Bench {
+        stock: asked.stock.as_deref().map(|text| body(text, files)).transpose()?,
+        fixtures: asked
+            .fixtures
+            .iter()
+            .map(|text| Ok(Fixture { name: text.clone(), shape: body(text, files)? }))
+            .collect::<Result<_, Problem>>()?,
+        table: asked.table,
+        cells: asked.cells.clamp(16, 8192),
+    };
+    let one = asked.one();
+    let Some(mut executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
+    let path = moves(&executed.path)?;
+    let fitted = tooling::tools(&executed.path, &stated, executed.profile.as_deref())
+        .map_err(|fault| told::no_cutter(&fault))?;
+    let cannot = |e: io::Error| Problem::file("read", &asked.file, &e);
+    let done = match cut(executed.path, fitted, bench) {
+        Ok(done) => done,
+        Err(uncut) => {
+            let problem = told::write_refusal(messages, uncut, &mut executed.source).map_err(cannot)?;
+            return match problem {
+                Some(problem) => Err(problem),
+                // Its way can be drawn all the same.
+                None => Ok((Exit::Refused, vec![("path", path)])),
+            };
+        }
+    };
+    let (alarms, lines) = told::alarms(&done, &mut executed.source).map_err(cannot)?;
+    told::write_alarms(messages, &alarms, &lines, Loudness::Usual).map_err(cannot)?;
+    let about =
+        document::About { source: &asked.file, dialect: &executed.dialect, assumed: &executed.assumed };
+    let mut document = Vec::new();
+    document::write(&mut document, &[(about, &done, &alarms)], None).map_err(cannot)?;
+    let exit = if done.has_sure_alarms() { Exit::Refused } else { Exit::Done };
+    let mut outputs = vec![("document", document), ("path", path)];
+    outputs.extend(part(done.simulation.map()));
+    *kept = Some(Box::new(done));
+    Ok((exit, outputs))
+}
+
+/// A part as numbers: heights in mm, and the number of the move that cut last, of each cell; little-endian.
+fn part(map: &HeightMap) -> Outputs {
+    let heights = map.heights.iter().flat_map(|height| height.to_le_bytes()).collect();
+    let last = map.last.iter().flat_map(|number| number.to_le_bytes()).collect();
+    vec![("heights", heights), ("last", last)]
+}
+
+/// Shows the part after so many moves.
+pub(crate) fn seek(asked: Seek, kept: &mut Kept) -> Result<(Exit, Outputs), Problem> {
+    let cut = kept.as_mut().ok_or(RequestFault::NothingCut)?;
+    cut.simulation.seek(asked.moves);
+    Ok((Exit::Done, part(cut.simulation.map())))
+}
+
+/// The part that is shown, as a body of triangles.
+pub(crate) fn stl(kept: &Kept) -> Result<(Exit, Outputs), Problem> {
+    let cut = kept.as_ref().ok_or(RequestFault::NothingCut)?;
+    let bytes = parts::stl(cut.simulation.map(), parts::floor(cut));
+    let bytes = bytes.map_err(|e| Problem::file("write", "the part", &e))?;
+    Ok((Exit::Done, vec![("stl", bytes)]))
+}
