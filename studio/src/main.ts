@@ -9,7 +9,7 @@ import { ProjectsDialog, wireDrop } from "./projects/dialog";
 import { Store, stored } from "./projects/store";
 import { Session } from "./session";
 import { Charts } from "./time/charts";
-import { Player } from "./time/player";
+import { Player, movesOver } from "./time/player";
 import { Transport } from "./time/transport";
 import { TranslatePane } from "./translate/pane";
 import { ChoiceLists } from "./ui/choice-lists";
@@ -108,17 +108,20 @@ session.path.on((path) => {
   transport.setPath(path);
   player.open(path, placed);
   charts.setPath(path);
-  machine.setPath(path, session.pathTold.get());
+  machine.setPath(path, session.cut, session.pathTold.get());
+  transport.setAlarms(session.cut?.alarms ?? []);
 });
 session.pathTold.on((told) => machine.setTold(session.path.get(), told));
+session.part.on((part) => machine.setPart(part));
 player.now.on((now) => {
   const path = session.path.get();
   placed = player.seconds > 0 && now.time < player.seconds;
-  charts.setTime(now.time, now.move);
+  charts.setTime(now.time, now.piece);
   machine.setNow(path, now);
   // The end of a program is where a page begins: no line is marked then.
-  const line = path && placed && now.move >= 0 ? (path.line[now.move] ?? 0) : 0;
+  const line = path && placed && now.piece >= 0 ? (path.line[now.piece] ?? 0) : 0;
   editor.markNow(line, follow);
+  if (path) void session.seek(movesOver(path, now));
 });
 
 await desk.begin();

@@ -4,6 +4,7 @@
 import { Cancelled, type Answer, type Engine, type Request } from "./engine/engine";
 import type { Colours, Findings, Listed, Problem, Report } from "./engine/documents";
 import type { Engines } from "./engine/host";
+import { readCut, readHeights, type Cut, type Heights } from "./engine/part";
 import { readPath, type Path } from "./engine/path";
 import { bytesOf, type Choices, type Project } from "./projects/project";
 import { Signal } from "./ui/signal";
@@ -31,6 +32,8 @@ const NOTHING: Checked = { problems: [], notChecked: [], told: "" };
 const [SOON, LATE] = [90, 900];
 /** Work that has run so long is given up for newer work; what is younger ends sooner than another engine starts. */
 const YOUNG = 250;
+/** Cells along the longer side of the part. */
+const CELLS = 512;
 
 export class Session {
   readonly state = new Signal<State>("loading");
@@ -39,8 +42,11 @@ export class Session {
   readonly dialect = new Signal("");
   readonly checked = new Signal<Checked>(NOTHING);
   readonly path = new Signal<Path | undefined>(undefined);
-  /** Why there is no path. */
+  /** Why there is no path, or no part. */
   readonly pathTold = new Signal("");
+  /** What the program cuts, told with its path; and the part as it is shown. */
+  cut: Cut | undefined;
+  readonly part = new Signal<Heights | undefined>(undefined);
   readonly translation = new Signal<Translation | undefined>(undefined);
   /** Whether somebody looks at the translation. */
   readonly translates = new Signal(false);
@@ -53,6 +59,9 @@ export class Session {
   private timer = 0;
   private began = 0;
   private lasted = 0;
+  private seeking = false;
+  private wantedMoves = Infinity;
+  private shownMoves = Infinity;
   /** Texts that the quick engine has, by their files. */
   private readonly coloured = new Map<string, object>();
 
@@ -79,7 +88,9 @@ export class Session {
   /** Another project is open: nothing of the one before holds. */
   reset(): void {
     this.checked.set(NOTHING);
+    this.cut = undefined;
     this.path.set(undefined);
+    this.part.set(undefined);
     this.pathTold.set("");
     this.translation.set(undefined);
     this.dialect.set("");
@@ -139,9 +150,9 @@ export class Session {
     const check = await heavy.run({ verb: "check", ...one });
     if (!current()) return;
     this.tellCheck(check);
-    const path = await heavy.run({ verb: "path", ...one });
+    const cut = await heavy.run({ verb: "simulate", ...one, cells: CELLS });
     if (!current()) return;
-    this.tellPath(path);
+    this.tellCut(cut);
     if (!this.translates.get()) return this.translation.set(undefined);
     if (!project.choices.to && !project.choices.machineTo) return this.translation.set(undefined);
     const translated = await heavy.run({ verb: "translate", ...translation(project.file, project.choices) });
@@ -162,10 +173,39 @@ export class Session {
     this.checked.set({ problems, notChecked: program.not_checked, told: "" });
   }
 
-  private tellPath(answer: Answer): void {
+  private tellCut(answer: Answer): void {
     const bytes = answer.bytes("path");
-    this.pathTold.set(bytes ? "" : answer.text("messages"));
+    this.cut = readCut(answer);
+    this.shownMoves = this.wantedMoves = Infinity;
+    this.pathTold.set(this.cut ? "" : answer.text("messages"));
     this.path.set(bytes && readPath(bytes));
+    this.part.set(readHeights(answer));
+    const alarms = (this.cut?.alarms ?? []).map(({ id, ...rest }) => ({ code: id, ...rest }));
+    const checked = this.checked.get();
+    if (alarms.length > 0) this.checked.set({ ...checked, problems: [...alarms, ...checked.problems] });
+  }
+
+  /** Shows the part after so many moves; while one is on its way, the last that is wanted waits. */
+  async seek(moves: number): Promise<void> {
+    this.wantedMoves = moves;
+    const heavy = this.engines?.heavy;
+    if (!heavy || !this.part.get() || this.seeking) return;
+    this.seeking = true;
+    const own = this.generation;
+    try {
+      while (this.wantedMoves !== this.shownMoves && own === this.generation) {
+        const wanted = this.wantedMoves;
+        const answer = await heavy.run({ verb: "seek", moves: Math.min(wanted, 2 ** 31) });
+        if (own !== this.generation) return;
+        this.shownMoves = wanted;
+        const heights = readHeights(answer);
+        if (heights) this.part.set(heights);
+      }
+    } catch (error) {
+      if (!(error instanceof Cancelled)) throw error;
+    } finally {
+      this.seeking = false;
+    }
   }
 }
 

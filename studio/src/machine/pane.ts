@@ -1,6 +1,7 @@
 // The machine's pane: the picture where WebGL 2 is, its buttons, and what stands over it.
 
-import { movesOf, type Path } from "../engine/path";
+import type { Cut, Heights } from "../engine/part";
+import { piecesOf, type Path } from "../engine/path";
 import { placeOf, type Now, type Player } from "../time/player";
 import { byId, el } from "../ui/dom";
 import { wireToggle } from "../ui/layout";
@@ -20,8 +21,12 @@ export class MachinePane {
   private readonly view: MachineView | undefined;
   private readonly readout = new Readout();
   private path: Path | undefined;
+  private cut: Cut | undefined;
+  /** Place of the tool of each move. */
+  private tools = new Uint16Array();
   private shown = 15;
   private future = true;
+  private part = true;
 
   constructor(
     private readonly player: Player,
@@ -32,37 +37,56 @@ export class MachinePane {
     if (!this.view) this.tell(say("noWebgl"), "");
   }
 
-  setPath(path: Path | undefined, told: string): void {
+  setPath(path: Path | undefined, cut: Cut | undefined, told: string): void {
     const again = this.path !== undefined;
     this.path = path;
-    this.view?.setPath(path, again);
-    byId("canvas").dataset.moves = String(path?.moves ?? 0);
+    this.cut = cut;
+    this.tools = new Uint16Array((path?.move[path.pieces - 1] ?? 0) + 1);
+    for (let at = 0; at < (path?.pieces ?? 0); at += 1) this.tools[path?.move[at] ?? 0] = path?.tool[at] ?? 0;
+    this.view?.setPath(path, cut, again);
+    this.view?.stock.setVisible(this.part && cut !== undefined);
+    byId("canvas").dataset.pieces = String(path?.pieces ?? 0);
     this.setTold(path, told);
     this.setNow(path, this.player.now.get());
+  }
+
+  /** The part at the moment that is shown. */
+  setPart(part: Heights | undefined): void {
+    if (!part || !this.view) return;
+    this.view.stock.show(part, (move) => this.tools[move] ?? 0);
+    this.view.draw();
+    // What a test, or a user's script, can see of the part.
+    byId("canvas").dataset.cut = String(part.last.reduce((count, move) => count + Number(move > 0), 0));
   }
 
   /** Why there is no picture, as the compiler says it. */
   setTold(path: Path | undefined, told: string): void {
     if (!this.view) return;
-    if (path) return path.moves === 0 ? this.tell(say("noMoves"), "") : this.tell("", "");
-    if (told) this.tell(say("noPath"), told);
-    else this.tell("", "");
+    byId("part-told").textContent = path ? told.trim() : "";
+    if (path) return this.tell(path.pieces === 0 ? say("noMoves") : "", "");
+    this.tell(told ? say("noPath") : "", told);
   }
 
   setNow(path: Path | undefined, now: Now): void {
-    this.readout.show(path, now);
-    if (path) this.view?.setNow(now.move, now.share, placeOf(path, now));
+    const tool = path && this.cut?.tools[path.tool[Math.max(0, now.piece)] ?? 0];
+    this.readout.show(path, now, tool);
+    if (!path) return;
+    this.view?.setTool(tool);
+    this.view?.setNow(now.piece, now.share, placeOf(path, now));
   }
 
-  /** Marks the path of a line. */
+  /** Marks the path of a line, and what its moves left on the part. */
   mark(line: number): void {
     this.view?.setMarked(line, line);
+    const pieces = this.path && piecesOf(this.path, line);
+    const [first, last] = pieces ? pieces.map((at) => this.path?.move[at] ?? -1) : [-1, -1];
+    this.view?.stock.setMarked(first ?? -1, last ?? -1);
     byId("canvas").dataset.marked = String(line);
   }
 
   /** Brings the program to where a line is done. */
   runTo(line: number): void {
-    const moves = this.path && movesOf(this.path, line);
+    const moves = this.path && piecesOf(this.path, line);
     this.player.playing.set(false);
     if (moves) this.player.endOf(moves[1]);
   }
@@ -77,12 +101,14 @@ export class MachinePane {
 
   private open(): MachineView {
     return new MachineView(byId<HTMLCanvasElement>("canvas"), {
-      picked: (move) => {
-        const line = move >= 0 ? this.path?.line[move] : undefined;
-        if (line === undefined) return this.mark(-1);
+      picked: (what) => {
+        if (!what || !this.path) return this.mark(-1);
+        const piece = "piece" in what ? what.piece : this.path.move.lastIndexOf(what.move);
+        const line = this.path.line[piece];
+        if (!line) return this.mark(-1);
         this.mark(line);
         this.player.playing.set(false);
-        this.player.endOf(move);
+        this.player.endOf(piece);
         this.picked(line);
       },
       drawn: (view) => {
@@ -106,6 +132,11 @@ export class MachinePane {
         this.show();
       });
     }
+    wireToggle("part", (on) => {
+      this.part = on;
+      this.view?.stock.setVisible(on && this.cut !== undefined);
+      this.view?.draw();
+    });
     wireToggle("future", (on) => {
       this.future = on;
       this.show();

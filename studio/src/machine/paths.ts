@@ -18,7 +18,7 @@ import {
   Vector4,
   type IUniform,
 } from "three";
-import type { Path } from "../engine/path";
+import { isRapid, type Path } from "../engine/path";
 import { CHUNK, FRAGMENT, PICK, ROW, TEXELS, VERTEX } from "./shaders";
 
 /** What lines of some width are drawn up to; more moves are lines of the device, a third of the work. */
@@ -55,13 +55,13 @@ export class Paths {
 
   set(path: Path | undefined): void {
     this.clear();
-    if (!path || path.moves === 0) return;
+    if (!path || path.pieces === 0) return;
     this.uniforms.range!.value = ranges(path);
-    const wide = path.moves <= WIDE;
+    const wide = path.pieces <= WIDE;
     this.uniforms.width!.value = wide ? 1.6 : 0;
     this.pickUniforms.width!.value = wide ? 7 : 0;
-    for (let base = 0; base < path.moves; base += CHUNK) {
-      const moves = Math.min(CHUNK, path.moves - base);
+    for (let base = 0; base < path.pieces; base += CHUNK) {
+      const moves = Math.min(CHUNK, path.pieces - base);
       const texture = textureOf(path, base, moves);
       this.drawn.add(piece(texture, base, moves, wide, this.uniforms, FRAGMENT));
       this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
@@ -165,9 +165,9 @@ function piece(
 /** Least and greatest feed and height of what cuts. */
 function ranges(path: Path): Vector4 {
   let [low, high] = [Infinity, -Infinity];
-  for (let at = 0; at < path.moves; at += 1) {
+  for (let at = 0; at < path.pieces; at += 1) {
     const feed = path.feed[at] as number;
-    if (path.kind[at] === 0 || feed <= 0) continue;
+    if (isRapid(path.kind[at]) || feed <= 0) continue;
     low = Math.min(low, feed);
     high = Math.max(high, feed);
   }

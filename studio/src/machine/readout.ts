@@ -1,19 +1,20 @@
 // What stands over the picture: where the tool is, the axes' directions, the grid's step.
 
 import { Vector3, type Camera } from "three";
-import { Kind, type Path } from "../engine/path";
+import type { Tool } from "../engine/part";
+import { isRapid, type Path } from "../engine/path";
 import { placeOf, type Now } from "../time/player";
 import { byId, el } from "../ui/dom";
 import { clock, figure, say } from "../ui/texts";
 
-const KINDS = ["rapid", "feedMove", "clockwise", "counterclockwise"] as const;
+const KINDS = ["rapid", "feedMove", "clockwise", "counterclockwise", "away"] as const;
 
 /** The read-out: place in machine coordinates, feed, spindle, tool, block. */
 export class Readout {
   private readonly values = new Map<string, HTMLElement>();
 
   constructor() {
-    const rows = ["X", "Y", "Z", "", "F", "S", "T", "", "block", "move", "time"];
+    const rows = ["X", "Y", "Z", "", "F", "S", "T", "D", "", "block", "move", "time"];
     const names: Record<string, string> = { block: say("line"), move: "", time: say("time") };
     for (const row of rows) {
       if (!row) {
@@ -26,18 +27,20 @@ export class Readout {
     }
   }
 
-  show(path: Path | undefined, now: Now): void {
+  show(path: Path | undefined, now: Now, tool: Tool | undefined): void {
     const put = (row: string, text: string) => {
       const value = this.values.get(row);
       if (value && value.textContent !== text) value.textContent = text;
     };
-    if (!path || path.moves === 0) return [...this.values.keys()].forEach((row) => put(row, "–"));
-    const at = Math.max(0, now.move);
+    if (!path || path.pieces === 0) return [...this.values.keys()].forEach((row) => put(row, "–"));
+    const at = Math.max(0, now.piece);
     placeOf(path, now).forEach((value, axis) => put("XYZ"[axis] as string, figure(value, 3)));
-    const rapid = path.kind[at] === Kind.Rapid;
+    const rapid = isRapid(path.kind[at]);
     put("F", rapid ? "–" : figure(path.feed[at] ?? 0, 0));
-    put("S", figure(path.spindle[at] ?? 0, 0));
-    put("T", String(path.tool[at] ?? 0));
+    put("S", figure(path.speed[at] ?? 0, 0));
+    // The number in a list of tools is the compiler's; the shop's is the tool's own.
+    put("T", tool ? (tool.number === null ? "–" : String(tool.number)) : "–");
+    put("D", tool ? `${tool.known === "guess" ? "≈ " : ""}${figure(tool.diameter, 1)} ${tool.shape}` : "–");
     put("block", String(path.line[at] ?? 0));
     put("move", say(KINDS[path.kind[at] ?? 0] ?? "rapid"));
     put("time", clock(now.time));

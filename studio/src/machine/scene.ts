@@ -4,15 +4,18 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  ConeGeometry,
-  CylinderGeometry,
   DirectionalLight,
+  DoubleSide,
   Group,
   HemisphereLight,
+  LatheGeometry,
   LineBasicMaterial,
   LineSegments,
   Mesh,
   MeshLambertMaterial,
+  Vector2,
+  type Material,
+  type Object3D,
 } from "three";
 import type { Box } from "../engine/path";
 
@@ -55,17 +58,32 @@ export function axesOf(length: number): Group {
   return group;
 }
 
-/** A marker where the tool is, its tip in the origin; it is one unit long and says nothing of the tool's size. */
-export function toolMarker(): Group {
+/** A tool with its tip in the origin, of its shape and diameter. What is not known of it (flutes, shank, holder) is not drawn. */
+export function toolBody(shape: string, diameter: number): Group {
+  const radius = Math.max(diameter / 2, 1e-3);
+  const length = Math.max(diameter * 3, 20);
+  // From the tip up: pairs of radius and height.
+  const outline = [new Vector2(0, 0)];
+  if (shape === "ball" || shape === "lollipop") {
+    for (let at = 1; at <= 12; at += 1) {
+      const angle = (at / 12) * (Math.PI / 2);
+      outline.push(new Vector2(radius * Math.sin(angle), radius * (1 - Math.cos(angle))));
+    }
+  } else if (shape === "drill") {
+    // A point of 118 degrees is drawn: the common one.
+    outline.push(new Vector2(radius, radius / Math.tan((59 * Math.PI) / 180)));
+  } else if (shape === "chamfer") {
+    outline.push(new Vector2(radius, radius));
+  } else {
+    outline.push(new Vector2(radius, 0));
+  }
+  outline.push(new Vector2(radius, length), new Vector2(0, length));
+  const material = new MeshLambertMaterial({ color: "#d8a33c", transparent: true, opacity: 0.85, side: DoubleSide });
+  const body = new Mesh(new LatheGeometry(outline, 40), material);
+  // A lathe turns about Y; the tool stands along Z.
+  body.rotation.x = Math.PI / 2;
   const group = new Group();
-  const material = new MeshLambertMaterial({ color: "#e0a030", transparent: true, opacity: 0.92 });
-  const tip = new Mesh(new ConeGeometry(0.11, 0.3, 24), material);
-  tip.rotation.x = -Math.PI / 2;
-  tip.position.z = 0.15;
-  const shank = new Mesh(new CylinderGeometry(0.11, 0.11, 0.7, 24), material);
-  shank.rotation.x = Math.PI / 2;
-  shank.position.z = 0.65;
-  group.add(tip, shank);
+  group.add(body);
   return group;
 }
 
@@ -78,10 +96,10 @@ export function lights(): Group {
 }
 
 /** Frees what a drawing holds on the graphics card. */
-export function free(group: Group | LineSegments): void {
-  group.traverse((child) => {
-    if (!(child instanceof LineSegments)) return;
+export function free(drawing: Object3D): void {
+  drawing.traverse((child) => {
+    if (!(child instanceof LineSegments || child instanceof Mesh)) return;
     child.geometry.dispose();
-    (child.material as LineBasicMaterial).dispose();
+    (child.material as Material).dispose();
   });
 }

@@ -49,7 +49,7 @@ void main() {
   number = base + own;
   isMarked = int(to.w >= marked.x && to.w <= marked.y);
   depth = to.z;
-  bool hidden = (shown & (1 << kind)) == 0 || (future == 0 && number > now);
+  bool hidden = (shown & (1 << (kind & 3))) == 0 || (future == 0 && number > now);
   vec4 a = projectionMatrix * modelViewMatrix * vec4(from.xyz, 1.0);
   vec4 b = projectionMatrix * modelViewMatrix * vec4(to.xyz, 1.0);
   vec2 way = (b.xy - a.xy) * size * 0.5;
@@ -106,16 +106,17 @@ vec3 scale(float at) {
 
 void main() {
   // Rapid moves are dashed.
-  if (kind == 0 && isMarked == 0 && mod(along * pixels, 9.0) > 5.5 && pixels > 9.0) discard;
+  bool rapid = kind == 0 || kind == 4;
+  if (rapid && isMarked == 0 && mod(along * pixels, 9.0) > 5.5 && pixels > 9.0) discard;
   vec3 own = kinds[kind & 3];
   if (colouring == 1) own = tools[int(more.x) & 7];
-  if (colouring == 2 && kind != 0) own = scale((more.y - range.x) / max(range.y - range.x, 1e-6));
+  if (colouring == 2 && !rapid) own = scale((more.y - range.x) / max(range.y - range.x, 1e-6));
   if (colouring == 3) own = scale((depth - range.z) / max(range.w - range.z, 1e-6));
   if (isMarked == 1) own = mark;
   bool done = number < now || (number == now && along <= share);
   float faint = done || isMarked == 1 ? 0.0 : 0.72;
   // A rapid move says less than a cut.
-  if (kind == 0 && done && isMarked == 0) faint = 0.25;
+  if (rapid && done && isMarked == 0) faint = 0.25;
   ink = vec4(mix(own, ground, faint), 1.0);
 }
 `;

@@ -11,9 +11,11 @@ import {
   type LineSegments,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Cut, Tool } from "../engine/part";
 import type { Box, Path } from "../engine/path";
 import { Paths, corner, type Colouring } from "./paths";
-import { axesOf, free, gridOf, lights, toolMarker } from "./scene";
+import { axesOf, free, gridOf, lights, toolBody } from "./scene";
+import { StockView } from "./stock";
 
 export type Side = "iso" | "top" | "front" | "right";
 
@@ -28,18 +30,20 @@ const SIDES: Record<Side, [Vector3, Vector3]> = {
 const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
-/** Length of the tool marker in pixels. */
-const MARKER = 60;
+
+/** What is under the pointer: a piece of the path, or the move that cut the part there last. */
+export type Picked = { piece: number } | { move: number } | undefined;
 
 export interface Watcher {
-  /** The user clicked on a move, or on none (-1). */
-  picked(move: number): void;
+  /** The user clicked. */
+  picked(what: Picked): void;
   /** The picture was drawn. */
   drawn(view: MachineView): void;
 }
 
 export class MachineView {
   readonly paths = new Paths();
+  readonly stock = new StockView();
   readonly camera = new OrthographicCamera();
   /** mm between the grid's lines. */
   step = 10;
@@ -50,7 +54,8 @@ export class MachineView {
   private readonly pickScene = new Scene();
   private readonly target = new WebGLRenderTarget(REACH, REACH);
   private readonly controls: OrbitControls;
-  private readonly marker = toolMarker();
+  private tool = new Group();
+  private toolName = "";
   private readonly surroundings = new Group();
   private box: Box = NO_PATH;
   private asked = false;
@@ -62,24 +67,27 @@ export class MachineView {
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    this.scene.add(this.surroundings, this.paths.drawn, this.marker, lights());
-    this.pickScene.add(this.paths.pick);
+    this.scene.add(this.surroundings, this.stock.drawn, this.paths.drawn, this.tool, lights());
+    this.pickScene.add(this.stock.pick, this.paths.pick);
     this.pickScene.background = new Color(0);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());
-    this.marker.visible = false;
+    this.tool.visible = false;
     this.restyle();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
     this.wire();
   }
 
-  setPath(path: Path | undefined, keepEye: boolean): void {
+  /** Another path with its part, or none. */
+  setPath(path: Path | undefined, cut: Cut | undefined, keepEye: boolean): void {
     this.paths.set(path);
-    this.box = path && path.moves > 0 ? path.box : NO_PATH;
-    this.marker.visible = Boolean(path && path.moves > 0);
+    this.stock.open(cut);
+    const box = path && path.pieces > 0 ? path.box : NO_PATH;
+    this.box = cut ? around(box, cut.raw) : box;
+    this.tool.visible = Boolean(path && path.pieces > 0);
     this.surround();
     if (!keepEye || !this.fitted) this.look("iso");
     this.fitted = Boolean(path);
@@ -88,7 +96,18 @@ export class MachineView {
 
   setNow(move: number, share: number, place: [number, number, number]): void {
     this.paths.setNow(move, share);
-    this.marker.position.set(...place);
+    this.tool.position.set(...place);
+    this.draw();
+  }
+
+  /** The tool that is in. */
+  setTool(tool: Tool | undefined): void {
+    const name = tool ? `${tool.shape} ${tool.diameter}` : "";
+    if (name === this.toolName) return;
+    this.toolName = name;
+    free(this.tool);
+    this.tool.clear();
+    if (tool) this.tool.add(toolBody(tool.shape, tool.diameter));
     this.draw();
   }
 
@@ -99,6 +118,7 @@ export class MachineView {
 
   setColouring(by: Colouring): void {
     this.paths.setColouring(by);
+    this.stock.setByTool(by === "tool");
     this.draw();
   }
 
@@ -151,6 +171,7 @@ export class MachineView {
     const style = getComputedStyle(document.documentElement);
     const ink = (name: string) => new Color().setStyle(style.getPropertyValue(name).trim() || "#888").convertLinearToSRGB();
     this.paths.setInks(ink);
+    this.stock.setInks(ink);
     this.renderer.setClearColor(new Color(style.getPropertyValue("--ground").trim()), 1);
     this.surround();
     this.draw();
@@ -163,20 +184,16 @@ export class MachineView {
     requestAnimationFrame(() => {
       this.asked = false;
       if (this.canvas.clientWidth === 0) return;
-      this.marker.scale.setScalar(MARKER * this.pixel());
+      const eye = this.camera.position.clone().sub(this.controls.target).normalize();
+      this.stock.setEye(eye.x, eye.y, eye.z);
       this.renderer.render(this.scene, this.camera);
       this.frames += 1;
       this.watcher.drawn(this);
     });
   }
 
-  /** mm of a pixel. */
-  pixel(): number {
-    return (2 * this.camera.top) / this.camera.zoom / Math.max(1, this.canvas.clientHeight);
-  }
-
-  /** The move under a place of the picture, in its pixels; -1 for none. */
-  moveAt(x: number, y: number): number {
+  /** What is under a place of the picture, in its pixels. */
+  under(x: number, y: number): Picked {
     const { clientWidth, clientHeight } = this.canvas;
     const half = (REACH - 1) / 2;
     this.camera.setViewOffset(clientWidth, clientHeight, x - half, y - half, REACH, REACH);
@@ -187,12 +204,14 @@ export class MachineView {
     this.renderer.readRenderTargetPixels(this.target, 0, 0, REACH, REACH, pixels);
     this.renderer.setRenderTarget(null);
     this.camera.clearViewOffset();
-    let [best, found] = [Infinity, -1];
+    let [best, found]: [number, Picked] = [Infinity, undefined];
     for (let at = 0; at < REACH * REACH; at += 1) {
-      const [red, green, blue] = pixels.subarray(at * 4, at * 4 + 3) as unknown as [number, number, number];
+      const [red, green, blue, alpha] = pixels.subarray(at * 4, at * 4 + 4) as unknown as [number, number, number, number];
       const id = red + green * 256 + blue * 65536;
-      const far = Math.hypot((at % REACH) - half, Math.floor(at / REACH) - half);
-      if (id > 0 && far < best) [best, found] = [far, id - 1];
+      const part = alpha < 200;
+      // A line is thin: it comes before what lies around it.
+      const far = Math.hypot((at % REACH) - half, Math.floor(at / REACH) - half) + (part ? REACH : 0);
+      if (id > 0 && far < best) [best, found] = [far, part ? { move: id } : { piece: id - 1 }];
     }
     return found;
   }
@@ -202,7 +221,7 @@ export class MachineView {
     this.canvas.addEventListener("pointerdown", (event) => (down = [event.offsetX, event.offsetY]));
     this.canvas.addEventListener("pointerup", (event) => {
       const moved = Math.hypot(event.offsetX - down[0], event.offsetY - down[1]);
-      if (event.button === 0 && moved < 4) this.watcher.picked(this.moveAt(event.offsetX, event.offsetY));
+      if (event.button === 0 && moved < 4) this.watcher.picked(this.under(event.offsetX, event.offsetY));
     });
     this.canvas.addEventListener("webglcontextrestored", () => this.draw());
   }
@@ -238,6 +257,14 @@ export class MachineView {
     this.paths.setSize(width, height, 1);
     this.draw();
   }
+}
+
+/** A box around two. */
+function around(a: Box, b: Box): Box {
+  const axes = [0, 1, 2] as const;
+  const [x0, y0, z0] = axes.map((axis) => Math.min(a.low[axis], b.low[axis])) as [number, number, number];
+  const [x1, y1, z1] = axes.map((axis) => Math.max(a.high[axis], b.high[axis])) as [number, number, number];
+  return { low: [x0, y0, z0], high: [x1, y1, z1] };
 }
 
 /** Whether the browser draws with WebGL 2. */

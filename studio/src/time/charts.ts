@@ -15,7 +15,7 @@ interface Row {
 
 const ROWS: Row[] = [
   { name: "feed", unit: "mm/min", ink: "--c-move-feed", of: (path) => [path.feed, path.feed] },
-  { name: "spindle", unit: "1/min", ink: "--c-move-clockwise", of: (path) => [path.spindle, path.spindle] },
+  { name: "spindle", unit: "1/min", ink: "--c-move-clockwise", of: (path) => [path.speed, path.speed] },
   { name: "Z", unit: "mm", ink: "--c-move-counterclockwise", of: (path) => [path.z0, path.z1] },
 ];
 
@@ -59,7 +59,7 @@ export class Charts {
     for (const chart of this.charts) {
       chart.plot?.destroy();
       chart.plot = undefined;
-      if (this.path && this.path.moves > 0 && visible) chart.plot = this.plot(chart, this.path);
+      if (this.path && this.path.pieces > 0 && visible) chart.plot = this.plot(chart, this.path);
     }
     this.setTime(this.time);
   }

@@ -1,6 +1,6 @@
 // The moment of the program that the page shows, and its going on. Nothing runs while it stands.
 
-import { moveAt, shareAt, type Path } from "../engine/path";
+import { pieceAt, shareAt, type Path } from "../engine/path";
 import { Signal } from "../ui/signal";
 
 /** Times real time. */
@@ -10,13 +10,13 @@ export const SPEEDS = [0.1, 1000] as const;
 export interface Now {
   /** Seconds. */
   time: number;
-  /** The move that has begun last; -1 before all. */
-  move: number;
+  /** The piece that has begun last; -1 before all. */
+  piece: number;
   /** How much of it is done, 0 to 1. */
   share: number;
 }
 
-const START: Now = { time: 0, move: -1, share: 0 };
+const START: Now = { time: 0, piece: -1, share: 0 };
 
 export class Player {
   readonly now = new Signal<Now>(START);
@@ -39,10 +39,10 @@ export class Player {
 
   seek(time: number): void {
     const { path } = this;
-    if (!path || path.moves === 0) return this.now.set(START);
+    if (!path || path.pieces === 0) return this.now.set(START);
     const at = Math.min(Math.max(0, time), path.seconds);
-    const move = at >= path.seconds ? path.moves - 1 : moveAt(path, at);
-    this.now.set({ time: at, move, share: at >= path.seconds ? 1 : shareAt(path, move, at) });
+    const piece = at >= path.seconds ? path.pieces - 1 : pieceAt(path, at);
+    this.now.set({ time: at, piece, share: at >= path.seconds ? 1 : shareAt(path, piece, at) });
   }
 
   toggle(): void {
@@ -59,14 +59,14 @@ export class Player {
     this.playing.set(false);
     const { path } = this;
     if (!path) return;
-    const { move, share } = this.now.get();
+    const { piece, share } = this.now.get();
     if (direction > 0) {
-      let to = share >= 1 || move < 0 ? move + 1 : move;
-      if (to >= path.moves) return;
-      while (to + 1 < path.moves && path.line[to + 1] === path.line[to]) to += 1;
+      let to = share >= 1 || piece < 0 ? piece + 1 : piece;
+      if (to >= path.pieces) return;
+      while (to + 1 < path.pieces && path.line[to + 1] === path.line[to]) to += 1;
       return this.endOf(to);
     }
-    let to = Math.max(0, move);
+    let to = Math.max(0, piece);
     while (to > 0 && path.line[to - 1] === path.line[to]) to -= 1;
     if (to === 0) this.seek(0);
     else this.endOf(to - 1);
@@ -77,15 +77,15 @@ export class Player {
     this.playing.set(false);
     const { path } = this;
     if (!path) return;
-    const from = Math.max(0, this.now.get().move);
+    const from = Math.max(0, this.now.get().piece);
     const next = path.tool.findIndex((tool, at) => at > from && tool !== path.tool[from]);
     this.seek(next < 0 ? path.seconds : (path.t0[next] as number));
   }
 
-  /** To where a move is done. Moves that take no time have their moment in common, so that the move is stated. */
-  endOf(move: number): void {
-    const time = this.path?.t1[move];
-    if (time !== undefined) this.now.set({ time, move, share: 1 });
+  /** To where a piece is done. Pieces that take no time have their moment in common, so that the piece is stated. */
+  endOf(piece: number): void {
+    const time = this.path?.t1[piece];
+    if (time !== undefined) this.now.set({ time, piece, share: 1 });
   }
 
   private frame(now: number): void {
@@ -100,11 +100,19 @@ export class Player {
 
 /** Where the tool is: work in mm, nothing before all moves. */
 export function placeOf(path: Path, now: Now): [number, number, number] {
-  const at = Math.max(0, now.move);
-  const share = now.move < 0 ? 0 : now.share;
+  const at = Math.max(0, now.piece);
+  const share = now.piece < 0 ? 0 : now.share;
   const mix = (from: Float32Array, to: Float32Array) => {
     const [a, b] = [from[at] ?? 0, to[at] ?? 0];
     return a + (b - a) * share;
   };
   return [mix(path.x0, path.x1), mix(path.y0, path.y1), mix(path.z0, path.z1)];
+}
+
+/** How many moves are over. */
+export function movesOver(path: Path, { piece, share }: Now): number {
+  if (piece < 0) return 0;
+  const own = path.move[piece] ?? 0;
+  const over = share >= 1 && path.move[piece + 1] !== own;
+  return over ? own : own - 1;
 }

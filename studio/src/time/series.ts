@@ -9,11 +9,11 @@ const SLICES = 1200;
 
 /** A curve of what moves have at their beginning and end. */
 export function curve(path: Path, from: ArrayLike<number>, to: ArrayLike<number>): Curve {
-  const { moves, seconds, t0, t1 } = path;
-  if (moves * 2 <= SLICES * 2) {
+  const { pieces, seconds, t0, t1 } = path;
+  if (pieces <= SLICES) {
     const times: number[] = [];
     const values: number[] = [];
-    for (let at = 0; at < moves; at += 1) {
+    for (let at = 0; at < pieces; at += 1) {
       times.push(t0[at] as number, t1[at] as number);
       values.push(from[at] as number, to[at] as number);
     }
@@ -33,7 +33,7 @@ function sliced(path: Path, from: ArrayLike<number>, to: ArrayLike<number>, widt
     times.push(time, time + width / 2);
     values.push(...(rises ? [low, high] : [high, low]));
   };
-  for (let at = 0; at < path.moves; at += 1) {
+  for (let at = 0; at < path.pieces; at += 1) {
     const [a, b] = [from[at] as number, to[at] as number];
     const own = Math.floor((path.t1[at] as number) / width);
     if (own !== slice) {
@@ -47,6 +47,6 @@ function sliced(path: Path, from: ArrayLike<number>, to: ArrayLike<number>, widt
   }
   end();
   times.push(path.seconds);
-  values.push(to[path.moves - 1] as number);
+  values.push(to[path.pieces - 1] as number);
   return [times, values];
 }

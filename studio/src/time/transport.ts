@@ -1,6 +1,7 @@
 // The bar of time: buttons, the scrubber over bands of tools, the speed.
 
-import { Kind, type Path } from "../engine/path";
+import type { Alarm } from "../engine/part";
+import { isRapid, type Path } from "../engine/path";
 import { byId, icon } from "../ui/dom";
 import { clock, figure, say } from "../ui/texts";
 import { SPEEDS, type Now, type Player } from "./player";
@@ -10,6 +11,7 @@ export class Transport {
   private readonly speed = byId<HTMLInputElement>("speed");
   private readonly bands = byId<HTMLCanvasElement>("bands");
   private path: Path | undefined;
+  private alarms: readonly Alarm[] = [];
 
   constructor(private readonly player: Player) {
     const on = (id: string, does: () => void) => byId(id).addEventListener("click", does);
@@ -42,12 +44,17 @@ export class Transport {
   setPath(path: Path | undefined): void {
     this.path = path;
     this.scrub.max = String(path?.seconds || 1);
-    this.scrub.disabled = !path || path.moves === 0;
+    this.scrub.disabled = !path || path.pieces === 0;
     this.show(this.player.now.get());
     this.draw();
   }
 
-  /** Bands of tools over the time; rapid moves are faint. */
+  setAlarms(alarms: readonly Alarm[]): void {
+    this.alarms = alarms;
+    this.draw();
+  }
+
+  /** Bands of tools over the time, with alarms; rapid moves are faint. */
   draw(): void {
     const { bands, path } = this;
     const ratio = devicePixelRatio;
@@ -61,17 +68,21 @@ export class Transport {
     if (!path || path.seconds === 0) return;
     const inks = Array.from({ length: 8 }, (_, at) => style.getPropertyValue(`--c-tool-${at}`));
     let from = 0;
-    for (let at = 1; at <= path.moves; at += 1) {
-      const goesOn = at < path.moves && path.tool[at] === path.tool[from] && isRapid(path, at) === isRapid(path, from);
+    for (let at = 1; at <= path.pieces; at += 1) {
+      const goesOn = at < path.pieces && path.tool[at] === path.tool[from] && isRapid(path.kind[at]) === isRapid(path.kind[from]);
       if (goesOn) continue;
       const x = ((path.t0[from] as number) / path.seconds) * width;
       const end = ((path.t1[at - 1] as number) / path.seconds) * width;
-      pen.globalAlpha = isRapid(path, from) ? 0.35 : 1;
+      pen.globalAlpha = isRapid(path.kind[from]) ? 0.35 : 1;
       pen.fillStyle = inks[(path.tool[from] as number) % 8] ?? "";
       if (end - x > 0.05) pen.fillRect(x, 0, Math.max(end - x, 0.5), bands.height);
       from = at;
     }
     pen.globalAlpha = 1;
+    for (const { time, severity } of this.alarms) {
+      pen.fillStyle = style.getPropertyValue(`--${severity}`);
+      pen.fillRect((time / path.seconds) * width - ratio, 0, 2 * ratio, bands.height);
+    }
   }
 
   private show(now: Now): void {
@@ -97,8 +108,4 @@ export class Transport {
     event.preventDefault();
     does();
   }
-}
-
-function isRapid(path: Path, move: number): boolean {
-  return path.kind[move] === Kind.Rapid;
 }
