@@ -99,6 +99,7 @@ session.state.on((state) => {
   place.textContent = say(state);
   byId("cancel").hidden = state !== "working";
 });
+session.idle.on((idle) => (byId("state").dataset.idle = String(idle)));
 session.checked.on((checked) => {
   problems.show(checked);
   editor.setProblems(checked.problems);

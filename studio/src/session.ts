@@ -37,6 +37,8 @@ const CELLS = 512;
 
 export class Session {
   readonly state = new Signal<State>("loading");
+  /** Whether all is done: nothing runs, and no change waits. */
+  readonly idle = new Signal(false);
   readonly project = new Signal<Project | undefined>(undefined);
   /** The dialect that the program is read in. */
   readonly dialect = new Signal("");
@@ -80,6 +82,7 @@ export class Session {
   /** The text or a choice is another. */
   change(): void {
     this.generation += 1;
+    this.idle.set(false);
     clearTimeout(this.timer);
     const wait = Math.min(LATE, Math.max(SOON, this.lasted * 0.6));
     this.timer = window.setTimeout(() => void this.work(), wait);
@@ -137,6 +140,7 @@ export class Session {
       if (own === this.generation) {
         this.lasted = performance.now() - this.began;
         this.state.set("ready");
+        this.idle.set(true);
       }
     } catch (error) {
       if (error instanceof Cancelled || own !== this.generation) return;

@@ -32,26 +32,28 @@ export async function open({ site, browser }, options = {}) {
   return { page, context, faults };
 }
 
-/** Waits until the compiler has done what it was asked. */
+/** Waits until the compiler has done what it was asked, and nothing waits for it. */
 export async function ready(page) {
-  await page.waitForSelector('#state[data-state="ready"]', { state: "attached", timeout: 30_000 });
-  // A change waits a moment for the next one.
-  await page.waitForTimeout(150);
-  await page.waitForSelector('#state[data-state="ready"]', { state: "attached", timeout: 60_000 });
+  await page.waitForSelector('#state[data-state="ready"][data-idle="true"]', { state: "attached", timeout: 60_000 });
 }
 
 /** Puts another text into the editor, as a user pastes it. */
 export async function type(page, text) {
   await page.locator("#editor .cm-content").click();
   await page.keyboard.press("Control+a");
-  await page.keyboard.insertText(text);
+  await paste(page, text);
   await page.waitForTimeout(200);
   await ready(page);
 }
 
-export const text = (page) =>
-  page.evaluate(() => document.querySelector("#editor").shadowRoot.querySelector(".cm-content").cmView?.view.state.doc.toString() ??
-    [...document.querySelector("#editor").shadowRoot.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n"));
+/** Pastes at the cursor. */
+export function paste(page, text) {
+  return page.locator("#editor .cm-content").evaluate((content, own) => {
+    const clipboardData = new DataTransfer();
+    clipboardData.setData("text/plain", own);
+    content.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+  }, text);
+}
 
 /** The line of the cursor, as the gutter shows it. */
 export const line = async (page) => Number(await page.locator("#editor .cm-activeLineGutter").first().textContent());

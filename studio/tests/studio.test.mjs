@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { readFileSync } from "node:fs";
-import { begin, line, open, pixels, placeOf, ready, type } from "./browser.mjs";
+import { begin, line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
 
 let world;
@@ -21,6 +21,11 @@ function page(name, options, body) {
       await opened.context.close();
     }
   });
+}
+
+async function projects(own) {
+  await own.click("#projects-open");
+  await own.locator("#projects-dialog[open]").waitFor();
 }
 
 const value = (own, selector) => own.locator(selector).textContent();
@@ -151,7 +156,7 @@ page("charts stand on the axis of time, and a click on one goes to the moment", 
   assert.equal(await own.locator("#charts canvas").count(), 3);
   const box = await own.locator("#charts .u-over").first().boundingBox();
   await own.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-  const [now, total] = (await value(own, "#clock")).split(" / ").map((text) => Number(text.slice(2)));
+  const [now, total] = (await value(own, "#clock")).split(" / ").map((text) => text.split(":").reduce((sum, part) => sum * 60 + Number(part), 0));
   assert.ok(Math.abs(now - total / 2) < total * 0.1, `${now} of ${total}`);
   assert.equal(await own.locator("#charts .chart-now:visible").count(), 3);
 });
@@ -205,12 +210,12 @@ page("what is typed is there again after a reload", {}, async (own) => {
 
 page("projects are made, renamed, copied, deleted, taken in and given out", {}, async (own) => {
   const rows = own.locator("#projects-list li");
-  await own.click("#projects-open");
+  await projects(own);
   await own.fill("#projects-dialog .new input", "Flange");
   await own.keyboard.press("Enter");
   await ready(own);
   assert.equal(await value(own, "#project-name"), "Flange");
-  await own.click("#projects-open");
+  await projects(own);
   assert.equal(await rows.count(), 2);
   await own.getByLabel("Rename: Flange").click();
   await own.keyboard.insertText("Ring");
@@ -230,7 +235,7 @@ page("projects are made, renamed, copied, deleted, taken in and given out", {}, 
   assert.equal(await value(own, "#project-name"), "taken");
   const [again] = await Promise.all([own.waitForEvent("download"), own.click("#export")]);
   assert.equal(readFileSync(await again.path(), "utf8"), SQUARE.replaceAll("\n", "\r\n"));
-  await own.click("#projects-open");
+  await projects(own);
   await own.locator("#examples button", { hasText: "surface.mpf" }).click();
   await ready(own);
   assert.equal(await own.inputValue("#from"), "siemens");
@@ -250,7 +255,7 @@ page("a file that is dropped is a project", {}, async (own) => {
 
 page("a text in Western characters keeps its bytes", {}, async (own) => {
   const bytes = Buffer.from("%\r\nO1 (PE\xc7A)\r\nG21\r\nM30\r\n%\r\n", "latin1");
-  await own.click("#projects-open");
+  await projects(own);
   await own.setInputFiles('#projects-dialog input[type="file"]', { name: "latin.nc", mimeType: "text/plain", buffer: bytes });
   await ready(own);
   assert.match(await own.locator("#editor .cm-content").textContent(), /PEÇA/);
@@ -260,14 +265,14 @@ page("a text in Western characters keeps its bytes", {}, async (own) => {
 
 page("a hostile program and name are text", {}, async (own) => {
   const evil = '<img src=x onerror="window.evil=1"><script>window.evil=1</script>';
-  await own.click("#projects-open");
+  await projects(own);
   const file = { name: `${evil.replaceAll("/", "")}.nc`, mimeType: "text/plain", buffer: Buffer.from(`(${evil})\n${evil}\nG1 ${evil}\n`) };
   await own.setInputFiles('#projects-dialog input[type="file"]', file);
   await ready(own);
   await own.selectOption("#from", "fanuc");
   await ready(own);
   await own.locator("#problems-list button").first().hover();
-  await own.click("#projects-open");
+  await projects(own);
   await own.waitForTimeout(200);
   assert.equal(await own.evaluate(() => window.evil), undefined);
   assert.equal(await own.locator("#work img, dialog img").count(), 0);
@@ -302,6 +307,7 @@ page("keys reach all of it", {}, async (own) => {
   await own.keyboard.press("Control+.");
   assert.equal(await value(own, "#now-block"), "10");
   await own.keyboard.press("Control+o");
+  await own.locator("#projects-dialog[open]").waitFor();
   assert.ok(await own.isVisible("#projects-dialog"));
   await own.keyboard.press("Escape");
   await own.locator("#canvas").focus();
@@ -370,7 +376,7 @@ page("a program of 60,000 moves is drawn, and newer work takes the place of olde
   assert.equal(await own.getAttribute("#canvas", "data-pieces"), "60003");
   assert.ok(Date.now() - began < 20_000, `${Date.now() - began} ms`);
   for (const letter of "ABC") {
-    await own.keyboard.insertText(`(${letter})`);
+    await paste(own, `(${letter})`);
     await own.waitForTimeout(150);
   }
   await ready(own);
@@ -382,7 +388,7 @@ for (const [name, options] of [["wide and light", {}], ["wide and dark", { color
     await own.evaluate(readFileSync(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
     const look = () => own.evaluate(async () => (await axe.run()).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`));
     assert.deepEqual(await look(), []);
-    await own.click("#projects-open");
+    await projects(own);
     assert.deepEqual(await look(), []);
   });
 }
