@@ -75,6 +75,7 @@ export class Session {
     this.dialects = dialects?.json<Listed[]>("document") ?? [];
     this.machines = machines?.json<Listed[]>("document") ?? [];
     this.engines = engines;
+    this.began = performance.now();
     this.state.set("ready");
     this.change();
   }

@@ -49,6 +49,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ncc-frontends",
             "ncc-ir",
             "ncc-machines",
+            "ncc-simulate",
             "ncc-time",
         ],
     ),

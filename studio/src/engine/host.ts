@@ -26,7 +26,12 @@ export async function openEngines(): Promise<Engines> {
   const bytes = new TextEncoder().encode(WARM);
   const file = "warm.nc";
   for (const engine of [quick, heavy]) engine.put(file, bytes);
-  void quick.run({ verb: "colours", file, first: 1, lines: 9 });
-  void heavy.run({ verb: "check", file, from: "fanuc" });
+  const warm = [
+    quick.run({ verb: "colours", file, first: 1, lines: 9 }),
+    heavy.run({ verb: "check", file, from: "fanuc" }),
+    heavy.run({ verb: "simulate", file, from: "fanuc", cells: 16 }),
+  ];
+  // What goes wrong here goes wrong again with the program, and is told then.
+  warm.forEach((one) => void one.catch(() => undefined));
   return { quick, heavy };
 }

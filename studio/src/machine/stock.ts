@@ -29,21 +29,25 @@ uniform ivec2 cells;
 uniform vec2 low;
 uniform float cell;
 uniform float bottom;
+/** Cells between two points. */
+uniform int stride;
+uniform ivec2 points;
 out vec3 place;
 out vec2 at;
 flat out int isGone;
 
 void main() {
   // A ring around the cells stands on the floor: the walls.
-  int across = cells.x + 2;
+  int across = points.x + 2;
   ivec2 own = ivec2(gl_VertexID % across, gl_VertexID / across) - 1;
-  ivec2 inside = clamp(own, ivec2(0), cells - 1);
+  ivec2 point = clamp(own, ivec2(0), points - 1);
+  ivec2 inside = min(point * stride, cells - 1);
   float height = texelFetch(heights, inside, 0).r;
   isGone = int(height < -1e20);
-  bool wall = own != inside;
+  bool wall = own != point;
   place = vec3(low + (vec2(inside) + 0.5) * cell, wall || isGone == 1 ? bottom : height);
   // The outer half of a cell at the border belongs to the part.
-  place.xy += (vec2(greaterThanEqual(own, cells - 1)) - vec2(lessThanEqual(own, ivec2(0)))) * 0.5 * cell;
+  place.xy += (vec2(greaterThanEqual(own, points - 1)) - vec2(lessThanEqual(own, ivec2(0)))) * 0.5 * cell;
   at = vec2(inside);
   gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }
@@ -112,6 +116,8 @@ export class StockView {
     cells: { value: new Vector2() },
     low: { value: new Vector2() },
     cell: { value: 1 },
+    stride: { value: 1 },
+    points: { value: new Vector2() },
     bottom: { value: 0 },
     raw: { value: new Color() },
     cut: { value: new Color() },
@@ -165,7 +171,22 @@ export class StockView {
       texture.unpackAlignment = 4;
       this.uniforms[name]!.value = texture;
     }
-    const index = new BufferAttribute(triangles(cells[0] + 2, cells[1] + 2), 1);
+    this.rebuild();
+  }
+
+  /** Fewer points, for a device that draws slowly; false where there are few already. */
+  coarser(): boolean {
+    if (this.uniforms.stride!.value >= 4) return false;
+    this.uniforms.stride!.value *= 2;
+    this.rebuild();
+    return true;
+  }
+
+  private rebuild(): void {
+    const stride = this.uniforms.stride!.value as number;
+    const [across, along] = this.cells.map((cells) => Math.ceil((cells - 1) / stride) + 1) as [number, number];
+    this.uniforms.points!.value.set(across, along);
+    const index = new BufferAttribute(triangles(across + 2, along + 2), 1);
     for (const mesh of [this.drawn, this.pick]) {
       mesh.geometry.dispose();
       mesh.geometry = new BufferGeometry();

@@ -30,6 +30,8 @@ const SIDES: Record<Side, [Vector3, Vector3]> = {
 const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
+/** So many pictures are timed, and one that takes longer is slow, ms. */
+const [TRIALS, SLOW] = [5, 60];
 
 /** What is under the pointer: a piece of the path, or the move that cut the part there last. */
 export type Picked = { piece: number } | { move: number } | undefined;
@@ -59,7 +61,9 @@ export class MachineView {
   private readonly surroundings = new Group();
   private box: Box = NO_PATH;
   private asked = false;
+  private trials = TRIALS;
   private fitted = false;
+  private unfitted = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -136,6 +140,8 @@ export class MachineView {
 
   /** Brings all of the path into the picture, from where the eye is. */
   fit(): void {
+    // A picture that nobody sees has no size to fit into yet.
+    this.unfitted = this.canvas.clientWidth === 0;
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(this.centre());
     this.camera.position.copy(this.controls.target).addScaledVector(direction, this.reach() * 4);
@@ -186,10 +192,23 @@ export class MachineView {
       if (this.canvas.clientWidth === 0) return;
       const eye = this.camera.position.clone().sub(this.controls.target).normalize();
       this.stock.setEye(eye.x, eye.y, eye.z);
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       this.frames += 1;
       this.watcher.drawn(this);
     });
+  }
+
+  /** Draws; the first pictures of a part are timed, and where they take too long the part has fewer points. */
+  private render(): void {
+    const began = performance.now();
+    this.renderer.render(this.scene, this.camera);
+    if (this.trials === 0 || !this.stock.drawn.visible) return;
+    this.trials -= 1;
+    const gl = this.renderer.getContext();
+    // To read a pixel is to wait until it is there.
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    // The first one compiles and uploads.
+    if (this.trials < TRIALS - 1 && performance.now() - began > SLOW && this.stock.coarser()) this.draw();
   }
 
   /** What is under a place of the picture, in its pixels. */
@@ -255,6 +274,7 @@ export class MachineView {
     [this.camera.left, this.camera.right] = [(-tall * width) / height, (tall * width) / height];
     this.camera.updateProjectionMatrix();
     this.paths.setSize(width, height, 1);
+    if (this.unfitted) this.fit();
     this.draw();
   }
 }

@@ -91,7 +91,7 @@ export class Charts {
       width: Math.max(80, box.clientWidth),
       height: Math.max(40, box.clientHeight),
       legend: { show: false },
-      padding: [6, 8, 0, 0],
+      padding: [6, 16, 0, 0],
       cursor: { sync: { key: this.sync.key }, points: { show: false }, y: false, drag: { x: true, y: false } },
       scales: { x: { time: false } },
       axes: [

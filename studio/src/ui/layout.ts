@@ -14,6 +14,9 @@ export function fillWords(): void {
     place.setAttribute("aria-label", text);
     if (place instanceof HTMLButtonElement) place.title = text;
   }
+  for (const place of document.querySelectorAll<HTMLElement>("[data-title]")) {
+    place.title = say(place.dataset.title as TextName);
+  }
   for (const place of document.querySelectorAll<HTMLElement>("[data-icon]")) {
     place.prepend(icon(place.dataset.icon as Icon));
   }
