@@ -8,6 +8,7 @@ import { Desk, download } from "./projects/desk";
 import { ProjectsDialog, wireDrop } from "./projects/dialog";
 import { Store, stored } from "./projects/store";
 import { Session } from "./session";
+import { SetupPane } from "./setup/pane";
 import { Charts } from "./time/charts";
 import { Player, movesOver } from "./time/player";
 import { Transport } from "./time/transport";
@@ -57,6 +58,7 @@ const machine = new MachinePane(player, (line) => {
   panes.show("machine", document.body.dataset.pane === "machine" ? "machine" : "editor");
 });
 new TranslatePane(session, desk);
+new SetupPane(session, desk);
 const lists = new ChoiceLists(session, desk);
 const panes = new Panes((tab, pane) => {
   const looks = tab === "translate";
@@ -117,7 +119,7 @@ session.part.on((part) => machine.setPart(part));
 player.now.on((now) => {
   const path = session.path.get();
   placed = player.seconds > 0 && now.time < player.seconds;
-  charts.setTime(now.time, now.piece);
+  charts.setTime(now.time, now.piece, now.share);
   machine.setNow(path, now);
   // The end of a program is where a page begins: no line is marked then.
   const line = path && placed && now.piece >= 0 ? (path.line[now.piece] ?? 0) : 0;

@@ -155,7 +155,7 @@ export class Session {
     const check = await heavy.run({ verb: "check", ...one });
     if (!current()) return;
     this.tellCheck(check);
-    const cut = await heavy.run({ verb: "simulate", ...one, cells: CELLS });
+    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), cells: CELLS });
     if (!current()) return;
     this.tellCut(cut);
     if (!this.translates.get()) return this.translation.set(undefined);
@@ -222,6 +222,12 @@ function given(entries: Record<string, string | undefined>): Record<string, stri
 function request(file: string, choices: Choices): Omit<Request, "verb"> {
   const { from, machine, fromOption } = choices;
   return { file, ...given({ from, machine }), from_option: fromOption };
+}
+
+/** Fields of what it cuts, and with what. */
+function bench({ stock, tools }: Choices): { stock?: string; tools: string[] } {
+  const stated = Object.entries(tools).map(([number, text]) => `${number}=${text}`);
+  return { ...given({ stock }), tools: stated };
 }
 
 function translation(file: string, choices: Choices): Omit<Request, "verb"> {

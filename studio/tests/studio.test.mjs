@@ -74,6 +74,31 @@ page("nothing is drawn while nothing changes", {}, async (own) => {
   assert.notEqual(await own.getAttribute("#canvas", "data-frames"), frames);
 });
 
+page("raw part and tools are stated, and the part is another", {}, async (own) => {
+  await type(own, SQUARE);
+  const cut = async () => Number(await own.getAttribute("#canvas", "data-cut"));
+  await own.click("#tab-setup");
+  const tools = own.locator("#setup-pane tbody tr");
+  assert.equal(await tools.count(), 2);
+  const before = await cut();
+  await own.getByLabel("Diameter T1").fill("4");
+  await own.keyboard.press("Tab");
+  await own.waitForTimeout(200);
+  await ready(own);
+  assert.match(await tools.first().textContent(), /Stated here/);
+  const small = await cut();
+  assert.ok(small < before * 0.7 && small > 0, `${small} of ${before}`);
+  await own.getByLabel("Raw part", { exact: true }).selectOption("cylinder");
+  await own.waitForTimeout(200);
+  await ready(own);
+  assert.equal(await own.locator("#setup-pane .fields input").count(), 5);
+  await own.getByLabel("Raw part D").fill("500");
+  await own.keyboard.press("Tab");
+  await own.waitForTimeout(200);
+  await ready(own);
+  assert.match(await own.locator("#setup-pane .fields").textContent(), /500.0 × 500.0/);
+});
+
 page("a problem stands in its line and in the list, and a click goes there", {}, async (own) => {
   await type(own, SQUARE.replace("Y50.\n", "Y5O.\n"));
   const row = own.locator("#problems-list button").first();
@@ -330,7 +355,7 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
   await own.setViewportSize(PHONE);
   assert.ok(await own.isVisible("#editor"));
   assert.ok(!(await own.isVisible("#picture")));
-  for (const [pane, seen] of [["machine", "#picture"], ["time", "#charts"], ["translate", "#output"], ["editor", "#editor"]]) {
+  for (const [pane, seen] of [["machine", "#picture"], ["setup", "#setup-pane"], ["time", "#charts"], ["translate", "#output"], ["editor", "#editor"]]) {
     await own.click(`#phone [data-goto="${pane}"]`);
     assert.ok(await own.isVisible(seen), pane);
     const wide = await own.evaluate(() => document.documentElement.scrollWidth);
@@ -392,6 +417,10 @@ for (const [name, options] of [["wide and light", {}], ["wide and dark", { color
     await own.evaluate(readFileSync(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
     const look = () => own.evaluate(async () => (await axe.run()).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`));
     assert.deepEqual(await look(), []);
+    for (const pane of ["setup", "translate"]) {
+      await own.click(options === PHONE ? `#phone [data-goto="${pane}"]` : `#tab-${pane}`);
+      assert.deepEqual(await look(), [], pane);
+    }
     await projects(own);
     assert.deepEqual(await look(), []);
   });

@@ -5,7 +5,6 @@ import {
   BufferGeometry,
   Color,
   DirectionalLight,
-  DoubleSide,
   Group,
   HemisphereLight,
   LatheGeometry,
@@ -78,7 +77,7 @@ export function toolBody(shape: string, diameter: number): Group {
     outline.push(new Vector2(radius, 0));
   }
   outline.push(new Vector2(radius, length), new Vector2(0, length));
-  const material = new MeshLambertMaterial({ color: "#d8a33c", transparent: true, opacity: 0.85, side: DoubleSide });
+  const material = new MeshLambertMaterial({ color: "#d8a33c", transparent: true, opacity: 0.5, depthWrite: false });
   const body = new Mesh(new LatheGeometry(outline, 40), material);
   // A lathe turns about Y; the tool stands along Z.
   body.rotation.x = Math.PI / 2;

@@ -5,7 +5,7 @@ import type { Session } from "../session";
 import { Signal } from "../ui/signal";
 import { say, type TextName } from "../ui/texts";
 import { EXAMPLES, type Example } from "./examples";
-import { bytesOf, projectOf, type Project } from "./project";
+import { bytesOf, noChoices, projectOf, type Project } from "./project";
 import type { Store } from "./store";
 
 /** So long after the last change a text is saved, ms. */
@@ -131,7 +131,8 @@ export class Desk {
     clearTimeout(this.timer);
     this.store.current = project.id;
     this.saved.set(this.store.keeps ? "saved" : "noStorage");
-    this.session.project.set(project);
+    // A project of an older page may lack choices of this one.
+    this.session.project.set({ ...project, choices: { ...noChoices(), ...project.choices } });
     this.editor.open(text);
     this.session.reset();
   }

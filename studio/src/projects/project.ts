@@ -13,6 +13,10 @@ export interface Choices {
   fromOption: Record<string, string>;
   toOption: Record<string, string>;
   pass: string[];
+  /** The raw part, as `--stock` has it; without, it is guessed. */
+  stock: string;
+  /** Tools by their numbers, as `--tool` has them behind the sign. */
+  tools: Record<string, string>;
 }
 
 export interface Project {
@@ -30,7 +34,7 @@ export interface Project {
 }
 
 export function noChoices(from = "auto"): Choices {
-  return { from, machine: "", to: "", machineTo: "", fromOption: {}, toOption: {}, pass: [] };
+  return { from, machine: "", to: "", machineTo: "", fromOption: {}, toOption: {}, pass: [], stock: "", tools: {} };
 }
 
 /** A new project of a text's bytes, and the text. */

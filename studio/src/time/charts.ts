@@ -64,7 +64,7 @@ export class Charts {
     this.setTime(this.time);
   }
 
-  setTime(time: number, move = -1): void {
+  setTime(time: number, piece = -1, share = 1): void {
     this.time = time;
     for (const { plot, line, value, row } of this.charts) {
       if (plot) {
@@ -72,13 +72,18 @@ export class Charts {
         line.hidden = x < 0 || x > plot.over.clientWidth;
         line.style.transform = `translateX(${x}px)`;
       }
-      const column = this.path && row.of(this.path)[1];
-      value.value = column && move >= 0 ? figure(column[move] ?? 0, row.name === "Z" ? 3 : 0) : "";
+      if (!this.path || piece < 0) {
+        value.value = "";
+        continue;
+      }
+      const [from, to] = row.of(this.path).map((column) => column[piece] ?? 0) as [number, number];
+      value.value = figure(from + (to - from) * share, row.name === "Z" ? 3 : 0);
     }
   }
 
   private plot(chart: Chart, path: Path): uPlot {
     const { box, row, line } = chart;
+    const last = chart === this.charts.at(-1);
     const style = getComputedStyle(document.documentElement);
     const ink = (name: string) => style.getPropertyValue(name).trim();
     const axis = {
@@ -95,7 +100,8 @@ export class Charts {
       cursor: { sync: { key: this.sync.key }, points: { show: false }, y: false, drag: { x: true, y: false } },
       scales: { x: { time: false } },
       axes: [
-        { ...axis, size: 16, gap: 2, values: (_, all) => all.map((value) => `${value} s`) },
+        // The last one's axis is that of all.
+        { ...axis, size: last ? 16 : 4, gap: 2, values: (_, all) => all.map((value) => (last ? `${value} s` : "")) },
         { ...axis, size: 46, gap: 4, space: 22 },
       ],
       series: [{}, { stroke: ink(row.ink), width: 1.2, points: { show: false } }],

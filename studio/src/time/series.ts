@@ -29,13 +29,23 @@ function sliced(path: Path, from: ArrayLike<number>, to: ArrayLike<number>, widt
   let [low, high, rises] = [0, 0, true];
   const end = () => {
     if (slice < 0) return;
-    const time = slice * width;
-    times.push(time, time + width / 2);
+    // Times never go back: a slice may begin before the end of what stands for itself.
+    const time = Math.max(slice * width, times.at(-1) ?? 0);
+    times.push(time, Math.max(time, (slice + 0.5) * width));
     values.push(...(rises ? [low, high] : [high, low]));
   };
   for (let at = 0; at < path.pieces; at += 1) {
     const [a, b] = [from[at] as number, to[at] as number];
-    const own = Math.floor((path.t1[at] as number) / width);
+    const [begins, ends] = [path.t0[at] as number, path.t1[at] as number];
+    // What is longer than a slice stands for itself.
+    if (ends - begins > width) {
+      end();
+      slice = -1;
+      times.push(begins, ends);
+      values.push(a, b);
+      continue;
+    }
+    const own = Math.floor(ends / width);
     if (own !== slice) {
       end();
       slice = own;

@@ -70,7 +70,7 @@ export function wireSplit(): void {
   });
 }
 
-const TABS = ["machine", "translate"] as const;
+const TABS = ["machine", "setup", "translate"] as const;
 export type Tab = (typeof TABS)[number];
 export type Pane = "editor" | "time" | Tab;
 
@@ -83,15 +83,16 @@ export class Panes {
       const button = byId(`tab-${tab}`);
       button.addEventListener("click", () => this.show(tab, tab));
       button.addEventListener("keydown", (event) => {
-        if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
-        const other = tab === "machine" ? "translate" : "machine";
+        const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+        if (!by) return;
+        const other = TABS[(TABS.indexOf(tab) + by + TABS.length) % TABS.length] as Tab;
         this.show(other, other);
         byId(`tab-${other}`).focus();
       });
     }
     for (const button of document.querySelectorAll<HTMLElement>("#phone [data-goto]")) {
       const pane = button.dataset.goto as Pane;
-      const tab = pane === "machine" || pane === "translate" ? pane : undefined;
+      const tab = TABS.find((one) => one === pane);
       button.addEventListener("click", () => this.show(tab ?? this.tab, pane));
     }
     this.show("machine", "editor");

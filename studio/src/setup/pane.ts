@@ -1,0 +1,150 @@
+// The set-up: the raw part, and the tools as the compiler knows them. What a user states is a choice of the project, in the
+// form of the command line (`--stock`, `--tool`); what nobody states the compiler guesses, and the guess is marked.
+
+import type { Cut, Tool } from "../engine/part";
+import type { Desk } from "../projects/desk";
+import type { Session } from "../session";
+import { byId, el } from "../ui/dom";
+import { clock, figure, say, type TextName } from "../ui/texts";
+
+/** Shapes that can be stated, and what more can be: its name on the command line and its unit. */
+const SHAPES: [string, TextName, string, string][] = [
+  ["flat", "flat", "", ""],
+  ["ball", "ball", "", ""],
+  ["bull-nose", "bullNose", "corner", "mm"],
+  ["drill", "drill", "angle", "°"],
+  ["chamfer", "chamfer", "angle", "°"],
+  ["taper", "taper", "angle", "°"],
+];
+
+/** Where a diameter comes from. */
+const KNOWN: Record<string, TextName> = {
+  stated: "knownStated",
+  profile: "knownProfile",
+  comment: "knownComment",
+  guess: "guess",
+};
+
+const FORMS = ["guess", "block", "cylinder"] as const;
+type Form = (typeof FORMS)[number];
+
+/** Fields of a form of raw part: their names, in the order of the command line. */
+const FIELDS: Record<Form, string[]> = {
+  guess: [],
+  block: ["X−", "X+", "Y−", "Y+", "Z−", "Z+"],
+  cylinder: ["D", "X", "Y", "Z−", "Z+"],
+};
+
+export class SetupPane {
+  constructor(
+    private readonly session: Session,
+    private readonly desk: Desk,
+  ) {
+    session.path.on(() => this.show());
+    session.project.on(() => this.show());
+  }
+
+  private show(): void {
+    const { cut } = this.session;
+    const host = byId("setup-pane");
+    // A field that somebody types in stays as it is.
+    if (host.contains(document.activeElement) && document.activeElement?.matches("input, select")) {
+      return document.activeElement.addEventListener("blur", () => this.show(), { once: true });
+    }
+    host.replaceChildren(this.raw(cut), this.tools(cut));
+  }
+
+  private raw(cut: Cut | undefined): HTMLElement {
+    const stated = this.session.project.get()?.choices.stock ?? "";
+    const form = !stated ? "guess" : /\bD/.test(stated) ? "cylinder" : "block";
+    const numbers = stated ? numbersOf(stated, form) : [];
+    const list = el("select", { "aria-label": say("rawPart") });
+    list.append(...FORMS.map((one) => el("option", { value: one, selected: one === form }, say(one))));
+    list.addEventListener("change", () => this.stateRaw(beginning(list.value as Form, cut)));
+    const inputs = FIELDS[form].map((name, at) => {
+      const input = el("input", { type: "number", step: "any", value: numbers[at] ?? 0, "aria-label": `${say("rawPart")} ${name}` });
+      input.addEventListener("change", () => this.stateRaw(statedRaw(form, inputs.map((one) => one.valueAsNumber || 0))));
+      return input;
+    });
+    const fields = inputs.map((input, at) => el("label", {}, FIELDS[form][at] ?? "", input));
+    const { raw } = cut ?? {};
+    const size = raw ? raw.high.map((high, axis) => figure(high - (raw.low[axis] ?? 0), 1)).join(" × ") : "–";
+    const row = el("div", { class: "fields" }, list, ...fields, el("span", { class: "dim" }, `${size} mm`));
+    const removed = el("p", { class: "dim" }, cut ? `${say("removed")}: ${figure(cut.removed / 1000, 2)} cm³` : "");
+    return el("section", {}, el("h2", {}, say("rawPart")), row, removed);
+  }
+
+  private stateRaw(stock: string): void {
+    void this.desk.choose((project) => (project.choices.stock = stock));
+  }
+
+  private tools(cut: Cut | undefined): HTMLElement {
+    const names: TextName[] = ["tool", "shape", "diameter", "detail", "knownBy", "time", "removed"];
+    const head = el("tr", {}, ...names.map((name) => el("th", { scope: "col" }, say(name))));
+    const rows = (cut?.tools ?? []).map((tool, at) => this.tool(tool, at));
+    const table = el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows));
+    return el("section", {}, el("h2", {}, say("tools")), el("div", { class: "wide-table" }, table));
+  }
+
+  private tool(tool: Tool, at: number): HTMLElement {
+    const { number } = tool;
+    const name = number === null ? "–" : `T${number}`;
+    const stated = this.session.project.get()?.choices.tools[String(number)] ?? "";
+    const detail = /=([\d.]+)/.exec(stated)?.[1] ?? "";
+    const disabled = number === null;
+    const shape = el("select", { "aria-label": `${say("shape")} ${name}`, disabled });
+    const known = SHAPES.some(([own]) => own === tool.shape) ? SHAPES : [...SHAPES, [tool.shape, "shape", "", ""] as const];
+    shape.append(...known.map(([own, text]) => el("option", { value: own, selected: own === tool.shape }, text === "shape" ? own : say(text))));
+    const field = (label: TextName, value: string) =>
+      el("input", { type: "number", min: 0, step: "any", value, "aria-label": `${say(label)} ${name}`, disabled });
+    const diameter = field("diameter", String(Number(tool.diameter.toFixed(3))));
+    const more = field("detail", detail);
+    const [, , option, unit] = SHAPES.find(([own]) => own === tool.shape) ?? ["", "", "", ""];
+    more.hidden = !option;
+    const state = () => {
+      const key = SHAPES.find(([own]) => own === shape.value)?.[2];
+      const extra = key && more.value && shape.value === tool.shape ? `,${key}=${more.value}` : "";
+      const text = diameter.value ? `${shape.value},${diameter.value}${extra}` : "";
+      void this.desk.choose(({ choices }) => {
+        if (text) choices.tools[String(number)] = text;
+        else delete choices.tools[String(number)];
+      });
+    };
+    for (const input of [shape, diameter, more]) input.addEventListener("change", state);
+    const dot = el("i", { class: `band band-${at % 8}` });
+    const guessed = tool.known === "guess";
+    return el(
+      "tr",
+      {},
+      el("th", { scope: "row" }, dot, name),
+      el("td", {}, shape),
+      el("td", {}, diameter, " mm"),
+      el("td", {}, more, option ? ` ${unit}` : ""),
+      el("td", { class: guessed ? "guess" : "" }, say(KNOWN[tool.known] ?? "guess")),
+      el("td", { class: "figure" }, clock(tool.cutting)),
+      el("td", { class: "figure" }, `${figure(tool.removed / 1000, 2)} cm³`),
+    );
+  }
+}
+
+/** A stated raw part that begins as the guessed one. */
+function beginning(form: Form, cut: Cut | undefined): string {
+  const { low, high } = cut?.raw ?? { low: [0, 0, -20], high: [100, 100, 0] };
+  const [x0, y0, z0] = low as [number, number, number];
+  const [x1, y1, z1] = high as [number, number, number];
+  if (form === "block") return statedRaw(form, [x0, x1, y0, y1, z0, z1]);
+  const across = Math.hypot(x1 - x0, y1 - y0);
+  return form === "cylinder" ? statedRaw(form, [across, (x0 + x1) / 2, (y0 + y1) / 2, z0, z1]) : "";
+}
+
+/** As `--stock` has it. */
+function statedRaw(form: Form, numbers: number[]): string {
+  const [a, b, c, d, e, f] = numbers.map((value) => Number(value.toFixed(3)));
+  if (form === "block") return `X${a}:${b} Y${c}:${d} Z${e}:${f}`;
+  return form === "cylinder" ? `D${a} X${b} Y${c} Z${d}:${e}` : "";
+}
+
+function numbersOf(stated: string, form: Form): number[] {
+  const found = [...stated.matchAll(/-?[\d.]+/g)].map(([text]) => Number(text));
+  return found.slice(0, FIELDS[form].length);
+}
