@@ -17,6 +17,7 @@
 
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
+mod program;
 pub mod request;
 mod simulate;
 mod verbs;

@@ -36,11 +36,15 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ncc-machines",
             "ncc-passes",
             "ncc-plot",
+            "ncc-simulate",
             "ncc-diff",
             "ncc-time",
         ],
     ),
-    ("engine", &["ncc-backends", "ncc-dialects", "ncc-driver", "ncc-ir", "ncc-machines", "ncc-time"]),
+    (
+        "engine",
+        &["ncc-backends", "ncc-dialects", "ncc-driver", "ncc-ir", "ncc-machines", "ncc-simulate", "ncc-time"],
+    ),
 ];
 
 /// Rooms of the crates that read and write: each, and what it may name of its neighbours.
