@@ -96,7 +96,7 @@ pub(crate) fn chords(
 }
 
 fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3]) {
-    let pieces = ((to[0] - from[0]).hypot(to[1] - from[1]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
+    let pieces = (distance([from[0], from[1]], [to[0], to[1]]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
     let point = |i: usize| match i == pieces {
         true => to,
         false => {
@@ -109,6 +109,12 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3
             line.sweep(cells, band);
         }
     }
+}
+
+/// The distance of two places. Not by `f64::hypot`, which is a slow call that reckons with numbers that no machine has.
+fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
+    let [x, y] = [other[0] - one[0], other[1] - one[1]];
+    (x * x + y * y).sqrt()
 }
 
 /// A straight way of the tip, seen from above.
@@ -125,7 +131,7 @@ struct Line {
 impl Line {
     fn new(from: [f64; 3], to: [f64; 3]) -> Line {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
-        let length = x.hypot(y);
+        let length = distance([from[0], from[1]], [to[0], to[1]]);
         if length < 1e-9 {
             // Straight down or up: what counts is the lower end.
             let low = [from[0], from[1], from[2].min(to[2])];
@@ -134,103 +140,210 @@ impl Line {
         Line { from, to, along: [x / length, y / length], length, rise: (to[2] - from[2]) / length }
     }
 
-    /// Where a row is within a distance of the line.
-    fn within(&self, y: f64, radius: f64) -> Option<[f64; 2]> {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for end in [&self.from, &self.to] {
-            let off = y - end[1];
-            let half = radius * radius - off * off;
-            if half >= 0.0 {
-                let half = half.sqrt();
-                low = low.min(end[0] - half);
-                high = high.max(end[0] + half);
+    /// The surface that a band leaves.
+    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
+        let low = self.low();
+        let (floor, bottom) = ((self.from[2] + band.base) as f32, (low[2] + band.base) as f32);
+        let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
+        let own = |at| Sloped { at, floor, rise, outer };
+        match band.form {
+            Form::Flat if rise == 0.0 => self.rows(cells, band, |_| Level(floor), |_| Level(bottom)),
+            Form::Flat => self.rows(cells, band, |at| Flat(own(at)), |_| Level(bottom)),
+            Form::Round(radius) if band.inner == 0.0 => {
+                let ahead = rise / (1.0 + rise * rise).sqrt();
+                let (radius, square) = (radius as f32, (radius * radius) as f32);
+                let top = bottom + radius;
+                let ball = |at| Ball { own: own(at), radius, square, ahead };
+                self.rows(cells, band, ball, |around| BallAt { around, top, square });
             }
-        }
-        let [ux, uy] = self.along;
-        if self.length > 0.0 && uy != 0.0 {
-            for side in [radius, -radius] {
-                // The parallel through (from + side · normal).
-                let part = (y - self.from[1] - side * ux) / uy;
-                if (0.0..=self.length).contains(&part) {
-                    let x = self.from[0] - side * uy + part * ux;
-                    low = low.min(x);
-                    high = high.max(x);
+            Form::Round(radius) => {
+                let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
+                let end = |around| RoundAt { around, floor: bottom, round };
+                match rise == 0.0 {
+                    true => self.rows(cells, band, |at| LevelRound { own: own(at), round }, end),
+                    false => self.rows(cells, band, |at| SlopedRound { own: own(at), round }, end),
                 }
             }
+            Form::Cone(slope) => {
+                let slope = slope as f32;
+                let steep = rise.abs() >= slope;
+                let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
+                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
+                let beside = if steep { sense } else { 0.0 };
+                let cone = |at| Cone { own: own(at), slope, inner, ahead, beside, sense };
+                self.rows(cells, band, cone, |around| ConeAt { around, floor: bottom, slope, inner });
+            }
         }
-        (low <= high).then_some([low, high])
     }
 
-    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
+    /// Goes over the rows that a band touches, with the surface of the way, and with that of its low end where this one
+    /// counts.
+    #[inline(always)]
+    fn rows<W: Surface, E: Surface>(
+        &self,
+        cells: &mut impl Cells,
+        band: &Band,
+        way: impl Fn(Across) -> W,
+        end: impl Fn(Around) -> E,
+    ) {
         let grid = cells.grid();
         let radius = band.outer;
         let [columns, rows] = [0, 1].map(|axis| {
             let [one, other] = [self.from[axis], self.to[axis]];
-            grid.between(axis, one.min(other) - radius, one.max(other) + radius)
+            grid.between(axis, least(one, other) - radius, most(one, other) + radius)
         });
         if columns.is_empty() || rows.is_empty() {
             return;
         }
         cells.reaches(&rows, &columns);
+        let [ux, uy] = self.along;
+        let (ds, dd, length) = ((grid.cell * ux) as f32, (-grid.cell * uy) as f32, self.length as f32);
+        let across = |row, column| {
+            let off = [grid.centre(0, column) - self.from[0], grid.centre(1, row) - self.from[1]];
+            let (s, d) = ((off[0] * ux + off[1] * uy) as f32, (off[1] * ux - off[0] * uy) as f32);
+            Across { s, d, ds, dd, length }
+        };
+        let reach = Reach::new(self, radius);
         for row in rows {
             let y = grid.centre(1, row);
-            let Some([left, right]) = self.within(y, radius) else { continue };
+            let [left, right] = reach.at(y);
             let columns = grid.between(0, left, right);
             if columns.is_empty() {
                 continue;
             }
-            let off = [grid.centre(0, columns.start) - self.from[0], y - self.from[1]];
-            let [ux, uy] = self.along;
-            let at = Across {
-                s: (off[0] * ux + off[1] * uy) as f32,
-                d: (off[1] * ux - off[0] * uy) as f32,
-                ds: (grid.cell * ux) as f32,
-                dd: (-grid.cell * uy) as f32,
-                length: self.length as f32,
-            };
-            self.band(cells, band, row, columns, at);
+            if self.rise == 0.0 || columns.len() <= SHORT {
+                let first = columns.start;
+                cells.row(row, columns, &way(across(row, first)));
+                continue;
+            }
+            let [low, high] = self.of_low_end(y, band, [left, right]);
+            let own = grid.between(0, low, high);
+            let own = own.start.clamp(columns.start, columns.end)..own.end.clamp(columns.start, columns.end);
+            let own = if own.is_empty() { columns.start..columns.start } else { own };
+            if !own.is_empty() {
+                let low = self.low();
+                let off = y - low[1];
+                let x = (grid.centre(0, own.start) - low[0]) as f32;
+                let around = Around { x, dx: grid.cell as f32, y2: (off * off) as f32 };
+                cells.row(row, own.clone(), &end(around));
+            }
+            for columns in [columns.start..own.start, own.end..columns.end] {
+                if !columns.is_empty() {
+                    let first = columns.start;
+                    cells.row(row, columns, &way(across(row, first)));
+                }
+            }
         }
     }
 
-    /// The surface of a band over some cells of a row.
-    fn band(&self, cells: &mut impl Cells, band: &Band, row: usize, columns: Range<usize>, at: Across) {
-        let own = Sloped {
-            at,
-            floor: (self.from[2] + band.base) as f32,
-            rise: self.rise as f32,
-            outer: (band.outer * band.outer) as f32,
+    /// The end where the tip is lowest.
+    fn low(&self) -> &[f64; 3] {
+        if self.rise > 0.0 { &self.from } else { &self.to }
+    }
+
+    /// Where a row of the way is cut lowest from the low end: behind that end, as the way rises, and under what is level of
+    /// the tool there. Not all such places need to be among these. The first is greater than the second where there are none.
+    #[inline(always)]
+    fn of_low_end(&self, y: f64, band: &Band, [left, right]: [f64; 2]) -> [f64; 2] {
+        let [x, at, _] = *self.low();
+        let off = y - at;
+        let sense = if self.rise < 0.0 { -1.0 } else { 1.0 };
+        let [ux, uy] = [self.along[0] * sense, self.along[1] * sense];
+        // Behind is where (place - end) · direction is below zero.
+        let behind = if ux > 1e-9 {
+            [left, least(right, x - off * uy / ux)]
+        } else if ux < -1e-9 {
+            [most(left, x - off * uy / ux), right]
+        } else if off * uy <= 0.0 {
+            [left, right]
+        } else {
+            [right, left]
         };
-        let inner = band.inner as f32;
-        match band.form {
-            Form::Flat if self.rise == 0.0 => cells.row(row, columns, &Level(own.floor)),
-            Form::Flat => cells.row(row, columns, &Flat(own)),
-            Form::Round(radius) if band.inner == 0.0 => {
-                let ahead = own.rise / (1.0 + own.rise * own.rise).sqrt();
-                cells.row(
-                    row,
-                    columns,
-                    &Ball { own, radius: radius as f32, square: (radius * radius) as f32, ahead },
-                );
-            }
-            Form::Round(radius) => {
-                let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
-                match self.rise == 0.0 {
-                    true => cells.row(row, columns, &LevelRound { own, round }),
-                    false => cells.row(row, columns, &SlopedRound { own, round }),
-                }
-            }
-            Form::Cone(slope) => {
-                let (slope, rise) = (slope as f32, own.rise);
-                let steep = rise.abs() >= slope;
-                let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
-                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
-                cells.row(
-                    row,
-                    columns,
-                    &Cone { own, slope, inner, ahead, beside: if steep { sense } else { 0.0 }, sense },
-                );
+        let half = band.inner * band.inner - off * off;
+        if half <= 0.0 {
+            return behind;
+        }
+        let half = half.sqrt();
+        let level = [x - half, x + half];
+        if behind[0] > behind[1] {
+            return level;
+        }
+        match level[0] <= behind[1] && level[1] >= behind[0] {
+            true => [least(behind[0], level[0]), most(behind[1], level[1])],
+            false => behind,
+        }
+    }
+}
+
+/// Rows with so few cells are worked on as a whole.
+const SHORT: usize = 8;
+
+/// The lesser of two numbers: none of them is no number, which `f64::min` must ask.
+#[inline(always)]
+fn least(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// The greater of two numbers.
+#[inline(always)]
+fn most(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+/// Where rows are within a distance of a line.
+struct Reach {
+    from: [f64; 2],
+    to: [f64; 2],
+    square: f64,
+    /// For both parallels: X where they begin, and how far along the line a row at the line's start is.
+    parallels: [[f64; 2]; 2],
+    /// X of a mm along the line.
+    ux: f64,
+    /// Along the line, of a mm along Y; 0 where it has none.
+    per_y: f64,
+    length: f64,
+}
+
+impl Reach {
+    fn new(line: &Line, radius: f64) -> Reach {
+        let [ux, uy] = line.along;
+        let per_y = if line.length > 0.0 && uy != 0.0 { 1.0 / uy } else { 0.0 };
+        let parallel = |side: f64| [line.from[0] - side * uy, -side * ux * per_y];
+        Reach {
+            from: [line.from[0], line.from[1]],
+            to: [line.to[0], line.to[1]],
+            square: radius * radius,
+            parallels: [parallel(radius), parallel(-radius)],
+            ux,
+            per_y,
+            length: line.length,
+        }
+    }
+
+    /// The first is greater than the second where a row is not.
+    #[inline(always)]
+    fn at(&self, y: f64) -> [f64; 2] {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let off = y - self.from[1];
+        for (end, off) in [(self.from[0], off), (self.to[0], y - self.to[1])] {
+            let half = self.square - off * off;
+            if half >= 0.0 {
+                let half = half.sqrt();
+                low = least(low, end - half);
+                high = most(high, end + half);
             }
         }
+        if self.per_y != 0.0 {
+            for [x, begin] in self.parallels {
+                let part = begin + off * self.per_y;
+                if part >= 0.0 && part <= self.length {
+                    let x = x + part * self.ux;
+                    low = least(low, x);
+                    high = most(high, x);
+                }
+            }
+        }
+        [low, high]
     }
 }
 
@@ -251,6 +364,67 @@ impl Sloped {
     #[inline(always)]
     fn half(&self, d: f32x4) -> f32x4 {
         not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
+    }
+}
+
+/// Where the cells of a row are around a place.
+#[derive(Clone, Copy)]
+struct Around {
+    x: f32,
+    dx: f32,
+    y2: f32,
+}
+
+impl Around {
+    /// Squares of their distances.
+    #[inline(always)]
+    fn squares(&self, i: f32x4) -> f32x4 {
+        let x = i * self.dx + self.x;
+        x * x + self.y2
+    }
+}
+
+/// A ball that stands at a place.
+struct BallAt {
+    around: Around,
+    /// Its centre.
+    top: f32,
+    square: f32,
+}
+
+impl Surface for BallAt {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        f32x4::splat(self.top) - not_below_zero(f32x4::splat(self.square) - self.around.squares(i)).sqrt()
+    }
+}
+
+/// Round corners that stand at a place.
+struct RoundAt {
+    around: Around,
+    floor: f32,
+    round: Round,
+}
+
+impl Surface for RoundAt {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        self.round.height(self.around.squares(i)) + self.floor
+    }
+}
+
+/// A cone that stands at a place.
+struct ConeAt {
+    around: Around,
+    floor: f32,
+    slope: f32,
+    inner: f32,
+}
+
+impl Surface for ConeAt {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        not_below_zero(self.around.squares(i).sqrt() - self.inner) * self.slope + self.floor
     }
 }
 
@@ -292,12 +466,18 @@ impl Surface for Ball {
     fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.own;
         let (s, d) = own.at.of(i);
-        let most = own.half(d);
-        let free = not_below_zero(f32x4::splat(self.square) - d * d).sqrt() * self.ahead;
-        let t = own.at.clamped(s - between(free, -most, most));
+        let left = f32x4::splat(self.square) - d * d;
+        let free = not_below_zero(left).sqrt() * self.ahead;
+        // Of a whole ball it is never as much as its half.
+        let free = if self.square > own.outer {
+            let most = own.half(d);
+            between(free, -most, most)
+        } else {
+            free
+        };
+        let t = own.at.clamped(s - free);
         let e = s - t;
-        t * own.rise + (own.floor + self.radius)
-            - not_below_zero(f32x4::splat(self.square) - d * d - e * e).sqrt()
+        t * own.rise + (own.floor + self.radius) - not_below_zero(left - e * e).sqrt()
     }
 }
 
