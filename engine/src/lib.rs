@@ -15,6 +15,7 @@
 //! [`request`] has the form of a request, `verbs` does it, and [`interface`] are the same steps as five C functions.
 //! The codes are the exit codes of the command line. Not here: any work of the compiler (`ncc_driver`).
 
+mod colours;
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
 mod program;

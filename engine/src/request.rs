@@ -27,6 +27,10 @@ pub enum Request {
     Verify(Two),
     /// Explains a message. Output: `output`, the page.
     Explain(Explain),
+    /// Tells what an editor colours of some lines. Output: `document`, as `colours` has it.
+    Colours(Colours),
+    /// Lists the machines that come with ncc. Output: `document`, a list of objects with `id`, `title` and `dialect`.
+    Machines(Nothing),
     /// Executes a program. Outputs: `path`, its moves as columns of numbers (`ncc_driver::simulate::columns`), `messages`.
     Path(One),
     /// Cuts a program. Outputs: `document` (as of `ncc simulate --json`), `path`, and of the part at the end `heights` and
@@ -47,6 +51,21 @@ pub enum Request {
 pub struct Explain {
     /// Its code: `NC0107`.
     pub code: String,
+}
+
+/// Lines of a program.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Colours {
+    /// The name of its file.
+    pub file: String,
+    /// Its dialect; without, or with `auto`, it is recognised, and one of no dialect is coloured as word-address text.
+    #[serde(default)]
+    pub from: Option<String>,
+    /// The first line, counted from 1.
+    pub first: usize,
+    /// How many lines.
+    pub lines: usize,
 }
 
 /// No fields.

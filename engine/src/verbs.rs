@@ -1,11 +1,13 @@
 //! Requests done: each verb is a few calls of the driver, and outputs by name.
 
-use std::io::{self};
+use std::io;
 use std::path::PathBuf;
 
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_backends::Layout;
+use ncc_dialects::Settings;
 use ncc_driver::check::{self, told};
+use ncc_driver::guess::recognise;
 use ncc_driver::job::initial_variables::{self, InitialVariables};
 use ncc_driver::job::options::choose;
 use ncc_driver::job::{Job, file_per_tool};
@@ -30,8 +32,9 @@ use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 use ncc_time::Model;
 
+use crate::colours;
 use crate::program::{Files, InMemory, Outputs, named, open, pairs, profile, settings, side};
-use crate::request::{Explain, One, Request, Translate, Two};
+use crate::request::{Colours, Explain, One, Request, Translate, Two};
 use crate::simulate::{self, Kept};
 
 /// Does a request.
@@ -66,6 +69,15 @@ fn verb(
             Some(page) => Ok((Exit::Done, vec![("output", page.as_bytes().to_vec())])),
             None => Err(RequestFault::NoMessage(code.clone()).into()),
         },
+        Request::Colours(asked) => coloured(asked, files),
+        Request::Machines(_) => {
+            let machine = |profile: &Profile| {
+                let title = &profile.schema.title;
+                serde_json::json!({ "id": profile.id(), "title": title, "dialect": profile.dialect.id })
+            };
+            let all: Vec<_> = ncc_machines::shipped().iter().map(machine).collect();
+            Ok((Exit::Done, vec![("document", serde_json::to_vec_pretty(&all).unwrap_or_default())]))
+        }
         Request::Path(one) => simulate::path(one, files, messages),
         Request::Simulate(asked) => simulate::simulate(asked, files, kept, messages),
         Request::Seek(asked) => simulate::seek(*asked, kept),
@@ -156,6 +168,22 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         outputs.insert(0, ("output", outcome.output.to_vec().map_err(cannot)?));
     }
     Ok((outcome.exit(), outputs))
+}
+
+fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("read", &asked.file, &e);
+    let mut source = open(&asked.file, true, files, &mut Buffer::no_color())?;
+    let dialect = match named(asked.from.as_deref())? {
+        Some(dialect) => dialect,
+        None => {
+            let all: Vec<_> = ncc_dialects::builtins().collect();
+            let found = recognise(&mut source, &all).ok().map(|found| found.dialect).or_else(colours::any);
+            found.ok_or(RequestFault::NoTarget)?
+        }
+    };
+    let document =
+        colours::document(Settings::new(dialect), &mut source, asked.first, asked.lines).map_err(cannot)?;
+    Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }
 
 fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {

@@ -162,3 +162,44 @@ fn a_part_is_shown_after_any_move() {
         assert!(code > 1, "{wrong}: {}", text(&engine, "messages"));
     }
 }
+
+#[test]
+fn words_have_colours_whatever_they_mean() {
+    let coloured = |text: &str, request: &str| {
+        let (code, engine) = done(&[("part.nc", text)], request);
+        assert_eq!(code, 0, "{}", self::text(&engine, "messages"));
+        serde_json::from_str::<serde_json::Value>(&self::text(&engine, "document")).expect("JSON")
+    };
+    let kinds = |document: &serde_json::Value| -> Vec<String> {
+        let numbers: Vec<usize> = document["stretches"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|n| n.as_u64().expect("a number") as usize)
+            .collect();
+        let told = |one: &[usize]| {
+            format!(
+                "{}:{}-{} {}",
+                one[0],
+                one[1],
+                one[2],
+                document["kinds"][one[3]].as_str().expect("a name")
+            )
+        };
+        numbers.chunks(4).map(told).collect()
+    };
+    let text = "%\nN10 G01 X-20.5 (é SLOT) F100\n#1=[SIN[30]]\n";
+    let request = r#"{ "verb": "colours", "file": "part.nc", "from": "fanuc", "first": 2, "lines": 1 }"#;
+    let expected = ["2:0-3 block-number", "2:4-7 code-g", "2:8-14 axis", "2:15-23 comment", "2:24-28 feed"];
+    assert_eq!(kinds(&coloured(text, request)), expected);
+    // No dialect is recognised in one word, and it has its colour.
+    let request = r#"{ "verb": "colours", "file": "part.nc", "first": 1, "lines": 9 }"#;
+    assert_eq!(kinds(&coloured("G1", request)), ["1:0-2 code-g"]);
+}
+
+#[test]
+fn machines_are_listed_with_their_dialects() {
+    let (code, engine) = done(&[], r#"{ "verb": "machines" }"#);
+    assert_eq!(code, 0);
+    assert!(text(&engine, "document").contains("\"haas-vf2\""));
+}

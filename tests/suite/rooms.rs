@@ -43,7 +43,16 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     (
         "engine",
-        &["ncc-backends", "ncc-dialects", "ncc-driver", "ncc-ir", "ncc-machines", "ncc-simulate", "ncc-time"],
+        &[
+            "ncc-backends",
+            "ncc-dialects",
+            "ncc-driver",
+            "ncc-frontends",
+            "ncc-ir",
+            "ncc-machines",
+            "ncc-simulate",
+            "ncc-time",
+        ],
     ),
 ];
 

@@ -1,0 +1,37 @@
+// Which host the page has: the binary that serves it says so in the page's head; a static page has a worker.
+//
+// There are two engines: one for what the eye waits for (colours), one for work that takes its time and is given up
+// where newer work takes its place.
+
+import type { Engine } from "./engine";
+import { Loopback } from "./loopback";
+import { WorkerHost, load } from "./worker-host";
+
+export interface Engines {
+  quick: Engine;
+  heavy: Engine;
+}
+
+const WARM = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG1 X1. F100.\nM30\n%\n";
+
+/** The engines, warm: browsers compile a function when it first runs. */
+export async function openEngines(): Promise<Engines> {
+  const host = document.querySelector<HTMLMetaElement>('meta[name="ncc-host"]')?.content;
+  if (host === "loopback") {
+    const token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
+    return { quick: new Loopback(token, "quick"), heavy: new Loopback(token, "heavy") };
+  }
+  const module = await load("engine.wasm");
+  const [quick, heavy] = [new WorkerHost(module, "worker.js"), new WorkerHost(module, "worker.js")];
+  const bytes = new TextEncoder().encode(WARM);
+  const file = "warm.nc";
+  for (const engine of [quick, heavy]) engine.put(file, bytes);
+  const warm = [
+    quick.run({ verb: "colours", file, first: 1, lines: 9 }),
+    heavy.run({ verb: "check", file, from: "fanuc" }),
+    heavy.run({ verb: "simulate", file, from: "fanuc", cells: 16 }),
+  ];
+  // What goes wrong here goes wrong again with the program, and is told then.
+  warm.forEach((one) => void one.catch(() => undefined));
+  return { quick, heavy };
+}

@@ -1,0 +1,128 @@
+// The moves of a program as columns, each a typed array: what the verbs `path` and `simulate` give. Never one object a move.
+//
+//     {"pieces":2,"columns":[{"name":"t0","type":"f64","offset":0},…]}    a line of JSON, then the columns
+//
+// Offsets count from the byte behind the line. A piece is a straight move, or as much of an arc as a picture needs. Lengths
+// are mm in coordinates of the part, times seconds, feeds mm/min, speeds rev/min.
+
+/** Kinds of pieces. */
+export const enum Kind {
+  Rapid = 0,
+  Feed = 1,
+  /** A piece of an arc, clockwise. */
+  Clockwise = 2,
+  /** A piece of an arc, counter-clockwise. */
+  Counterclockwise = 3,
+  /** A rapid move to where nobody knows how high the tool is. */
+  Away = 4,
+}
+
+/** Names and types of the columns. */
+const COLUMNS = {
+  kind: Uint8Array,
+  /** Counted from 1; 0 if not known. */
+  line: Uint32Array,
+  /** Number of the move, counted from 1. */
+  move: Uint32Array,
+  x0: Float32Array,
+  y0: Float32Array,
+  z0: Float32Array,
+  x1: Float32Array,
+  y1: Float32Array,
+  z1: Float32Array,
+  t0: Float64Array,
+  t1: Float64Array,
+  feed: Float32Array,
+  speed: Float32Array,
+  /** Place of the tool in the list of tools. */
+  tool: Uint16Array,
+};
+
+type Columns = { readonly [Name in keyof typeof COLUMNS]: InstanceType<(typeof COLUMNS)[Name]> };
+
+/** The pieces, in the order of their times. */
+export interface Path extends Columns {
+  readonly pieces: number;
+  /** When the last one is over. */
+  readonly seconds: number;
+  /** Corners of the box around what cuts, or around all where nothing does. */
+  readonly box: Box;
+}
+
+export interface Box {
+  readonly low: readonly [number, number, number];
+  readonly high: readonly [number, number, number];
+}
+
+interface Head {
+  pieces: number;
+  columns: { name: string; type: string; offset: number }[];
+}
+
+/** Whether a kind does not cut. */
+export function isRapid(kind: number | undefined): boolean {
+  return kind === Kind.Rapid || kind === Kind.Away;
+}
+
+/** Reads the output `path`. */
+export function readPath(bytes: Uint8Array): Path {
+  const end = bytes.indexOf(10);
+  const head = JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))) as Head;
+  const found: Record<string, unknown> = {};
+  for (const [name, Type] of Object.entries(COLUMNS)) {
+    const column = head.columns.find((one) => one.name === name);
+    if (!column) throw new Error(`path: no column ${name}`);
+    const at = end + 1 + column.offset;
+    // A copy begins where its type may.
+    found[name] = new Type(bytes.slice(at, at + head.pieces * Type.BYTES_PER_ELEMENT).buffer);
+  }
+  const columns = found as unknown as Columns;
+  const seconds = head.pieces > 0 ? (columns.t1[head.pieces - 1] ?? 0) : 0;
+  return { ...columns, pieces: head.pieces, seconds, box: boxOf(columns, head.pieces) };
+}
+
+function boxOf(columns: Columns, pieces: number): Box {
+  const low: [number, number, number] = [Infinity, Infinity, Infinity];
+  const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+  const cuts = columns.kind.some((kind) => !isRapid(kind));
+  const sides = [
+    [columns.x0, columns.x1],
+    [columns.y0, columns.y1],
+    [columns.z0, columns.z1],
+  ] as const;
+  for (const [axis, [from, to]] of sides.entries()) {
+    for (let at = 0; at < pieces; at += 1) {
+      if (cuts && isRapid(columns.kind[at])) continue;
+      const [a, b] = [from[at] ?? 0, to[at] ?? 0];
+      low[axis] = Math.min(low[axis] as number, a, b);
+      high[axis] = Math.max(high[axis] as number, a, b);
+    }
+  }
+  return pieces > 0 ? { low, high } : { low: [0, 0, 0], high: [100, 100, 0] };
+}
+
+/** The piece at a time: the last that has begun; -1 before all. */
+export function pieceAt(path: Path, time: number): number {
+  let [low, high] = [0, path.pieces];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((path.t0[middle] as number) <= time) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/** How much of a piece is done at a time, 0 to 1. */
+export function shareAt(path: Path, piece: number, time: number): number {
+  const [from, to] = [path.t0[piece] ?? 0, path.t1[piece] ?? 0];
+  return to > from ? Math.min(1, Math.max(0, (time - from) / (to - from))) : 1;
+}
+
+/** First and last piece of the first pass through a line; nothing where it moves nothing. */
+export function piecesOf(path: Path, line: number): [number, number] | undefined {
+  const first = path.line.indexOf(line);
+  if (first < 0) return undefined;
+  let last = first;
+  while (last + 1 < path.pieces && path.line[last + 1] === line) last += 1;
+  return [first, last];
+}

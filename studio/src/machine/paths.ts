@@ -1,0 +1,181 @@
+// The moves of a path as drawings: a texture and a mesh without vertices for each million of moves.
+
+import {
+  BufferGeometry,
+  Color,
+  DataTexture,
+  FloatType,
+  GLSL3,
+  Group,
+  LineSegments,
+  Mesh,
+  NearestFilter,
+  RGBAFormat,
+  RawShaderMaterial,
+  DoubleSide,
+  Vector2,
+  Vector3,
+  Vector4,
+  type IUniform,
+} from "three";
+import { isRapid, type Path } from "../engine/path";
+import { CHUNK, FRAGMENT, PICK, ROW, TEXELS, VERTEX } from "./shaders";
+
+/** What lines of some width are drawn up to; more moves are lines of the device, a third of the work. */
+const WIDE = 300_000;
+
+export type Colouring = "kind" | "tool" | "feed" | "depth";
+const COLOURINGS: Colouring[] = ["kind", "tool", "feed", "depth"];
+
+/** Uniforms that all pieces have in common. */
+function shared(): Record<string, IUniform> {
+  return {
+    now: { value: -1 },
+    share: { value: 0 },
+    size: { value: new Vector2(1, 1) },
+    width: { value: 1.6 },
+    marked: { value: new Vector2(-1, -1) },
+    shown: { value: 15 },
+    future: { value: 1 },
+    kinds: { value: [0, 1, 2, 3].map(() => new Color()) },
+    tools: { value: Array.from({ length: 8 }, () => new Color()) },
+    mark: { value: new Color() },
+    ground: { value: new Color() },
+    colouring: { value: 0 },
+    range: { value: new Vector4(0, 1, 0, 1) },
+  };
+}
+
+export class Paths {
+  /** What is seen, and what a pointer is looked up in. */
+  readonly drawn = new Group();
+  readonly pick = new Group();
+  private readonly uniforms = shared();
+  private readonly pickUniforms = shared();
+
+  set(path: Path | undefined): void {
+    this.clear();
+    if (!path || path.pieces === 0) return;
+    this.uniforms.range!.value = ranges(path);
+    const wide = path.pieces <= WIDE;
+    this.uniforms.width!.value = wide ? 1.6 : 0;
+    this.pickUniforms.width!.value = wide ? 7 : 0;
+    for (let base = 0; base < path.pieces; base += CHUNK) {
+      const moves = Math.min(CHUNK, path.pieces - base);
+      const texture = textureOf(path, base, moves);
+      this.drawn.add(piece(texture, base, moves, wide, this.uniforms, FRAGMENT));
+      this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
+    }
+  }
+
+  setNow(move: number, share: number): void {
+    this.uniforms.now!.value = this.pickUniforms.now!.value = move;
+    this.uniforms.share!.value = share;
+  }
+
+  setMarked(first: number, last: number): void {
+    this.uniforms.marked!.value.set(first, last);
+  }
+
+  setShown(bits: number, future: boolean): void {
+    this.uniforms.shown!.value = this.pickUniforms.shown!.value = bits;
+    this.uniforms.future!.value = this.pickUniforms.future!.value = Number(future);
+  }
+
+  setColouring(by: Colouring): void {
+    this.uniforms.colouring!.value = COLOURINGS.indexOf(by);
+  }
+
+  setSize(width: number, height: number, ratio: number): void {
+    this.uniforms.size!.value.set(width / ratio, height / ratio);
+  }
+
+  setPickSize(pixels: number): void {
+    this.pickUniforms.size!.value.set(pixels, pixels);
+  }
+
+  /** Colours, by the names of the page's variables. */
+  setInks(ink: (name: string) => Color): void {
+    const kinds = ["rapid", "feed", "clockwise", "counterclockwise"].map((name) => ink(`--c-move-${name}`));
+    this.uniforms.kinds!.value = kinds;
+    this.uniforms.tools!.value = Array.from({ length: 8 }, (_, at) => ink(`--c-tool-${at}`));
+    this.uniforms.mark!.value = ink("--c-move-marked");
+    this.uniforms.ground!.value = ink("--ground");
+  }
+
+  private clear(): void {
+    for (const group of [this.drawn, this.pick]) {
+      for (const child of [...group.children] as Mesh<BufferGeometry, RawShaderMaterial>[]) {
+        (child.material.uniforms.moves?.value as DataTexture).dispose();
+        child.material.dispose();
+        child.geometry.dispose();
+        group.remove(child);
+      }
+    }
+  }
+}
+
+function textureOf(path: Path, base: number, moves: number): DataTexture {
+  const rows = Math.ceil(moves / ROW);
+  const data = new Float32Array(rows * ROW * TEXELS * 4);
+  for (let own = 0; own < moves; own += 1) {
+    const [at, to] = [base + own, own * TEXELS * 4];
+    data[to] = path.x0[at] as number;
+    data[to + 1] = path.y0[at] as number;
+    data[to + 2] = path.z0[at] as number;
+    data[to + 3] = path.kind[at] as number;
+    data[to + 4] = path.x1[at] as number;
+    data[to + 5] = path.y1[at] as number;
+    data[to + 6] = path.z1[at] as number;
+    data[to + 7] = path.line[at] as number;
+    data[to + 8] = path.tool[at] as number;
+    data[to + 9] = path.feed[at] as number;
+    data[to + 10] = path.t0[at] as number;
+  }
+  // Without NEAREST, textures of floats read as zeros, and no error says so.
+  const texture = new DataTexture(data, ROW * TEXELS, rows, RGBAFormat, FloatType);
+  texture.minFilter = texture.magFilter = NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function piece(
+  texture: DataTexture,
+  base: number,
+  moves: number,
+  wide: boolean,
+  uniforms: Record<string, IUniform>,
+  fragmentShader: string,
+): Mesh | LineSegments {
+  const geometry = new BufferGeometry();
+  geometry.setDrawRange(0, moves * (wide ? 6 : 2));
+  const material = new RawShaderMaterial({
+    glslVersion: GLSL3,
+    vertexShader: VERTEX,
+    fragmentShader,
+    side: DoubleSide,
+    uniforms: { ...uniforms, moves: { value: texture }, base: { value: base } },
+  });
+  const made = wide ? new Mesh(geometry, material) : new LineSegments(geometry, material);
+  // It has no vertices that a box could be made of.
+  made.frustumCulled = false;
+  return made;
+}
+
+/** Least and greatest feed and height of what cuts. */
+function ranges(path: Path): Vector4 {
+  let [low, high] = [Infinity, -Infinity];
+  for (let at = 0; at < path.pieces; at += 1) {
+    const feed = path.feed[at] as number;
+    if (isRapid(path.kind[at]) || feed <= 0) continue;
+    low = Math.min(low, feed);
+    high = Math.max(high, feed);
+  }
+  const { low: bottom, high: top } = path.box;
+  return new Vector4(low, high, bottom[2], top[2]);
+}
+
+/** A corner of a box as a vector. */
+export function corner(of: readonly [number, number, number]): Vector3 {
+  return new Vector3(...of);
+}

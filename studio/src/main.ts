@@ -1,0 +1,140 @@
+// The page put together: who tells whom.
+
+import { Editor } from "./editor/editor";
+import { ProblemList } from "./editor/problems";
+import { openEngines } from "./engine/host";
+import { MachinePane } from "./machine/pane";
+import { Desk, download } from "./projects/desk";
+import { ProjectsDialog, wireDrop } from "./projects/dialog";
+import { Store, stored } from "./projects/store";
+import { Session } from "./session";
+import { Charts } from "./time/charts";
+import { Player, movesOver } from "./time/player";
+import { Transport } from "./time/transport";
+import { TranslatePane } from "./translate/pane";
+import { ChoiceLists } from "./ui/choice-lists";
+import { byId } from "./ui/dom";
+import { wireKeys } from "./ui/keys";
+import { Panes, fillWords, wireLanguage, wireSplit, wireTheme, wireToggle } from "./ui/layout";
+import { chooseLanguage, say } from "./ui/texts";
+
+const language = chooseLanguage(stored("ncc-language"));
+fillWords();
+wireLanguage(language);
+wireSplit();
+
+const session = new Session();
+const player = new Player();
+let follow = true;
+/** Whether the user put the moment somewhere: then a new path leaves it there. */
+let placed = false;
+
+const editor = new Editor(byId("editor"), {
+  label: say("program"),
+  colours: (doc, first, lines) => {
+    const from = session.project.get()?.choices.from ?? "auto";
+    return session.colours(doc, from === "auto" ? session.dialect.get() || from : from, first, lines);
+  },
+  changed: () => {
+    desk.changed();
+    session.change();
+  },
+  cursor: (line) => machine.mark(line),
+});
+const desk = new Desk(await Store.open(), session, editor);
+const problems = new ProblemList((line, column) => {
+  editor.goTo(line, column);
+  editor.focus();
+  machine.mark(line);
+});
+const charts = new Charts(byId("charts"), (time) => {
+  player.playing.set(false);
+  player.seek(time);
+});
+const transport = new Transport(player);
+const machine = new MachinePane(player, (line) => {
+  editor.goTo(line);
+  panes.show("machine", document.body.dataset.pane === "machine" ? "machine" : "editor");
+});
+new TranslatePane(session, desk);
+const lists = new ChoiceLists(session, desk);
+const panes = new Panes((tab, pane) => {
+  const looks = tab === "translate";
+  if (looks !== session.translates.get()) {
+    session.translates.set(looks);
+    if (looks) session.change();
+  }
+  if (pane === "time") charts.draw();
+  machine.draw();
+});
+const dialog = new ProjectsDialog(desk, language);
+
+byId("projects-open").addEventListener("click", () => void dialog.open());
+byId("cancel").addEventListener("click", () => session.cancel());
+byId("export").addEventListener("click", () => {
+  const id = desk.project?.id;
+  if (id) void desk.file(id).then((file) => file && download(...file));
+});
+wireToggle("follow", (on) => (follow = on));
+wireToggle("charts-toggle", (on) => {
+  byId("charts-pane").hidden = !on;
+  charts.draw();
+});
+wireDrop(desk);
+wireKeys({ desk, player, editor, projects: () => void dialog.open(), toLine: (line) => machine.runTo(line) });
+wireTheme(() => {
+  machine.restyle();
+  charts.draw();
+  transport.draw();
+});
+
+session.project.on((project) => {
+  byId("project-name").textContent = project?.name ?? "";
+  document.title = project ? `${project.name} · ncc studio` : "ncc studio";
+});
+desk.saved.on((state) => (byId("save-state").textContent = say(state)));
+session.state.on((state) => {
+  const place = byId("state");
+  place.dataset.state = state;
+  place.textContent = say(state);
+  byId("cancel").hidden = state !== "working";
+});
+session.idle.on((idle) => (byId("state").dataset.idle = String(idle)));
+session.checked.on((checked) => {
+  problems.show(checked);
+  editor.setProblems(checked.problems);
+});
+session.dialect.on(() => editor.recolour());
+session.path.on((path) => {
+  transport.setPath(path);
+  player.open(path, placed);
+  charts.setPath(path);
+  machine.setPath(path, session.cut, session.pathTold.get());
+  transport.setAlarms(session.cut?.alarms ?? []);
+});
+session.pathTold.on((told) => machine.setTold(session.path.get(), told));
+session.part.on((part) => machine.setPart(part));
+player.now.on((now) => {
+  const path = session.path.get();
+  placed = player.seconds > 0 && now.time < player.seconds;
+  charts.setTime(now.time, now.piece);
+  machine.setNow(path, now);
+  // The end of a program is where a page begins: no line is marked then.
+  const line = path && placed && now.piece >= 0 ? (path.line[now.piece] ?? 0) : 0;
+  editor.markNow(line, follow);
+  if (path) void session.seek(movesOver(path, now));
+});
+
+await desk.begin();
+try {
+  const engines = await openEngines();
+  await session.start(engines, () => editor.text);
+  lists.fill();
+  editor.recolour();
+} catch (error) {
+  session.state.set("failed");
+  session.checked.set({ problems: [], notChecked: [], told: `${say("noEngine")}\n${String(error)}` });
+}
+if ("serviceWorker" in navigator && document.querySelector('meta[name="ncc-host"][content="worker"]')) {
+  void navigator.serviceWorker.register("sw.js").catch(() => undefined);
+}

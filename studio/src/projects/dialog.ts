@@ -1,0 +1,133 @@
+// The dialog of projects: a new one, those that there are, and the examples.
+
+import { byId, el, icon } from "../ui/dom";
+import { chooseName, say, type Language } from "../ui/texts";
+import { download, type Desk } from "./desk";
+import { EXAMPLES } from "./examples";
+import type { Project } from "./project";
+
+/** What a new program begins with, in every word-address dialect. */
+const BEGINNING = "%\nO0001\nG21 G17 G90 G94 G40 G49 G80\n\nM30\n%\n";
+
+export class ProjectsDialog {
+  private readonly dialog = byId<HTMLDialogElement>("projects-dialog");
+
+  constructor(
+    private readonly desk: Desk,
+    private readonly language: Language,
+  ) {
+    this.dialog.addEventListener("click", (event) => {
+      if (event.target === this.dialog) this.dialog.close();
+    });
+  }
+
+  async open(): Promise<void> {
+    await this.fill();
+    if (!this.dialog.open) this.dialog.showModal();
+  }
+
+  private async fill(): Promise<void> {
+    const projects = await this.desk.store.list();
+    const input = el("input", { type: "file", multiple: true, hidden: true, onchange: () => void this.take(input.files) });
+    const own = el("ul", { id: "projects-list" }, ...projects.map((project) => this.row(project)));
+    const examples = EXAMPLES.map((example) => {
+      const take = () => void this.desk.example(example).then(() => this.dialog.close());
+      const [sentence] = [example.sentence[this.language === "pt" ? 1 : 0]];
+      return el("li", {}, el("button", { class: "take", onclick: take }, el("b", {}, example.file), el("small", {}, sentence)));
+    });
+    const close = el("button", { "aria-label": say("close"), onclick: () => this.dialog.close() }, icon("close"));
+    this.dialog.replaceChildren(
+      el("header", {}, el("h2", { id: "projects-title" }, say("projects")), close),
+      this.newForm(el("button", { type: "button", onclick: () => input.click() }, say("import"))),
+      input,
+      own,
+      el("h3", {}, say("examples")),
+      el("ul", { id: "examples" }, ...examples),
+    );
+  }
+
+  private newForm(importing: HTMLElement): HTMLElement {
+    const name = el("input", { type: "text", "aria-label": say("name"), placeholder: say("newProject") });
+    const create = async (event: Event) => {
+      event.preventDefault();
+      const wanted = chooseName(name.value);
+      const file = /\.\w+$/.test(wanted) ? wanted : `${wanted}.nc`;
+      await this.desk.create(wanted, file, new TextEncoder().encode(BEGINNING), this.desk.project?.choices.from);
+      this.dialog.close();
+    };
+    const form = el("form", { class: "new", onsubmit: (event) => void create(event) }, name);
+    form.append(el("button", { class: "primary", type: "submit" }, icon("plus"), say("create")), importing);
+    return form;
+  }
+
+  private row(project: Project): HTMLElement {
+    const { id, name, changed } = project;
+    const when = new Date(changed).toLocaleString(document.documentElement.lang, { dateStyle: "medium", timeStyle: "short" });
+    const open = () => void this.desk.open(id).then(() => this.dialog.close());
+    const again = (done: Promise<unknown>) => void done.then(() => this.fill());
+    const row = el("li", { class: this.desk.project?.id === id ? "current" : "" });
+    const rename = () => {
+      const input = el("input", { type: "text", value: name, "aria-label": say("rename1") });
+      const done = () => again(this.desk.rename(id, input.value));
+      input.addEventListener("keydown", (event) => {
+        if (event.key === "Enter") input.blur();
+        if (event.key !== "Escape") return;
+        event.preventDefault();
+        input.value = name;
+        input.blur();
+      });
+      input.addEventListener("blur", done, { once: true });
+      row.replaceChildren(input);
+      input.select();
+    };
+    const remove = () => {
+      if (confirm(say("removeSure", { name }))) again(this.desk.remove(id));
+    };
+    const save = () => void this.desk.file(id).then((file) => file && download(...file));
+    const act = (text: string, does: () => void) =>
+      el("button", { "aria-label": `${text}: ${name}`, onclick: does }, text);
+    row.append(
+      el("button", { class: "take", onclick: open }, el("b", {}, name), el("small", {}, `${project.file} · ${when}`)),
+      act(say("rename"), rename),
+      act(say("duplicate"), () => again(this.desk.duplicate(id))),
+      act(say("export"), save),
+      act(say("remove"), remove),
+    );
+    return row;
+  }
+
+  private async take(files: FileList | null): Promise<void> {
+    await takeFiles(this.desk, files);
+    this.dialog.close();
+  }
+}
+
+/** Files become projects; the last one is open. */
+export async function takeFiles(desk: Desk, files: FileList | null): Promise<void> {
+  for (const file of files ?? []) {
+    await desk.create(file.name.replace(/\.\w+$/, ""), file.name, new Uint8Array(await file.arrayBuffer()));
+  }
+}
+
+/** Files that are dropped on the page. */
+export function wireDrop(desk: Desk): void {
+  const shade = byId("drop");
+  let inside = 0;
+  const files = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
+  addEventListener("dragenter", (event) => {
+    if (!files(event)) return;
+    inside += 1;
+    shade.hidden = false;
+  });
+  addEventListener("dragleave", (event) => {
+    if (files(event) && --inside <= 0) shade.hidden = true;
+  });
+  addEventListener("dragover", (event) => files(event) && event.preventDefault());
+  addEventListener("drop", (event) => {
+    if (!files(event)) return;
+    event.preventDefault();
+    inside = 0;
+    shade.hidden = true;
+    void takeFiles(desk, event.dataTransfer?.files ?? null);
+  }, { capture: true });
+}

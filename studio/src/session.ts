@@ -1,0 +1,236 @@
+// What the page knows of its program, and the work that keeps it true: after a change the program is checked and executed,
+// and translated while somebody looks. Work that a change overtakes is given up. Not here: elements.
+
+import { Cancelled, type Answer, type Engine, type Request } from "./engine/engine";
+import type { Colours, Findings, Listed, Problem, Report } from "./engine/documents";
+import type { Engines } from "./engine/host";
+import { readCut, readHeights, type Cut, type Heights } from "./engine/part";
+import { readPath, type Path } from "./engine/path";
+import { bytesOf, type Choices, type Project } from "./projects/project";
+import { Signal } from "./ui/signal";
+
+/** What a check has found. */
+export interface Checked {
+  problems: Problem[];
+  notChecked: { what: string; why: string }[];
+  /** What the compiler says where it cannot check: no dialect is recognised, a program for a lathe. */
+  told: string;
+}
+
+export interface Translation {
+  /** The program, if it is released. */
+  output: string | undefined;
+  report: Report | undefined;
+  messages: string;
+}
+
+export type State = "loading" | "ready" | "working" | "failed";
+
+const NOTHING: Checked = { problems: [], notChecked: [], told: "" };
+
+/** So long a change waits for the next one, ms: at least, and at most. */
+const [SOON, LATE] = [90, 900];
+/** Work that has run so long is given up for newer work; what is younger ends sooner than another engine starts. */
+const YOUNG = 250;
+/** Cells along the longer side of the part. */
+const CELLS = 512;
+
+export class Session {
+  readonly state = new Signal<State>("loading");
+  /** Whether all is done: nothing runs, and no change waits. */
+  readonly idle = new Signal(false);
+  readonly project = new Signal<Project | undefined>(undefined);
+  /** The dialect that the program is read in. */
+  readonly dialect = new Signal("");
+  readonly checked = new Signal<Checked>(NOTHING);
+  readonly path = new Signal<Path | undefined>(undefined);
+  /** Why there is no path, or no part. */
+  readonly pathTold = new Signal("");
+  /** What the program cuts, told with its path; and the part as it is shown. */
+  cut: Cut | undefined;
+  readonly part = new Signal<Heights | undefined>(undefined);
+  readonly translation = new Signal<Translation | undefined>(undefined);
+  /** Whether somebody looks at the translation. */
+  readonly translates = new Signal(false);
+  dialects: Listed[] = [];
+  machines: Listed[] = [];
+
+  private engines: Engines | undefined;
+  private text: () => string = () => "";
+  private generation = 0;
+  private timer = 0;
+  private began = 0;
+  private lasted = 0;
+  private seeking = false;
+  private wantedMoves = Infinity;
+  private shownMoves = Infinity;
+  /** Texts that the quick engine has, by their files. */
+  private readonly coloured = new Map<string, object>();
+
+  /** The engines are there. */
+  async start(engines: Engines, text: () => string): Promise<void> {
+    this.text = text;
+    const lists = ["dialects", "machines"].map((verb) => engines.quick.run({ verb }));
+    const [dialects, machines] = await Promise.all(lists);
+    this.dialects = dialects?.json<Listed[]>("document") ?? [];
+    this.machines = machines?.json<Listed[]>("document") ?? [];
+    this.engines = engines;
+    this.began = performance.now();
+    this.state.set("ready");
+    this.change();
+  }
+
+  /** The text or a choice is another. */
+  change(): void {
+    this.generation += 1;
+    this.idle.set(false);
+    clearTimeout(this.timer);
+    const wait = Math.min(LATE, Math.max(SOON, this.lasted * 0.6));
+    this.timer = window.setTimeout(() => void this.work(), wait);
+  }
+
+  /** Another project is open: nothing of the one before holds. */
+  reset(): void {
+    this.checked.set(NOTHING);
+    this.cut = undefined;
+    this.path.set(undefined);
+    this.part.set(undefined);
+    this.pathTold.set("");
+    this.translation.set(undefined);
+    this.dialect.set("");
+    this.change();
+  }
+
+  /** Gives up what runs. */
+  cancel(): void {
+    clearTimeout(this.timer);
+    this.generation += 1;
+    this.engines?.heavy.cancel();
+    this.state.set("ready");
+  }
+
+  /** Colours of some lines of a text that is the program, or the translation. */
+  async colours(text: object, from: string, first: number, lines: number): Promise<Colours | undefined> {
+    const quick = this.engines?.quick;
+    if (!quick) return undefined;
+    const file = `colours-${from}`;
+    if (this.coloured.get(file) !== text) {
+      this.coloured.set(file, text);
+      quick.put(file, new TextEncoder().encode(String(text)));
+    }
+    const answer = await quick.run({ verb: "colours", file, from, first, lines });
+    return answer.json<Colours>("document");
+  }
+
+  private async work(): Promise<void> {
+    const [project, heavy] = [this.project.get(), this.engines?.heavy];
+    if (!project || !heavy) return;
+    if (heavy.waiting > 0) {
+      if (performance.now() - this.began < YOUNG) {
+        this.timer = window.setTimeout(() => void this.work(), 40);
+        return;
+      }
+      heavy.cancel();
+    }
+    const own = this.generation;
+    this.began = performance.now();
+    this.state.set("working");
+    try {
+      heavy.put(project.file, bytesOf(project, this.text()));
+      await this.steps(heavy, project, () => own === this.generation);
+      if (own === this.generation) {
+        this.lasted = performance.now() - this.began;
+        this.state.set("ready");
+        this.idle.set(true);
+      }
+    } catch (error) {
+      if (error instanceof Cancelled || own !== this.generation) return;
+      this.checked.set({ ...NOTHING, told: String(error) });
+      this.state.set("failed");
+    }
+  }
+
+  private async steps(heavy: Engine, project: Project, current: () => boolean): Promise<void> {
+    const one = request(project.file, project.choices);
+    const check = await heavy.run({ verb: "check", ...one });
+    if (!current()) return;
+    this.tellCheck(check);
+    const cut = await heavy.run({ verb: "simulate", ...one, cells: CELLS });
+    if (!current()) return;
+    this.tellCut(cut);
+    if (!this.translates.get()) return this.translation.set(undefined);
+    if (!project.choices.to && !project.choices.machineTo) return this.translation.set(undefined);
+    const translated = await heavy.run({ verb: "translate", ...translation(project.file, project.choices) });
+    if (!current()) return;
+    const output = translated.bytes("output");
+    this.translation.set({
+      output: output && new TextDecoder().decode(output),
+      report: translated.json<Report>("report"),
+      messages: translated.text("messages"),
+    });
+  }
+
+  private tellCheck(answer: Answer): void {
+    const program = answer.json<Findings>("findings")?.programs[0];
+    this.dialect.set(program?.dialect ?? "");
+    if (!program) return this.checked.set({ ...NOTHING, told: answer.text("messages") });
+    const problems = program.findings.map(({ id, ...rest }) => ({ code: id, ...rest }));
+    this.checked.set({ problems, notChecked: program.not_checked, told: "" });
+  }
+
+  private tellCut(answer: Answer): void {
+    const bytes = answer.bytes("path");
+    this.cut = readCut(answer);
+    this.shownMoves = this.wantedMoves = Infinity;
+    this.pathTold.set(this.cut ? "" : answer.text("messages"));
+    this.path.set(bytes && readPath(bytes));
+    this.part.set(readHeights(answer));
+    const alarms = (this.cut?.alarms ?? []).map(({ id, ...rest }) => ({ code: id, ...rest }));
+    const checked = this.checked.get();
+    if (alarms.length > 0) this.checked.set({ ...checked, problems: [...alarms, ...checked.problems] });
+  }
+
+  /** Shows the part after so many moves; while one is on its way, the last that is wanted waits. */
+  async seek(moves: number): Promise<void> {
+    this.wantedMoves = moves;
+    const heavy = this.engines?.heavy;
+    if (!heavy || !this.part.get() || this.seeking) return;
+    this.seeking = true;
+    const own = this.generation;
+    try {
+      while (this.wantedMoves !== this.shownMoves && own === this.generation) {
+        const wanted = this.wantedMoves;
+        const answer = await heavy.run({ verb: "seek", moves: Math.min(wanted, 2 ** 31) });
+        if (own !== this.generation) return;
+        this.shownMoves = wanted;
+        const heights = readHeights(answer);
+        if (heights) this.part.set(heights);
+      }
+    } catch (error) {
+      if (!(error instanceof Cancelled)) throw error;
+    } finally {
+      this.seeking = false;
+    }
+  }
+}
+
+function given(entries: Record<string, string | undefined>): Record<string, string> {
+  return Object.fromEntries(Object.entries(entries).filter(([, value]) => value)) as Record<string, string>;
+}
+
+/** Fields of a program that is executed. */
+function request(file: string, choices: Choices): Omit<Request, "verb"> {
+  const { from, machine, fromOption } = choices;
+  return { file, ...given({ from, machine }), from_option: fromOption };
+}
+
+function translation(file: string, choices: Choices): Omit<Request, "verb"> {
+  const { from, machine, to, machineTo, fromOption, toOption, pass } = choices;
+  return {
+    file,
+    ...given({ from, to, machine_from: machine, machine_to: machineTo }),
+    from_option: fromOption,
+    to_option: toOption,
+    pass,
+  };
+}

@@ -1,0 +1,17 @@
+// Programs that are bundled as texts.
+declare module "*.nc" {
+  const text: string;
+  export default text;
+}
+declare module "*.ngc" {
+  const text: string;
+  export default text;
+}
+declare module "*.mpf" {
+  const text: string;
+  export default text;
+}
+declare module "*.gcode" {
+  const text: string;
+  export default text;
+}

@@ -1,0 +1,128 @@
+// The translation beside the source: target, verdict, questions that a click answers, the program, what the compiler says.
+
+import { Editor } from "../editor/editor";
+import type { Question } from "../engine/documents";
+import { download, type Desk } from "../projects/desk";
+import { choose, type Choices } from "../projects/project";
+import type { Session, Translation } from "../session";
+import { byId, el, icon } from "../ui/dom";
+import { say, type TextName } from "../ui/texts";
+
+/** Options of the command line that help texts name, in backquotes. */
+const OPTION = /`(--(?:from-option|to-option|from|pass) [\w.=-]+)`/g;
+
+/** Files of dialects end so, as the controls have them. */
+const ENDINGS: Record<string, string> = { siemens: "mpf", linuxcnc: "ngc", grbl: "gcode", mach3: "tap", mach9: "cn" };
+
+export class TranslatePane {
+  private readonly output: Editor;
+  private shown = "";
+
+  constructor(
+    private readonly session: Session,
+    private readonly desk: Desk,
+  ) {
+    this.output = new Editor(byId("output"), {
+      label: say("translation"),
+      readOnly: true,
+      colours: (doc, first, lines) => session.colours(doc, this.target() || "auto", first, lines),
+    });
+    session.translation.on((translation) => this.show(translation));
+    session.project.on(() => this.choices());
+    byId("translation-export").addEventListener("click", () => this.save());
+  }
+
+  private target(): string {
+    const choices = this.session.project.get()?.choices;
+    const machine = this.session.machines.find((one) => one.id === choices?.machineTo);
+    return choices?.to || machine?.dialect || "";
+  }
+
+  private show(translation: Translation | undefined): void {
+    const text = translation?.output ?? "";
+    if (text !== this.shown) this.output.open(text.replaceAll("\r\n", "\n"));
+    this.shown = text;
+    byId<HTMLButtonElement>("translation-export").disabled = translation?.output === undefined;
+    this.verdict(translation);
+    const questions = translation?.report?.questions ?? [];
+    const box = byId("questions");
+    const offers = this.offers(translation, questions);
+    box.hidden = questions.length === 0 && offers.length === 0;
+    box.replaceChildren(...questions.map((one) => this.question(one)), ...offers);
+    byId("messages").textContent = translation?.messages ?? "";
+    byId<HTMLDetailsElement>("messages-box").open = translation !== undefined && translation.output === undefined;
+  }
+
+  private verdict(translation: Translation | undefined): void {
+    const [text, look] = verdictOf(translation);
+    const place = byId("verdict");
+    place.textContent = text ? say(text) : "";
+    place.className = look;
+  }
+
+  private question(question: Question): HTMLElement {
+    const { place } = question;
+    const answers = question.answers.map(({ option, result }) => {
+      const plain = option.replaceAll("`", "");
+      return el("button", { title: plain, onclick: () => this.take(plain) }, `${result}`);
+    });
+    const where = `${place.line} │ ${place.text}`;
+    const text = el("p", {}, el("b", {}, question.question), " ", el("span", { class: "place" }, where));
+    return el("div", { class: "question" }, text, el("div", { class: "answers" }, ...answers));
+  }
+
+  /** Options that help texts name beside the questions: what a user would type, a click does. */
+  private offers(translation: Translation | undefined, questions: Question[]): HTMLElement[] {
+    if (!translation || translation.output !== undefined || questions.length > 0) return [];
+    const advice = (translation.report?.diagnostics ?? []).filter((one) => one.severity === "error").flatMap((one) => one.advice);
+    const options = new Set(advice.flatMap((text) => [...text.matchAll(OPTION)].map((match) => match[1] as string)));
+    return [...options].map((option) =>
+      el("button", { class: "chip", onclick: () => this.take(option) }, say("useChoice", { name: option })),
+    );
+  }
+
+  private take(option: string): void {
+    void this.desk.choose((project) => choose(project.choices, option));
+  }
+
+  /** What was chosen, each to be taken back by a click. */
+  private choices(): void {
+    const choices = this.session.project.get()?.choices;
+    const chips = choices ? [...this.chips(choices)] : [];
+    const box = byId("choices");
+    box.hidden = chips.length === 0;
+    box.replaceChildren(el("span", {}, `${say("choices")}:`), ...chips);
+  }
+
+  private *chips(choices: Choices): Iterable<HTMLElement> {
+    for (const side of ["fromOption", "toOption"] as const) {
+      for (const [name, value] of Object.entries(choices[side])) {
+        yield this.chip(`${name} = ${value}`, (own) => delete own[side][name]);
+      }
+    }
+    for (const pass of choices.pass) {
+      yield this.chip(pass, (own) => (own.pass = own.pass.filter((one) => one !== pass)));
+    }
+  }
+
+  private chip(text: string, back: (choices: Choices) => unknown): HTMLElement {
+    const does = () => void this.desk.choose((project) => back(project.choices));
+    return el("button", { class: "chip", title: say("undoChoice", { name: text }), onclick: does }, text, icon("close"));
+  }
+
+  private save(): void {
+    const project = this.session.project.get();
+    const text = this.session.translation.get()?.output;
+    if (!project || text === undefined) return;
+    const stem = project.file.replace(/\.\w+$/, "");
+    download(`${stem}.${ENDINGS[this.target()] ?? "nc"}`, new TextEncoder().encode(text));
+  }
+}
+
+function verdictOf(translation: Translation | undefined): [TextName | "", string] {
+  if (!translation) return ["", ""];
+  if (translation.output !== undefined) {
+    return translation.report?.verification ? ["verified", "good"] : ["notVerified", "ask"];
+  }
+  return (translation.report?.questions.length ?? 0) > 0 ? ["questionsOpen", "ask"] : ["refused", "bad"];
+}

@@ -1,0 +1,398 @@
+// The page as a user has it, in a browser without a window: what is seen (elements, pixels), and what is kept.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { readFileSync } from "node:fs";
+import { begin, line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
+import { ASKS, SQUARE, long } from "./programs.mjs";
+
+let world;
+before(async () => (world = await begin()));
+after(() => world.end());
+
+/** A test with a page of its own, which must tell no error. */
+function page(name, options, body) {
+  test(name, async () => {
+    const opened = await open(world, options);
+    try {
+      await body(opened.page, opened);
+      assert.deepEqual(opened.faults, []);
+    } finally {
+      await opened.context.close();
+    }
+  });
+}
+
+async function projects(own) {
+  await own.click("#projects-open");
+  await own.locator("#projects-dialog[open]").waitFor();
+}
+
+/** Waits until a project is open, and its work is done. */
+async function named(own, name) {
+  await own.waitForFunction((wanted) => document.querySelector("#project-name").textContent === wanted, name);
+  await ready(own);
+}
+
+const value = (own, selector) => own.locator(selector).textContent();
+
+page("the browser has WebGL 2", {}, async (own) => {
+  assert.ok(await own.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null));
+});
+
+page("a first visit shows an example, coloured, checked, drawn and cut", {}, async (own) => {
+  assert.equal(await value(own, "#project-name"), "pocket-spiral");
+  assert.equal(await own.locator("#editor .c-code-g").first().textContent(), "G21");
+  assert.ok((await own.locator("#editor .c-comment").count()) > 3);
+  assert.match(await own.locator("#from option:checked").textContent(), /^Fanuc/);
+  assert.match(await value(own, "#problems-count"), /Nothing found|[0-9]/);
+  assert.ok(Number(await own.getAttribute("#canvas", "data-pieces")) > 50);
+  assert.ok(Number(await own.getAttribute("#canvas", "data-cut")) > 1000);
+  const found = await pixels(own, "#canvas", { feed: "--c-move-feed" });
+  assert.ok(found.feed > 300, JSON.stringify(found));
+});
+
+page("moves have colours by their kind, and a button hides each", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.click("#part");
+  const inks = { feed: "--c-move-feed", two: "--c-move-clockwise", three: "--c-move-counterclockwise" };
+  const all = await pixels(own, "#canvas", inks);
+  assert.ok(all.feed > 200 && all.two > 15 && all.three > 15, JSON.stringify(all));
+  await own.click("#kind-2");
+  assert.equal((await pixels(own, "#canvas", inks)).two, 0);
+  await own.click("#kind-1");
+  assert.equal((await pixels(own, "#canvas", inks)).feed, 0);
+});
+
+page("nothing is drawn while nothing changes", {}, async (own) => {
+  await own.waitForTimeout(500);
+  const frames = await own.getAttribute("#canvas", "data-frames");
+  await own.waitForTimeout(1200);
+  assert.equal(await own.getAttribute("#canvas", "data-frames"), frames);
+  await own.click('[data-side="top"]');
+  await own.waitForTimeout(200);
+  assert.notEqual(await own.getAttribute("#canvas", "data-frames"), frames);
+});
+
+page("a problem stands in its line and in the list, and a click goes there", {}, async (own) => {
+  await type(own, SQUARE.replace("Y50.\n", "Y5O.\n"));
+  const row = own.locator("#problems-list button").first();
+  assert.equal(await row.getAttribute("data-line"), "8");
+  assert.ok((await own.locator("#editor .cm-lintRange").count()) > 0);
+  await row.click();
+  assert.equal(await line(own), 8);
+});
+
+page("the line of the cursor is marked in the picture, and a click on a move goes to its line", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.click("#part");
+  await own.click('[data-side="top"]');
+  assert.equal((await pixels(own, "#canvas", { mark: "--c-move-marked" })).mark, 0);
+  await own.locator("#editor .cm-line", { hasText: "X50." }).first().click();
+  assert.equal(await own.getAttribute("#canvas", "data-marked"), "9");
+  assert.ok((await pixels(own, "#canvas", { mark: "--c-move-marked" })).mark > 50);
+  const at = await placeOf(own, "--c-move-counterclockwise");
+  await own.mouse.click(...at);
+  assert.equal(await line(own), 16);
+  assert.equal(await value(own, "#now-block"), "16");
+});
+
+page("a click on the part goes to the block that cut it", {}, async (own) => {
+  await type(own, SQUARE);
+  for (const kind of [0, 1, 2, 3]) await own.click(`#kind-${kind}`);
+  await own.click('[data-side="top"]');
+  await own.waitForTimeout(300);
+  const box = await own.locator("#canvas").boundingBox();
+  const found = new Set();
+  for (let x = 0.2; x < 0.8; x += 0.06) {
+    await own.mouse.click(box.x + box.width * x, box.y + box.height * 0.5);
+    found.add(await own.getAttribute("#canvas", "data-marked"));
+  }
+  assert.ok(found.has("8") || found.has("10"), [...found].join());
+});
+
+page("the part is cut forwards and backwards with the moment", {}, async (own) => {
+  await type(own, SQUARE);
+  const cut = async () => (await own.waitForTimeout(400), Number(await own.getAttribute("#canvas", "data-cut")));
+  const whole = await cut();
+  await own.click("#to-start");
+  assert.equal(await cut(), 0);
+  for (let at = 0; at < 6; at += 1) await own.click("#step-forward");
+  const some = await cut();
+  assert.ok(some > 0 && some < whole, `${some} of ${whole}`);
+  await own.click("#to-end");
+  assert.equal(await cut(), whole);
+});
+
+page("the moment plays, pauses, steps and is dragged", {}, async (own) => {
+  await type(own, SQUARE);
+  const [, total] = (await value(own, "#clock")).split(" / ");
+  await own.click("#to-start");
+  assert.match(await value(own, "#clock"), /^0:00\.0 /);
+  await own.click("#play");
+  await own.waitForTimeout(900);
+  await own.click("#play");
+  const seconds = Number((await value(own, "#clock")).slice(2, 6));
+  assert.ok(seconds > 0.3 && seconds < 3, String(seconds));
+  assert.equal(await own.locator("#editor .cm-line.now").count(), 1);
+  await own.click("#step-forward");
+  const block = await value(own, "#now-block");
+  await own.click("#step-forward");
+  assert.notEqual(await value(own, "#now-block"), block);
+  await own.click("#step-back");
+  assert.equal(await value(own, "#now-block"), block);
+  await own.click("#next-tool");
+  await own.click("#step-forward");
+  assert.equal(await value(own, "#now-t"), "2");
+  await own.locator("#scrub").focus();
+  await own.keyboard.press("Home");
+  assert.match(await value(own, "#clock"), /^0:00\.0 /);
+  await own.keyboard.press("End");
+  assert.equal(await value(own, "#clock"), `${total} / ${total}`);
+  await own.locator("#speed").fill("3");
+  assert.equal(await value(own, "#speed-shown"), "1000 ×");
+  await own.click("#to-start");
+  await own.click("#play");
+  await own.waitForTimeout(600);
+  assert.equal(await value(own, "#clock"), `${total} / ${total}`);
+});
+
+page("charts stand on the axis of time, and a click on one goes to the moment", {}, async (own) => {
+  await type(own, SQUARE);
+  assert.equal(await own.locator("#charts canvas").count(), 3);
+  const box = await own.locator("#charts .u-over").first().boundingBox();
+  await own.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const [now, total] = (await value(own, "#clock")).split(" / ").map((text) => text.split(":").reduce((sum, part) => sum * 60 + Number(part), 0));
+  assert.ok(Math.abs(now - total / 2) < total * 0.1, `${now} of ${total}`);
+  assert.equal(await own.locator("#charts .chart-now:visible").count(), 3);
+});
+
+page("a program is translated beside its source, and verified", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.click("#tab-translate");
+  await own.selectOption("#to", "siemens");
+  await ready(own);
+  assert.equal(await value(own, "#verdict"), "Verified: it does the same");
+  assert.match(await own.locator("#output .cm-content").textContent(), /CYCLE81/);
+  assert.ok((await own.locator("#output .c-code-g").count()) > 3);
+  const [download] = await Promise.all([own.waitForEvent("download"), own.click("#translation-export")]);
+  assert.match(download.suggestedFilename(), /\.mpf$/);
+  assert.match(readFileSync(await download.path(), "utf8"), /M30/);
+});
+
+page("a question is answered by a click, and the answer can be taken back", {}, async (own) => {
+  await type(own, ASKS);
+  await own.click("#tab-translate");
+  await own.selectOption("#to", "siemens");
+  await ready(own);
+  assert.equal(await value(own, "#verdict"), "Questions to answer");
+  await own.locator("#questions button", { hasText: /^-5 mm$/ }).click();
+  await ready(own);
+  assert.match(await value(own, "#choices"), /decimal_point = calculator/);
+  assert.equal(await value(own, "#verdict"), "Verified: it does the same");
+  await own.locator("#choices .chip").first().click();
+  await ready(own);
+  assert.equal(await value(own, "#verdict"), "Questions to answer");
+});
+
+page("a refusal is told in the compiler's words, and what to type is a button", {}, async (own) => {
+  await own.click("#tab-translate");
+  await own.selectOption("#to", "grbl");
+  await ready(own);
+  assert.equal(await value(own, "#verdict"), "Not translated");
+  assert.match(await value(own, "#messages"), /grbl has no assignment/);
+  await own.locator("#questions .chip", { hasText: "--pass flatten" }).click();
+  await ready(own);
+  assert.doesNotMatch(await value(own, "#messages"), /grbl has no assignment/);
+});
+
+page("what is typed is there again after a reload", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.waitForFunction(() => document.querySelector("#save-state").textContent === "Saved");
+  await own.reload();
+  await ready(own);
+  assert.match(await own.locator("#editor .cm-content").textContent(), /SQUARE/);
+});
+
+page("projects are made, renamed, copied, deleted, taken in and given out", {}, async (own) => {
+  const rows = own.locator("#projects-list li");
+  await projects(own);
+  await own.fill("#projects-dialog .new input", "Flange");
+  await own.keyboard.press("Enter");
+  await named(own, "Flange");
+  await projects(own);
+  assert.equal(await rows.count(), 2);
+  await own.getByLabel("Rename: Flange").click();
+  await own.keyboard.insertText("Ring");
+  await own.keyboard.press("Enter");
+  await own.getByLabel("Duplicate: Ring").click();
+  await own.getByLabel("Duplicate: Ring (2)").waitFor();
+  assert.equal(await rows.count(), 3);
+  const [download] = await Promise.all([own.waitForEvent("download"), own.getByLabel("Download: Ring", { exact: true }).click()]);
+  assert.equal(download.suggestedFilename(), "Flange.nc");
+  own.on("dialog", (dialog) => dialog.accept());
+  await own.getByLabel("Delete: Ring (2)").click();
+  await own.getByLabel("Delete: Ring (2)").waitFor({ state: "detached" });
+  assert.equal(await rows.count(), 2);
+  const file = { name: "taken.nc", mimeType: "text/plain", buffer: Buffer.from(SQUARE.replaceAll("\n", "\r\n")) };
+  await own.setInputFiles('#projects-dialog input[type="file"]', file);
+  await named(own, "taken");
+  const [again] = await Promise.all([own.waitForEvent("download"), own.click("#export")]);
+  assert.equal(readFileSync(await again.path(), "utf8"), SQUARE.replaceAll("\n", "\r\n"));
+  await projects(own);
+  await own.locator("#examples button", { hasText: "surface.mpf" }).click();
+  await named(own, "surface");
+  assert.equal(await own.inputValue("#from"), "siemens");
+});
+
+page("a file that is dropped is a project", {}, async (own) => {
+  const data = await own.evaluateHandle((text) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([text], "dropped.nc"));
+    return transfer;
+  }, SQUARE);
+  await own.dispatchEvent("body", "dragenter", { dataTransfer: data });
+  assert.ok(await own.isVisible("#drop"));
+  await own.dispatchEvent("body", "drop", { dataTransfer: data });
+  await named(own, "dropped");
+});
+
+page("a text in Western characters keeps its bytes", {}, async (own) => {
+  const bytes = Buffer.from("%\r\nO1 (PE\xc7A)\r\nG21\r\nM30\r\n%\r\n", "latin1");
+  await projects(own);
+  await own.setInputFiles('#projects-dialog input[type="file"]', { name: "latin.nc", mimeType: "text/plain", buffer: bytes });
+  await ready(own);
+  assert.match(await own.locator("#editor .cm-content").textContent(), /PEÇA/);
+  const [download] = await Promise.all([own.waitForEvent("download"), own.click("#export")]);
+  assert.deepEqual(readFileSync(await download.path()), bytes);
+});
+
+page("a hostile program and name are text", {}, async (own) => {
+  const evil = '<img src=x onerror="window.evil=1"><script>window.evil=1</script>';
+  await projects(own);
+  const file = { name: `${evil.replaceAll("/", "")}.nc`, mimeType: "text/plain", buffer: Buffer.from(`(${evil})\n${evil}\nG1 ${evil}\n`) };
+  await own.setInputFiles('#projects-dialog input[type="file"]', file);
+  await ready(own);
+  await own.selectOption("#from", "fanuc");
+  await ready(own);
+  await own.locator("#problems-list button").first().hover();
+  await projects(own);
+  await own.waitForTimeout(200);
+  assert.equal(await own.evaluate(() => window.evil), undefined);
+  assert.equal(await own.locator("#work img, dialog img").count(), 0);
+});
+
+page("light and dark: the system's, then the button's", { colorScheme: "dark" }, async (own) => {
+  assert.equal(await own.getAttribute("html", "data-theme"), "dark");
+  const dark = await pixels(own, "#canvas", { ground: "--ground" });
+  assert.ok(dark.ground > 10_000);
+  await own.click("#theme");
+  assert.equal(await own.getAttribute("html", "data-theme"), "light");
+  assert.ok((await pixels(own, "#canvas", { ground: "--ground" })).ground > 10_000);
+  await own.reload();
+  await ready(own);
+  assert.equal(await own.getAttribute("html", "data-theme"), "light");
+});
+
+page("English and Portuguese", { locale: "pt-BR" }, async (own) => {
+  assert.equal(await own.getAttribute("html", "lang"), "pt-BR");
+  assert.equal(await value(own, "#tab-translate"), "Tradução");
+  await own.click("#language");
+  await ready(own);
+  assert.equal(await value(own, "#tab-translate"), "Translation");
+});
+
+page("keys reach all of it", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.keyboard.press("Control+Home");
+  for (let at = 0; at < 8; at += 1) await own.keyboard.press("ArrowDown");
+  await own.keyboard.press("Control+Enter");
+  assert.equal(await value(own, "#now-block"), "9");
+  await own.keyboard.press("Control+.");
+  assert.equal(await value(own, "#now-block"), "10");
+  await own.keyboard.press("Control+o");
+  await own.locator("#projects-dialog[open]").waitFor();
+  assert.ok(await own.isVisible("#projects-dialog"));
+  await own.keyboard.press("Escape");
+  await own.locator("#canvas").focus();
+  const frames = await own.getAttribute("#canvas", "data-frames");
+  await own.keyboard.press("2");
+  await own.waitForTimeout(200);
+  assert.notEqual(await own.getAttribute("#canvas", "data-frames"), frames);
+  await own.locator("#tab-machine").focus();
+  await own.keyboard.press("ArrowRight");
+  assert.ok(await own.isVisible("#output"));
+});
+
+const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };
+
+page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
+  await own.setViewportSize(PHONE);
+  assert.ok(await own.isVisible("#editor"));
+  assert.ok(!(await own.isVisible("#picture")));
+  for (const [pane, seen] of [["machine", "#picture"], ["time", "#charts"], ["translate", "#output"], ["editor", "#editor"]]) {
+    await own.click(`#phone [data-goto="${pane}"]`);
+    assert.ok(await own.isVisible(seen), pane);
+    const wide = await own.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= PHONE.width, `${pane}: ${wide}`);
+  }
+  await own.click('#phone [data-goto="machine"]');
+  assert.ok((await pixels(own, "#canvas", { feed: "--c-move-feed" })).feed > 50);
+});
+
+test("where WebGL 2 is missing, the page says so and does the rest", async () => {
+  const script = () => {
+    const own = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith("webgl") ? null : own.call(this, kind, ...rest);
+    };
+  };
+  const { page: own, context, faults } = await open(world, { script });
+  assert.match(await value(own, "#picture-told"), /WebGL 2 is missing/);
+  assert.equal(await own.locator("#charts canvas").count(), 3);
+  assert.deepEqual(faults, []);
+  await context.close();
+});
+
+test("without a network the page is there again", async () => {
+  const { page: own, context } = await open(world);
+  await own.evaluate(() => navigator.serviceWorker.ready);
+  await context.setOffline(true);
+  await own.reload();
+  await ready(own);
+  assert.ok(Number(await own.getAttribute("#canvas", "data-pieces")) > 50);
+  await context.close();
+});
+
+test("two tabs on one project: the other one takes over what was saved", async () => {
+  const { page: one, context } = await open(world);
+  const { page: two } = await open(world, { context });
+  await type(one, SQUARE);
+  await two.waitForFunction(() =>
+    document.querySelector("#editor").shadowRoot.querySelector(".cm-content").textContent.includes("SQUARE"),
+  );
+  await context.close();
+});
+
+page("a program of 60,000 moves is drawn, and newer work takes the place of older", {}, async (own) => {
+  const began = Date.now();
+  await type(own, long(60_000));
+  assert.equal(await own.getAttribute("#canvas", "data-pieces"), "60002");
+  assert.ok(Date.now() - began < 20_000, `${Date.now() - began} ms`);
+  for (const letter of "ABC") {
+    await paste(own, `(${letter})`);
+    await own.waitForTimeout(150);
+  }
+  await ready(own);
+  assert.ok(Number(await own.getAttribute("#canvas", "data-pieces")) >= 60_002);
+});
+
+for (const [name, options] of [["wide and light", {}], ["wide and dark", { colorScheme: "dark" }], ["a phone", PHONE]]) {
+  page(`axe finds nothing: ${name}`, options, async (own) => {
+    await own.evaluate(readFileSync(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
+    const look = () => own.evaluate(async () => (await axe.run()).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`));
+    assert.deepEqual(await look(), []);
+    await projects(own);
+    assert.deepEqual(await look(), []);
+  });
+}
