@@ -9,7 +9,8 @@ use crate::history::{History, STRIDE};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
 use crate::stock::{Fixture, Stock};
-use crate::sweep::{Cells, Surface, chords, sweep};
+use crate::surface::{Cells, Surface};
+use crate::sweep::{chords, sweep};
 use crate::tool::{Cutter, Tool};
 
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
